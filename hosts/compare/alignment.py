@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy import signal as sp
 from scipy.optimize import least_squares
 
-from hosts.compare.correlated import covariance
+from hosts.compare.correlated import covariance, likeness
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
 from hosts.compare.log import Signal
@@ -78,6 +78,9 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     if peak < _LEAST_CORRELATION:
         return Alignment(*4 * (math.nan,), peak, f"at best the signals correlate by {peak:.2f}: no delay can be told")
     fine = _fine(pairs, coarse, drift)
+    if drift and not fine.has_drift:  # which has taken a part of the delay
+        alone = _fine(pairs, coarse, False)
+        fine = replace(fine, delay=alone.delay, delay_error=alone.delay_error, correlation=alone.correlation)
     note = f"a delay of {other:.3g} s fits nearly as well" if other is not None else ""
     if abs(fine.delay) > longest:
         words = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
@@ -153,13 +156,16 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     for s, _ in pairs:
         rows.append(slice(first, first + len(s.time)))
         first += len(s.time)
-    errors = 1.96 * np.sqrt(np.diag(covariance(np.asarray(found.jac), found.fun, rows)[0]))
+    jacobian = np.asarray(found.jac)
+    moved = np.linalg.pinv(jacobian) * found.fun
+    alike = [likeness([s.time for s, _ in pairs], [part[r] for r in rows]) for part in moved]
+    errors = 1.96 * np.sqrt(alike * np.diag(covariance(jacobian, found.fun, rows)[0]))
     left = float(np.mean(found.fun**2))
     correlation = math.sqrt(max(0.0, 1.0 - left))
     if not drift:
         return Alignment(float(found.x[0]), float(errors[0]), 0.0, 0.0, correlation)
     # To first order: the delay takes the best part of the drift's place when the drift is left out.
-    late, fast = np.asarray(found.jac).T
+    late, fast = jacobian.T
     taken = float(found.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
     explained = taken / (taken + float(found.fun @ found.fun)) if taken > 0.0 else 0.0
     drifts = float(found.x[1]), float(errors[1])

@@ -63,6 +63,31 @@ def effective_samples(residual: NDArray[np.float64]) -> float:
     return float(np.clip(n / max(inflation, 1e-12), 1.0, n))
 
 
+def likeness(times: Sequence[NDArray[np.float64]], parts: Sequence[NDArray[np.float64]]) -> float:
+    """By how much signals that differ alike raise the variance of a parameter; 1 of independent ones.
+
+    Parameters
+    ----------
+    times : sequence of ndarray of shape (n,)
+        Of each signal, equally spaced, s.
+    parts : sequence of ndarray of shape (n,)
+        What each residual of the signal moves the parameter by.
+
+    Notes
+    -----
+    Square of the sum of all signals over the sum of their squares, summed over time: 1 on average where they are
+    independent, their number where they are equal, of either sign.
+    """
+    interval = max(float(np.median(np.diff(t))) for t in times)
+    begin = min(t[0] for t in times) - 0.5 * interval
+    count = 1 + max(int((t[-1] - begin) / interval) for t in times)
+    sums = [
+        np.bincount(((t - begin) / interval).astype(int), part, count) for t, part in zip(times, parts, strict=True)
+    ]
+    alone = float(np.sum(np.square(sums)))
+    return max(1.0, float(np.sum(np.sum(sums, axis=0) ** 2)) / alone) if alone > 0.0 else 1.0
+
+
 def covariance(
     jacobian: NDArray[np.float64], residual: NDArray[np.float64], blocks: Sequence[slice]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:

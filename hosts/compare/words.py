@@ -7,6 +7,7 @@ import math
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 
+_APART = 0.1  # of a sample: delays that differ by less are one
 _HEADINGS = ("signal", "unit", "rms", "nrms", "largest", "at, s", "corr.", "rating", "", "delay, ms")
 
 
@@ -51,12 +52,26 @@ def common_sentence(comparison: Comparison) -> str:
         return ""
     late = f"All signals together: the log is {1e3 * c.delay:.3g} ± {1e3 * c.delay_error:.2g} ms late"
     if not c.has_drift:
-        return f"{late}."
+        return f"{late}.{_apart(comparison)}"
     rate = f"{1e6 * abs(c.drift):.3g} ± {1e6 * c.drift_error:.2g} ppm {'fast' if c.drift > 0.0 else 'slow'}"
     return (
         f"{late}; the clock of its outputs runs {rate} against that of its inputs, which explains "
         f"{100.0 * c.explained:.0f} % of what a delay leaves."
     )
+
+
+def _apart(comparison: Comparison) -> str:
+    """That a signal has another delay than all together; empty where none is beyond its interval and a tenth sample."""
+    c, beyond = comparison.common, dict[str, float]()
+    for name, s in comparison.signals.items():
+        gap = abs(s.alignment.delay - c.delay)
+        if gap > max(math.hypot(s.alignment.delay_error, c.delay_error), _APART * s.measured.interval):
+            beyond[name] = gap
+    if not beyond:
+        return ""
+    name = max(beyond, key=lambda n: beyond[n])
+    alone = 1e3 * comparison.signals[name].alignment.delay
+    return f" {len(beyond)} of {len(comparison.signals)} signals have another delay, '{name}' farthest, {alone:.3g} ms."
 
 
 def unit_shown(unit: str) -> str:

@@ -16,6 +16,7 @@ METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 
 Setting: TypeAlias = bool | int | Number | str
 Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.\- ]*$", max_length=100)]
+NAME_WORDS = "up to 100 letters, digits, spaces, dots, minus signs and underscores, a letter first"
 
 
 class _Part(BaseModel):
@@ -47,7 +48,7 @@ class ParameterEntry(_Part):
 class ManoeuvreEntry(_Part):
     """What is done with the FMU at each point."""
 
-    name: Name | None = Field(default=None, title="letters, digits, dots, minus signs and underscores")
+    name: Name | None = Field(default=None, title=NAME_WORDS)
     manoeuvre: str | None = Field(default=None, title="a manoeuvre of the command run: its name or a file")
     test: str | None = Field(default=None, title="the name of a test of the command catalogue")
     settings: dict[str, Number] = Field(default_factory=dict, title="numbers by the name of a test's setting")
@@ -105,7 +106,7 @@ class SignalsEntry(_Part):
 class StudyFile(_Part):
     """A study."""
 
-    name: Name | None = Field(default=None, title="letters, digits, dots, minus signs and underscores")
+    name: Name | None = Field(default=None, title=NAME_WORDS)
     fmu: str | None = Field(default=None, title="the path of an FMU")
     car: str | None = Field(default=None, title="a car of the package by its name, or a car file")
     aliases: str | None = Field(default=None, title="an alias file, or the name of one of the package")
@@ -158,7 +159,9 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     except ValidationError as error:
         from ali3.typed_sentences import Sentences
 
-        raise HostError(f"{file}: {Sentences(StudyFile, record, place=_place).of(error)[0]}") from None
+        raise HostError(
+            f"{file}: {Sentences(StudyFile, record, names=NAME_WORDS, place=_place).of(error)[0]}"
+        ) from None
 
 
 def _place(path: Sequence[str]) -> str:

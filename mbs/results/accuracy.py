@@ -27,7 +27,6 @@ WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel'
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
-UNSURE = (0.04, 0.0625)  # of forces: a fourth; there the true error is 0.8 to 1.25 of that by the third
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -146,7 +145,8 @@ def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
     # what a vehicle has at constant speed is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
-    smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and halvings == 0
+    whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
+    smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and whole
     return "" if smooth else SCREEN
 
 

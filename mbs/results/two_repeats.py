@@ -1,15 +1,21 @@
-"""The error of a run by two repeats, where it falls more slowly with the step than the order of the method says."""
+"""The error of a run by two or three repeats, where it falls more slowly with the step than the order of the method."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mbs.results.accuracy import Accuracy
+from mbs.results.accuracy import WRONG_ERROR, Accuracy, differences
+
+Array = NDArray[np.float64]
+FORCES = "N"
 
 SLOW, SLOWEST = 1.3, 0.75  # orders: below the first one two repeats are believed more than the method's, to the second
 TRIED = np.linspace(SLOW, SLOWEST, 56)
+EVENT_ORDER = 1.5  # of forces behind abrupt events: between that of the event's time, one, and that of the method
 
 
 def by_two_repeats(first: Accuracy, second: Accuracy, ratio: float) -> Accuracy:
@@ -22,7 +28,7 @@ def by_two_repeats(first: Accuracy, second: Accuracy, ratio: float) -> Accuracy:
     first, second : Accuracy
         By steps that are shorter `ratio` times and twice that.
     """
-    if not first.error or not second.error or first.order is None or second.order is None or "N" in second.units:
+    if not first.error or not second.error or first.order is None or second.order is None or FORCES in second.units:
         return second
     # a repeat differs from the run by its error times one less the power of the ratio of the steps
     part = 1.0 - (2.0 * ratio) ** -second.order
@@ -38,3 +44,35 @@ def by_two_repeats(first: Accuracy, second: Accuracy, ratio: float) -> Accuracy:
         units={unit: more * e for unit, e in second.units.items()},
         sensors={name: more * e for name, e in second.sensors.items()},
     )
+
+
+def unsure(known: Accuracy, apart: float) -> bool:
+    """Whether the repeat that gave the error of forces may itself be off by so much that the verdict changes.
+
+    Parameters
+    ----------
+    known : Accuracy
+        By the finer of two repeats.
+    apart : float
+        What forces of both differ by over the largest: by order one the error of the finer one.
+    """
+    return FORCES in known.units and abs(known.units[FORCES] - WRONG_ERROR) < apart
+
+
+def by_limit(known: Accuracy, tables: Sequence[Mapping[str, Array]], names: Sequence[str]) -> Accuracy:
+    """The error of forces against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
+
+    Parameters
+    ----------
+    known : Accuracy
+        By the last repeat.
+    tables : sequence of Mapping of str to array of shape (n,)
+        The run, and the last two repeats, of which the last has half the step: forces at the same samples, N.
+    names : sequence of str
+        The forces.
+    """
+    run, coarse, fine = tables
+    more = 1.0 / (2.0**EVENT_ORDER - 1.0)
+    limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
+    units, sensors, _ = differences(run, limit, {FORCES: names})
+    return replace(known, order=EVENT_ORDER, units=known.units | units, sensors=known.sensors | sensors)

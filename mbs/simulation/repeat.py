@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import Accuracy
+from mbs.results.accuracy import WARNED_ERROR, WRONG_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
-from mbs.results.two_repeats import by_two_repeats
+from mbs.results.two_repeats import FORCES, by_limit, by_two_repeats, unsure
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
@@ -50,6 +50,8 @@ class Repeats:
         Of the repeats, in first runs.
     tried : float
         Step of the last repeat, s.
+    limit : float
+        Of estimates, above which a result is wrong.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
@@ -67,6 +69,7 @@ class Repeats:
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
+        self.limit, self._finer = WARNED_ERROR, list[Trajectory]()
 
     def coarser(self, glance: Glance) -> Accuracy | None:
         """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere."""
@@ -95,9 +98,25 @@ class Repeats:
             It does not end.
         """
         again = self._again(self.h / parts, self.every * parts, float(parts))
+        self._finer.append(again[0])
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
+
+    def decided(self, known: Accuracy, parts: int) -> Accuracy:
+        """After two finer runs: where what they differ by may change the verdict on forces, by a third one.
+
+        Raises
+        ------
+        SimulationError
+            It does not end.
+        """
+        names = self.groups.get(FORCES, [])
+        apart = accuracy.differences(*self._finer, {FORCES: names})[0].get(FORCES, 0.0) if names else 0.0
+        if not unsure(known, apart):
+            return known
+        self.limit, finest = WRONG_ERROR, self.finer(parts)
+        return by_limit(finest, [self.run[0], *self._finer[1:]], names)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
@@ -148,8 +167,9 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
     A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
-    repeated with half the step, and where that leaves the verdict near its limit, with a quarter, of forces then with
-    an eighth. With `Repeats.extents` only half the step is tried.
+    repeated with half the step, and where that leaves the verdict near its limit, with a quarter; where these two
+    differ so much that the verdict on forces may change, with an eighth. With `Repeats.extents` only half the step is
+    tried.
 
     Parameters
     ----------
@@ -184,16 +204,14 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
             and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
         ):
             ratio = parts / (1.0 + known.halvings_per_step)
-            known = by_two_repeats(known, repeats.finer(2 * parts), ratio)
-            if accuracy.UNSURE[0] < known.units.get("N", 0.0) < accuracy.UNSURE[1]:
-                known = repeats.finer(4 * parts)
+            known = repeats.decided(by_two_repeats(known, repeats.finer(2 * parts), ratio), 4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
             text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
         return replace(known, repeat_cost=repeats.cost, message=text)
     branch = run[0].branch_change if repeats.left_alone else ""
-    if known.error is None or known.error <= accuracy.WARNED_ERROR:
+    if known.error is None or known.error <= repeats.limit:
         return replace(known, branch=branch)
     said = [repeats.text(known)]
     if accuracy.balance_says(report, method, driven):

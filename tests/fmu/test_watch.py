@@ -125,6 +125,36 @@ def test_an_edge_at_speed_is_told_by_the_steps_alone(h: float, told: bool) -> No
         assert report.load_step < 0.6 * h
 
 
+@pytest.mark.parametrize(("h", "told"), [(0.02, True), (0.002, False)])
+def test_a_wheel_that_swings_too_quickly_is_told_where_steps_stay_whole(
+    prototype_fmu: Path, host: HostMaker, h: float, told: bool
+) -> None:
+    """Down 12 cm at 30 m/s, with too few iterations for two halves: it has the engine's numbers, and is right."""
+    kerb = {"road.kerb_x": 10.0, "road.kerb_height": 0.12}
+    few = {"step_size": h, "solver.step_iterations": 8.0}
+    driven = host(prototype_fmu).start({"initial.speed": 30.0} | kerb | few)
+    statuses = [driven.slave.dll.fmi2DoStep(driven.slave.component, 0.02 * k, 0.02, 1) for k in range(50)]
+    words = "a wheel swings on its tyre too quickly for the step"
+    lines = [m for m in driven.messages if words in m]
+    assert len(lines) == told
+
+    def run(step: float, settings: mbs.Settings) -> mbs.Trajectory:
+        pose, every = mbs.Pose(speed=30.0), round(0.02 / step)
+        chosen = {"parameters": kerb, "pose": pose, "settings": settings, "every": every}
+        return mbs.simulate(
+            mbs.compile(prototype_car.build()), 1.0, step, progress=False, estimate_error=False, **chosen
+        )
+
+    found = run(h, mbs.Settings(step_iterations=8))
+    assert (found.report.quick_load > 0.0) is told
+    if told:
+        fine, loads = run(2e-4, mbs.Settings()), [f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR")]
+        assert statuses.count(WARNING) == 2  # the other of the limit
+        assert f"At {found.report.load_time:.4g} s" in lines[0]
+        assert f"step_size of {found.report.load_step:.2g} s" in lines[0]
+        assert max(np.abs(found[n] - fine[n]).max() for n in loads) > 0.05 * max(fine[n].max() for n in loads)
+
+
 def test_no_other_driving_is_told_so(prototype_fmu: Path, host: HostMaker) -> None:
     """Pedals and steering that jump, and a wheel that lands from 5 cm."""
     driven = host(prototype_fmu).start({"initial.speed": 15.0, "initial.z": 0.05, "step_size": 0.01})

@@ -9,7 +9,7 @@
 static const double SPAN = 0.2; /* s after the last abrupt step: a wheel on its tyre swings about twice */
 static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
 static const double JUMP = 0.05; /* of its range: an input that jumps */
-static const double WRONG = 0.05; /* of the largest force */
+static const double WRONG = 0.05; /* of the largest force at communication points */
 static const double ORDER_2 = 4.0 / 3.0; /* error of a step over the difference to half of it */
 static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
 static const double FREE = 1.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
@@ -102,17 +102,16 @@ static void follow(slave *s, double now) {
 /* The largest difference, when what comes later has shown how large forces are. */
 static slave_status judge(slave *s, const ali3_report *r) {
   slave_half_steps *t = &s->half_steps;
-  const double error = ORDER_2 * t->apart / r->largest_force, h = t->h;
+  const double off = ORDER_2 * t->apart, error = off / t->largest, h = t->h;
   t->apart = 0.0;
   if (!(error > WRONG)) return SLAVE_OK;
   if (slave_event_told(r)) return slave_say_event(s, r);
   s->event_said = true;
-  return slave_say(
-      s, SLAVE_WARNING,
-      "At %.4g s a contact or a stop had changed a force too quickly for the step: made again with half of "
-      "it, forces are off by about %.2g %% of the largest. Run again with a step_size of %.2g s. This is "
-      "said once.",
-      t->time, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
+  return slave_say(s, SLAVE_WARNING,
+                   "At %.4g s a contact or a stop had changed a force too quickly for the step: made again with half "
+                   "of it, forces are off by about %.0f N, %.2g %% of the largest at communication points. Run again "
+                   "with a step_size of %.2g s. This is said once.",
+                   t->time, off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
 }
 
 /* What can be said by now, or when the run has `ended`. */
@@ -140,6 +139,7 @@ slave_status slave_halve_steps(slave *s) {
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
   t->driven += length;
+  t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
   if (abrupt && (t->spent > FREE + SHARE * t->driven || !allocate(s))) {
     t->alone = true;
   } else if (abrupt) {

@@ -124,6 +124,7 @@ typedef struct { /* of a motion that is made a second time with half the step, s
   double *force, *input, *parameter; /* work */
   double left, spent, driven; /* s: of the time that is made twice, 0: nothing is; made twice so far; of all steps */
   double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
+  double largest; /* of the forces at communication points, N: within steps there may be larger ones */
   int64_t abrupt; /* abrupt steps that were seen */
   bool jumped; /* an input has, since it began */
   bool alone; /* not all of an abrupt change was made twice: what steps tell themselves holds */

@@ -382,6 +382,8 @@ ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
 /* Loads of tyres, or all of their forces, forces of contacts and of springs with end stops now, N: how many; `force` may
  * be NULL. */
 ALI3_API int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force);
+/* The largest of all of them now, N. */
+ALI3_API double ali3_largest_contact_force(const ali3_instance *in);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

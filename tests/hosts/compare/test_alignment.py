@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from hosts.compare.alignment import align
+from hosts.compare.comparison import compare
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
+from hosts.compare.words import common_sentence
 from hosts.driving.result import Result
 
 END = 20.0
@@ -79,11 +82,37 @@ def test_of_a_periodic_signal_the_smallest_delay_is_taken_and_the_other_named() 
 
 @pytest.mark.parametrize(("drift", "told"), [(0.0, False), (3e-4, True), (-1e-3, True)])
 def test_a_difference_of_the_model_in_many_signals_is_no_drift(curve: Curve, drift: float, told: bool) -> None:
-    """Signals that differ alike count as many: the interval is far too short, and only what is explained tells."""
+    """Its drift is none of the clock: only what is explained tells. One that is not told leaves the delay alone."""
     t = np.arange(0.0, 19.5, 0.013)
     at = t / (1.0 + drift)
     values = motion(at - 2e-3 * np.sin(3.0 * at))
-    found = align(20 * [(Signal("y", "y", "1", t, values), curve)], 0.6)
+    pair = (Signal("y", "y", "1", t, values), curve)
+    found = align(20 * [pair], 0.6)
     assert abs(found.drift - drift) < 1e-4
-    assert abs(found.drift) > 2.0 * found.drift_error
     assert found.has_drift is told
+    if not told:
+        assert abs(found.drift) > 0.0
+        assert found.delay == pytest.approx(align([pair], 0.6, drift=False).delay, abs=1e-9)
+
+
+def test_signals_that_differ_alike_count_as_one(curve: Curve) -> None:
+    """Equal ones, of either sign, have the interval of one; of independent noise the root of their number counts."""
+    one, count = log_of(0.08, 0.0, 0.1), 16
+    alone = align([(one, curve)], 0.5, drift=False).delay_error
+    mirrored = Signal("z", "z", "1", one.time, -one.values)
+    upside = simulated(-motion(np.arange(0.0, END, 0.01)), np.arange(0.0, END, 0.01))
+    alike = align((count // 2) * [(one, curve), (mirrored, upside)], 0.5, drift=False)
+    assert alike.delay_error == pytest.approx(alone, rel=0.01)
+    others = align([(log_of(0.08, 0.0, 0.1, seed), curve) for seed in range(count)], 0.5, drift=False)
+    assert others.delay_error == pytest.approx(alone / math.sqrt(count), rel=0.25)
+
+
+def test_a_signal_with_a_delay_of_its_own_is_told(curve: Curve) -> None:
+    """One of six is 5 ms late: the common delay is of none, and the sentence names the one."""
+    names = "abcdef"
+    logs = {n: log_of(0.005 if n == "b" else 0.0, 0.0, 1e-3, seed) for seed, n in enumerate(names)}
+    text = common_sentence(compare(logs, dict.fromkeys(names, curve), 0.5))
+    (alone,) = re.findall(r" \d of 6 signals have another delay, 'b' farthest, ([\d.]+) ms\.$", text)
+    assert float(alone) == pytest.approx(5.0, abs=0.1)
+    logs["b"] = log_of(0.0, 0.0, 1e-3, 9)
+    assert "another" not in common_sentence(compare(logs, dict.fromkeys(names, curve), 0.5))

@@ -51,7 +51,10 @@ def test_a_drift_is_told_where_it_is_one(comparison: Comparison) -> None:
     )
     assert common_words(Comparison(comparison.signals, clock))[-1] == words
     model = Comparison(comparison.signals, replace(clock, explained=0.05))
-    assert common_sentence(model) == "All signals together: the log is 10 ± 0.1 ms late."
+    assert common_sentence(model) == (
+        "All signals together: the log is 10 ± 0.1 ms late. "
+        "1 of 2 signals have another delay, 'chassis.wz' farthest, 0 ms."
+    )
 
 
 def test_a_signal_that_tells_no_delay_has_no_say_in_the_common_one() -> None:

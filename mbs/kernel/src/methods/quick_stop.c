@@ -50,6 +50,16 @@ int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force)
   return n;
 }
 
+double ali3_largest_contact_force(const ali3_instance *in) {
+  double largest = 0.0;
+  for (int32_t c = 0; c < in->system->n_contact; c++) {
+    int32_t first;
+    for (int32_t i = forces_of(in->system, in->system->contact_element[c], true, &first); i-- > 0;)
+      largest = fmax(largest, fabs(in->now.out[first + i]));
+  }
+  return largest;
+}
+
 /* Largest change of such a force of element e in a step between two of its ends; *largest: of these forces. */
 static double change_of(const ali3_system *S, int32_t e, const double *from, const double *to, double *largest) {
   int32_t first;
