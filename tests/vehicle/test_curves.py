@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import csv
 import shutil
 import tracemalloc
@@ -23,7 +24,7 @@ from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
 from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves
-from tests.vehicle.curved_car import after_a_turn, curved_content, light_armed
+from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 WHEELS = ("FL", "FR", "RL", "RR")
 CARS = ("saloon", "hatchback", "prototype")
@@ -35,7 +36,7 @@ SWERVE = {
 
 @cache
 def linked(name: str) -> Car:
-    return light_armed(name)
+    return linked_car(name)
 
 
 @pytest.fixture(scope="module")
@@ -57,22 +58,27 @@ def drive(system: System, seconds: float = 1.5) -> Any:
     return simulate(system, seconds, 0.005, inputs=SWERVE, pose=Pose(speed=15.0))
 
 
-@pytest.mark.parametrize(("name", "angle"), [("saloon", 1e-5), ("hatchback", 1e-4), ("prototype", 1e-5)])
-def test_it_drives_as_the_links_that_its_tables_come_from(name: str, angle: float, content: dict, folder: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "angle", "way", "load"),
+    [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3), ("prototype", 1e-6, 1e-6, 5e-5)],
+)
+def test_it_drives_as_the_links_that_its_tables_come_from(
+    name: str, angle: float, way: float, load: float, content: dict, folder: Path
+) -> None:
     """A swerve with the brakes on; the cross-beam of the hatchback is a bar whose lever does not turn."""
     car = car_from(content[name], folder / name, name)
     system = compile(car.model())
     assert system.meta["report"]["degrees_of_freedom"] == 14
     links, curves = drive(compile(linked(name).model())), drive(system)
     gap = np.hypot(*(curves[f"chassis.{c}"] - links[f"chassis.{c}"] for c in "xy"))
-    assert gap.max() < 1e-4 * links["chassis.x"][-1]
+    assert gap.max() < way * links["chassis.x"][-1]
     for wheel in WHEELS:
         change = np.ptp(links[f"wheel_{wheel}.Fz"])
-        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < 1e-3 * change
+        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < load * change
         for name_of in ("steer", "inclination"):
             assert np.abs(curves[f"wheel_{wheel}.{name_of}"] - links[f"wheel_{wheel}.{name_of}"]).max() < angle
         force = np.ptp(links[f"spring_{wheel}.force"])
-        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < 1e-3 * force
+        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < load * force
     rack = np.abs(links["steering_rack_force"]).max()
     assert np.abs(curves["steering_rack_force"] - links["steering_rack_force"]).max() < 1e-3 * rack
 
@@ -319,6 +325,25 @@ def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: 
     car = car_from(short, copied, "x")
     with pytest.raises(RuntimeError, match=r"'wheel travel R[LR]' is .*; its table goes from -0\.03"):
         simulate(compile(car.model()), 2.0, 0.005, pose=Pose(z=0.6))
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ({"inner": [-2.58, 0.61, 0.20]}, r"points\.outer is 0\.01 m from .*points\.inner; it must be 0\.05 m or more"),
+        ({"inner": [-2.33, 0.62, 0.20], "second_inner": [-2.7, 0.62, 0.2]}, "is 0 m from the axis of both inner ends"),
+        (
+            {"inner": [-2.58, 0.3, 0.2], "second_inner": [-2.58, 0.3, 0.2]},
+            "second_inner is 0 m from .*, or be left out",
+        ),
+        ({"inner": [-2.58, -0.3, 0.2]}, r"points\.inner has y = -0\.3 m; points are given for the left side"),
+    ],
+)
+def test_a_link_that_is_none_is_a_sentence(points: dict, said: str, content: dict, copied: Path) -> None:
+    data = copy.deepcopy(content["saloon"])
+    data["rear"]["suspension"]["bodies"]["links"]["lower_wishbone"]["points"] = {"outer": [-2.58, 0.62, 0.20]} | points
+    with pytest.raises(CarFileError, match=said):
+        car_from(data, copied, "x")
 
 
 def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -> None:

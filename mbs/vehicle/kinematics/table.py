@@ -22,8 +22,9 @@ TITLED = {
 }
 SECTIONS = (
     ("At the drawing", (
-        "toe_angle", "right_toe_angle", "camber_angle", "right_camber_angle", "caster_angle", "kingpin_inclination_angle", "caster_trail",
-        "kingpin_offset_at_ground", "caster_offset_at_wheel_centre", "kingpin_offset_at_wheel_centre",
+        "toe_angle", "right_toe_angle", "camber_angle", "right_camber_angle", "caster_angle",
+        "kingpin_inclination_angle", "caster_trail", "kingpin_offset_at_ground",
+        "caster_offset_at_wheel_centre", "kingpin_offset_at_wheel_centre",
     )),
     ("Parallel wheel travel", (
         "toe_gradient", "camber_gradient", "roll_centre_height", "anti_dive", "anti_lift", "anti_squat",

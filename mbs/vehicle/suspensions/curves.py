@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 import numpy as np
-from pydantic import PrivateAttr
+from pydantic import Field, PrivateAttr
 from scipy.interpolate import CubicSpline
 
 from mbs.common.affine import Affine
@@ -15,6 +15,7 @@ from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.names import Name
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Factor, Length, TorsionalStiffness
 from mbs.vehicle.section import Section
@@ -22,6 +23,7 @@ from mbs.vehicle.side import Side, sides
 from mbs.vehicle.springs import AxleSprings, spring_of_length
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 from mbs.vehicle.suspensions.curve_compliance import Compliance
+from mbs.vehicle.suspensions.curve_links import CurveLink
 from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
 from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, read_curves
 
@@ -30,7 +32,9 @@ class CurvesBodies(Section):
     """Parts of the left side."""
 
     carrier: Part
-    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of links and springs."""
+    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of springs."""
+    links: dict[Name, CurveLink] = Field(default_factory=dict)
+    """Arms and rods by name; of one that is not here a share must be in the carrier, the rest in the chassis."""
 
 
 class NoPoints(Section):
@@ -186,6 +190,8 @@ class Curves(Section):
                 com=com,
                 inertia=[share * value for value in part.inertia],
             )
+            for name, link in self.bodies.links.items():
+                link.build(b, side, name, centre, curves, over)
             plain = own.affine * -1.0 + self.spring_length, self.spring_length
             spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
             damper = _number(b, curves, over, "damper_length", f"length of damper {w}")
