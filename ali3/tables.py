@@ -116,9 +116,10 @@ class TextTable:
                 cells = self._cells(line, text)
                 if len(cells) != self.width:
                     what = "heading" if self.names else "first line"
-                    raise self.error(
-                        f"{self.name}, line {line}: {len(cells)} values where the {what} has {self.width} columns."
-                    )
+                    commas = self._mark == "," and len(cells) > self.width
+                    hint = "; decimal marks must be points, or semicolons between columns" if commas else ""
+                    much = f"{len(cells)} values where the {what} has {self.width} columns"
+                    raise self.error(f"{self.name}, line {line}: {much}{hint}.")
                 yield Row(line, cells)
 
     def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:

@@ -235,6 +235,19 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     refused("has the column rack_travel; the rear axle does not steer", heading, rows)
     refused(r"rows for .*; there must be one for each pair", heading, rows[:-1])
     refused("twice; there must be one row for each", heading, np.vstack([rows, rows[:1]]))
+    alone = [k for k, name in enumerate(heading) if not name.startswith("rack_travel")]
+    refused(r"values of wheel_travel twice, and no .*: rack_travel", [heading[k] for k in alone], rows[:, alone])
+
+
+def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_told(content: dict, copied: Path) -> None:
+    """As a table in degrees under headings in radians."""
+    data = copy.deepcopy(content["saloon"])
+    assert car_from(data, copied, "x").front.by_curves.steered_angle(0.07) == pytest.approx(0.6012, rel=1e-3)
+    data["steering"]["front_wheel_angle_max"] = 0.9
+    with pytest.warns(
+        CarWarning, match=r"front_wheel_angle_max is 0\.9 rad, but .* turned by 0\.601 rad; are the units"
+    ):
+        car_from(data, copied, "x")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:

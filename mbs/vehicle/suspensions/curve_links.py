@@ -76,9 +76,9 @@ class CurveLink(Part):
         centre : ndarray, shape (3,)
             Of the wheel as drawn, m.
         curves : WheelCurves
-            Of the wheel that it carries.
+            Of the wheel that it carries, without compliance: what gives are bushes of small mass.
         over : sequence of Coordinate
-            What the table is a function of.
+            What they are functions of.
         """
         foot, outer, com = (np.array(side.point(p)) for p in (self.points.foot(), self.points.outer, self.com))
         to = curves.centres + curves.rotations @ (outer - centre) - foot

@@ -126,9 +126,18 @@ class Curves(Section):
     @property
     def steers_left(self) -> bool:
         """Whether the wheels turn to the left as the rack moves to the left."""
-        turned = self.of(Side("front", "left", 1.0)).rotations[:, :, 1, 0]  # of the wheel's forward axis to the left
-        i = int(np.argmin(np.abs(self.table.travel)))
-        return bool(turned[i, -1] > turned[i, 0])
+        return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
+
+    def steered_angle(self, rack: float) -> float:
+        """Mean angle of both wheels at a travel of the rack to either side, rad.
+
+        Parameters
+        ----------
+        rack : float
+            m.
+        """
+        steer = CubicSpline(*self._steer(self.of(Side("front", "left", 1.0))))
+        return 0.5 * abs(float(steer(rack) - steer(-rack)))
 
     @property
     def compressions(self) -> tuple[float, float]:
@@ -171,8 +180,8 @@ class Curves(Section):
         levers = []
         for side in sides(axle):
             own, w = travels[side.name], side.wheel
-            curves = self.of(side)
-            over, curves = self._over(b, side, curves, travels)
+            rigid = self.of(side)
+            over, curves = self._over(b, side, rigid, travels)
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
@@ -191,7 +200,7 @@ class Curves(Section):
                 inertia=[share * value for value in part.inertia],
             )
             for name, link in self.bodies.links.items():
-                link.build(b, side, name, centre, curves, over)
+                link.build(b, side, name, centre, rigid, over if self.table.second_name else [own])
             plain = own.affine * -1.0 + self.spring_length, self.spring_length
             spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
             damper = _number(b, curves, over, "damper_length", f"length of damper {w}")
@@ -226,9 +235,12 @@ class Curves(Section):
 
     def _steer_per_rack(self, curves: WheelCurves) -> float:
         """Of a wheel at the drawing, rad/m."""
-        i = int(np.argmin(np.abs(self.table.travel)))
-        rotations = curves.rotations[i]
-        return float(CubicSpline(curves.second, np.arctan2(rotations[:, 1, 0], rotations[:, 0, 0]))(0.0, 1))
+        return float(CubicSpline(*self._steer(curves))(0.0, 1))
+
+    def _steer(self, curves: WheelCurves) -> tuple[Array, Array]:
+        """Travels of the rack, m, and the steer angles there of a wheel at the drawing, rad."""
+        rotations = curves.rotations[int(np.argmin(np.abs(self.table.travel)))]
+        return curves.second, np.arctan2(-rotations[:, 0, 1], rotations[:, 1, 1])
 
 
 def _number(
