@@ -69,7 +69,8 @@ def test_a_table_without_names(tmp_path: Path) -> None:
         ("a,b\n\n1\n", "t.csv, line 3: 1 values where the heading has 2 columns."),
         (
             "a,b\n1,5,2,5\n",
-            "line 2: 4 values where the heading has 2 columns; decimal marks must be points, or semicolons",
+            "t.csv, line 2: 4 values where the heading has 2 columns; decimal marks must be points, or semicolons "
+            "between columns.",
         ),
         ("a,b\n1,2 m\n", "t.csv, line 2, column 'b': '2 m' is not a number."),
         ("a,b\n1,-inf\n", "t.csv, line 2, column 'b': '-inf' is not a finite number."),
