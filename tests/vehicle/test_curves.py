@@ -19,6 +19,7 @@ from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Car, CarFileError, CarWarning
 from mbs.vehicle.car import car_from
+from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
@@ -242,10 +243,13 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
 def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_told(content: dict, copied: Path) -> None:
     """As a table in degrees under headings in radians."""
     data = copy.deepcopy(content["saloon"])
-    assert car_from(data, copied, "x").front.by_curves.steered_angle(0.07) == pytest.approx(0.6012, rel=5e-3)
+    car = car_from(data, copied, "x")
+    assert car.front.by_curves.steered_angle(0.07) == pytest.approx(0.6012, rel=5e-3)
+    assert not [*steering_oddities(car)]
     data["steering"]["front_wheel_angle_max"] = 0.9
-    with pytest.warns(CarWarning, match=r"front_wheel_angle_max is 0\.9 rad, but .* turned by 0\.6 rad; are the units"):
-        car_from(data, copied, "x")
+    (said,) = steering_oddities(car_from(data, copied, "x"))
+    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in said
+    assert said.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
