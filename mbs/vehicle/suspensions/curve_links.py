@@ -1,17 +1,16 @@
-"""Arms and rods of an axle by its curves: the carrier that the table places moves their outer ends.
+"""Arms and rods of an axle by its curves: bodies that turn as their outer ends, points of the carrier, ask for.
 
-An arm of mass m turns about the chassis, and half of it on the carrier, half on the chassis weighs what it weighs, but
-has more kinetic energy over the travel of the wheel: m/2 for the m/3 of a uniform rod. Here it is a body that turns
-about its inner end as its outer end asks for, so weight, inertia and what both do to the chassis are its own.
+A share of an arm in the carrier that weighs right has too much kinetic energy over the travel of the wheel: that of m/2
+at the end of a uniform rod, which has that of m/3.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
@@ -39,9 +38,7 @@ class LinkPoints(Section):
     def foot(self) -> Array:
         """Where the link turns: its inner end, or the point of the axis next to its outer end, m."""
         inner = np.array(self.inner)
-        if self.second_inner is None:
-            return inner
-        along = np.subtract(self.second_inner, self.inner)
+        along = np.subtract(self.second_inner or self.inner, inner)
         return np.asarray(inner + along * (along @ (np.array(self.outer) - inner)) / max(along @ along, SHORTEST**2))
 
     def faults(self) -> Iterator[str]:
@@ -50,12 +47,6 @@ class LinkPoints(Section):
         if length < SHORTEST:
             what = "the axis of both inner ends" if self.second_inner else self.key("inner")
             yield f"{self.key('outer')} is {length:.3g} m from {what}; it must be {SHORTEST:g} m or more."
-        between = np.inf if self.second_inner is None else math.dist(self.second_inner, self.inner)
-        if between < SHORTEST:
-            yield (
-                f"{self.key('second_inner')} is {between:.3g} m from {self.key('inner')}; it must be {SHORTEST:g} m or "
-                "more, or be left out."
-            )
 
 
 class CurveLink(Part):
@@ -82,7 +73,10 @@ class CurveLink(Part):
         """
         foot, outer, com = (np.array(side.point(p)) for p in (self.points.foot(), self.points.outer, self.com))
         to = curves.centres + curves.rotations @ (outer - centre) - foot
-        rotations = shortest_turns(outer - foot, to if len(over) == 2 else to[:, 0])
+        to = to if len(over) == 2 else to[:, 0]
+        lengths = np.linalg.norm(outer - foot) * np.linalg.norm(to, axis=-1)
+        shortest = np.concatenate([np.cross(outer - foot, to), (lengths + to @ (outer - foot))[..., None]], axis=-1)
+        rotations = Rotation.from_quat(shortest.reshape(-1, 4)).as_matrix().reshape(*to.shape, 3)
         b.m.tabled_body(
             f"{name} {side.wheel}",
             base=b.chassis.frame,
@@ -94,24 +88,3 @@ class CurveLink(Part):
             com=com,
             inertia=self.inertia,
         )
-
-
-def shortest_turns(drawn: Array, now: Array) -> Array:
-    """Rotations about axes at right angles to both that turn a direction into others.
-
-    Parameters
-    ----------
-    drawn : ndarray, shape (3,)
-        From.
-    now : ndarray, shape (..., 3)
-        To.
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        I + [v] + [v]^2/(1 + c), with v the cross product and c the dot product of the unit vectors (Rodrigues).
-    """
-    a, to = drawn / np.linalg.norm(drawn), now / np.linalg.norm(now, axis=-1, keepdims=True)
-    v, c = np.cross(a, to), to @ a
-    skew = np.cross(v[..., None, :], np.eye(3)).swapaxes(-1, -2)
-    return np.asarray(np.eye(3) + skew + skew @ skew / (1.0 + c)[..., None, None])
