@@ -71,7 +71,8 @@ class CurveLink(Part):
         over : sequence of Coordinate
             What they are functions of.
         """
-        foot, outer, com = (np.array(side.point(p)) for p in (self.points.foot(), self.points.outer, self.com))
+        drawn = self.points.foot().tolist(), self.points.outer, self.com
+        foot, outer, com = np.array([side.point(point) for point in drawn])
         to = curves.centres + curves.rotations @ (outer - centre) - foot
         to = to if len(over) == 2 else to[:, 0]
         lengths = np.linalg.norm(outer - foot) * np.linalg.norm(to, axis=-1)
