@@ -8,6 +8,7 @@ import os
 import re
 from array import array
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -110,15 +111,15 @@ class TextTable:
 
     def rows(self, every: int = 1) -> Iterator[Row]:
         """Lines below the heading, or every so many of them."""
-        lines = self._lines if self._first is None else self._with_first()
+        lines = self._lines if self._first is None else chain([self._first], self._lines)
         for k, (line, text) in enumerate(lines):
             if k % every == 0:
                 cells = self._cells(line, text)
                 if len(cells) != self.width:
                     what = "heading" if self.names else "first line"
-                    raise self.error(
-                        f"{self.name}, line {line}: {len(cells)} values where the {what} has {self.width} columns."
-                    )
+                    hint = "; decimal marks must be points." if self._mark == "," and len(cells) > self.width else "."
+                    found = f"{len(cells)} values where the {what} has {self.width} columns"
+                    raise self.error(f"{self.name}, line {line}: {found}{hint}")
                 yield Row(line, cells)
 
     def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:
@@ -155,11 +156,6 @@ class TextTable:
         if len(held) < least * self.width:
             raise self.error(f"{self.name} holds no values; it needs a heading and at least one row.")
         return np.array(held).reshape(-1, self.width)
-
-    def _with_first(self) -> Iterator[tuple[int, str]]:
-        assert self._first is not None
-        yield self._first
-        yield from self._lines
 
     def _read(self, path: Path, whole: bool) -> Iterator[tuple[int, str]]:
         line = 0

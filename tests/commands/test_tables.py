@@ -67,6 +67,7 @@ def test_a_table_without_names(tmp_path: Path) -> None:
         ("a\n", "t.csv holds no values; it needs a heading and at least one row."),
         ("a,a\n1,1\n", "t.csv has the column 'a' twice."),
         ("a,b\n\n1\n", "t.csv, line 3: 1 values where the heading has 2 columns."),
+        ("a,b\n1,5,2,5\n", "t.csv, line 2: 4 values where the heading has 2 columns; decimal marks must be points."),
         ("a,b\n1,2 m\n", "t.csv, line 2, column 'b': '2 m' is not a number."),
         ("a,b\n1,-inf\n", "t.csv, line 2, column 'b': '-inf' is not a finite number."),
         ("a,b\n1,1e999\n", "t.csv, line 2, column 'b': '1e999' is not a finite number."),

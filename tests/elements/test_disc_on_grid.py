@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -122,3 +124,34 @@ def test_peak_loads_are_those_of_a_dense_search(height: float, spacing: float) -
     x = np.arange(FOOT - 1.0, FOOT + 2.0, 1e-3)
     expected = peak(x, rising(x, height, spacing), FOOT - 0.5, FOOT + 1.5)
     assert run["load"].max() == pytest.approx(expected, rel=0.1)
+
+
+def test_what_a_disc_leaves_out_of_a_wide_tyre() -> None:
+    """Load at a height of the axle where 3500 N bear on level ground, against five discs over a width of 180 mm.
+
+    Where the road is one profile across the tyre nothing is left out; the figures stand in `docs/limits.md`.
+    """
+    radius, stiffness, width, bears = 0.3, 2e5, 0.18, 3500.0
+    stones = np.random.default_rng(3).uniform(-0.006, 0.006, (60, 40))
+
+    def grid(height: Callable[[Array, Array], Array]) -> GridRoad:
+        x, y = np.meshgrid(-2.0 + 0.02 * np.arange(201), -1.0 + 0.02 * np.arange(101), indexing="ij")
+        return GridRoad((-2.0, -1.0), (0.02, 0.02), height(x, y))
+
+    def loads(road: GridRoad, places: Array) -> Array:
+        z = radius - bears / stiffness
+        pressed = [
+            [max(0.0, *(float(c["penetration"]) for c in contacts(road, [x, y, z], AXIS, radius))) for y in places]
+            for x in np.arange(-1.0, 1.0, 0.13)
+        ]
+        return stiffness * np.mean(pressed, axis=1)
+
+    def off(height: Callable[[Array, Array], Array]) -> float:
+        road = grid(height)
+        across = loads(road, np.linspace(-0.5, 0.5, 5) * width)
+        return float(np.sqrt(np.mean((loads(road, np.zeros(1)) - across) ** 2)))
+
+    assert off(lambda x, y: np.where(x > 0.0, 0.05, 0.0)) < 1.0
+    assert off(lambda x, y: stones[(10 * (x + 2.0)).astype(int) % 60, (10 * (y + 1.0)).astype(int) % 40]) > 300.0
+    assert off(lambda x, y: np.where(y > 0.364 * x, 0.05, 0.0)) > 900.0  # a kerb at 20 degrees
+    assert off(lambda x, y: np.where(y > 0.0, 0.05, 0.0)) > 3900.0  # along, under half of it

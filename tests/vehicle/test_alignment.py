@@ -13,7 +13,9 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.kinematics import kinematics
+from mbs.vehicle.kinematics.compliance_table import shown_number
 from mbs.vehicle.kinematics.held_car import HeldCar
+from mbs.vehicle.kinematics.table import rows
 from tests.quick import quick
 
 ANGLES = {
@@ -46,6 +48,16 @@ def test_kinematics_at_the_drawing_are_what_the_file_sets(car):
                 assert drawn[f"{angle}_angle_{side}"] == pytest.approx(
                     ANGLES[f"{axle}.alignment.{angle}_{side}"], abs=1e-12
                 )
+
+
+def test_the_table_has_the_right_wheel_where_it_is_set_otherwise(car):
+    shown = {line[0]: line[1:3] for line in rows(kinematics(car, points=5))}
+    for angle in ("toe", "camber"):
+        asked = [ANGLES[f"{axle}.alignment.{angle}_right"] for axle in ("front", "rear")]
+        assert shown[f"{angle} angle, right wheel"] == tuple(shown_number(math.degrees(a)) for a in asked)
+    alike = {line[0] for line in rows(kinematics(load("saloon"), points=5))}
+    assert "toe angle" in alike
+    assert "toe angle, right wheel" not in alike
 
 
 @pytest.mark.slow

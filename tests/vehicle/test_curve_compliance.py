@@ -16,7 +16,7 @@ from mbs.vehicle import Car, CarFileError
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import car_from
 from mbs.vehicle.springs import AxleSprings
-from tests.vehicle.curved_car import after_a_turn, curved_content, light_armed
+from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 STEER = {"per_moment": 8e-5}
 CAMBER, LATERAL, FORWARD = -4e-6, 1.5e-6, 8e-7  # rad/N, m/N
@@ -34,7 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def content(folder: Path) -> dict[str, Any]:
-    return curved_content(light_armed("saloon"), folder)
+    return curved_content(linked_car("saloon"), folder)
 
 
 def compliant(content: dict[str, Any], folder: Path, **axles: dict[str, float]) -> Car:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import csv
 import shutil
 import tracemalloc
@@ -18,12 +19,13 @@ from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Car, CarFileError, CarWarning
 from mbs.vehicle.car import car_from
+from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
 from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves
-from tests.vehicle.curved_car import after_a_turn, curved_content, light_armed
+from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 WHEELS = ("FL", "FR", "RL", "RR")
 CARS = ("saloon", "hatchback", "prototype")
@@ -35,7 +37,7 @@ SWERVE = {
 
 @cache
 def linked(name: str) -> Car:
-    return light_armed(name)
+    return linked_car(name)
 
 
 @pytest.fixture(scope="module")
@@ -57,22 +59,27 @@ def drive(system: System, seconds: float = 1.5) -> Any:
     return simulate(system, seconds, 0.005, inputs=SWERVE, pose=Pose(speed=15.0))
 
 
-@pytest.mark.parametrize(("name", "angle"), [("saloon", 1e-5), ("hatchback", 1e-4), ("prototype", 1e-5)])
-def test_it_drives_as_the_links_that_its_tables_come_from(name: str, angle: float, content: dict, folder: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "angle", "way", "load"),
+    [("saloon", 1e-6, 1e-6, 5e-5), ("hatchback", 1e-4, 1e-5, 1e-3), ("prototype", 1e-6, 1e-6, 5e-5)],
+)
+def test_it_drives_as_the_links_that_its_tables_come_from(
+    name: str, angle: float, way: float, load: float, content: dict, folder: Path
+) -> None:
     """A swerve with the brakes on; the cross-beam of the hatchback is a bar whose lever does not turn."""
     car = car_from(content[name], folder / name, name)
     system = compile(car.model())
     assert system.meta["report"]["degrees_of_freedom"] == 14
     links, curves = drive(compile(linked(name).model())), drive(system)
     gap = np.hypot(*(curves[f"chassis.{c}"] - links[f"chassis.{c}"] for c in "xy"))
-    assert gap.max() < 1e-4 * links["chassis.x"][-1]
+    assert gap.max() < way * links["chassis.x"][-1]
     for wheel in WHEELS:
         change = np.ptp(links[f"wheel_{wheel}.Fz"])
-        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < 1e-3 * change
+        assert np.abs(curves[f"wheel_{wheel}.Fz"] - links[f"wheel_{wheel}.Fz"]).max() < load * change
         for name_of in ("steer", "inclination"):
             assert np.abs(curves[f"wheel_{wheel}.{name_of}"] - links[f"wheel_{wheel}.{name_of}"]).max() < angle
         force = np.ptp(links[f"spring_{wheel}.force"])
-        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < 1e-3 * force
+        assert np.abs(curves[f"spring_{wheel}.force"] - links[f"spring_{wheel}.force"]).max() < load * force
     rack = np.abs(links["steering_rack_force"]).max()
     assert np.abs(curves["steering_rack_force"] - links["steering_rack_force"]).max() < 1e-3 * rack
 
@@ -229,6 +236,20 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     refused("has the column rack_travel; the rear axle does not steer", heading, rows)
     refused(r"rows for .*; there must be one for each pair", heading, rows[:-1])
     refused("twice; there must be one row for each", heading, np.vstack([rows, rows[:1]]))
+    alone = [k for k, name in enumerate(heading) if not name.startswith("rack_travel")]
+    refused(r"values of wheel_travel twice, and no .*: rack_travel", [heading[k] for k in alone], rows[:, alone])
+
+
+def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_told(content: dict, copied: Path) -> None:
+    """As a table in degrees under headings in radians."""
+    data = copy.deepcopy(content["saloon"])
+    car = car_from(data, copied, "x")
+    assert car.front.by_curves.steered_angle(0.07) == pytest.approx(0.6012, rel=5e-3)
+    assert not [*steering_oddities(car)]
+    data["steering"]["front_wheel_angle_max"] = 0.9
+    (said,) = steering_oddities(car_from(data, copied, "x"))
+    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in said
+    assert said.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
@@ -319,6 +340,21 @@ def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: 
     car = car_from(short, copied, "x")
     with pytest.raises(RuntimeError, match=r"'wheel travel R[LR]' is .*; its table goes from -0\.03"):
         simulate(compile(car.model()), 2.0, 0.005, pose=Pose(z=0.6))
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ({"inner": [-2.58, 0.61, 0.20]}, r"points\.outer is 0\.01 m from .*points\.inner; it must be 0\.05 m or more"),
+        ({"inner": [-2.33, 0.62, 0.20], "second_inner": [-2.7, 0.62, 0.2]}, "is 0 m from the axis of both inner ends"),
+        ({"inner": [-2.58, -0.3, 0.2]}, r"points\.inner has y = -0\.3 m; points are given for the left side"),
+    ],
+)
+def test_a_link_that_is_none_is_a_sentence(points: dict, said: str, content: dict, copied: Path) -> None:
+    data = copy.deepcopy(content["saloon"])
+    data["rear"]["suspension"]["bodies"]["links"]["lower_wishbone"]["points"] = {"outer": [-2.58, 0.62, 0.20]} | points
+    with pytest.raises(CarFileError, match=said):
+        car_from(data, copied, "x")
 
 
 def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -> None:

@@ -8,12 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.car.measures import MEASURES, measure
+from benchmarks.car.measures import MEASURES, measure, steady_turn
 from mbs import Pose, Simulation, compile
 from mbs.elements.road import PlaneRoad
 from mbs.vehicle import load
 from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.kinematics import kinematics
 from tests.vehicle.hatchback import WHEELS, car, drive, mirrored, system
 
 
@@ -169,3 +170,21 @@ def test_the_page_of_the_cars_has_these_measures():
             assert measured(name)[m.name] == pytest.approx(float(told), rel=0.02, abs=0.02), (m.name, name)
     assert 8.0 < measured("prototype")["roll_gradient"] < 9.5
     assert abs(measured("prototype")["understeer_gradient"]) < 0.2
+
+
+@pytest.mark.parametrize(("higher", "way"), [(0.0, -1.0), (0.02, 1.0)])
+def test_a_stiffer_front_bar_changes_understeer_as_it_takes_roll_steer_away(higher: float, way: float):
+    """Its wheels steer out of the turn as the body rolls, and into it with the inner tie rods 20 mm higher.
+
+    The gradient changes by the roll steer of both axles times the roll that the bar takes away. The rest is load
+    transfer in front, which only adds understeer.
+    """
+    x, y, z = car().front.suspension.points.tie_rod_inner
+    drawn = car().changed({"front.suspension.points.tie_rod_inner": [x, y, z + higher]})
+    axles = kinematics(drawn, points=5)
+    soft, stiff = (drawn.changed({"front.anti_roll_bar.factor": factor}) for factor in (0.5, 2.0))
+    soft, stiff = (steady_turn(c, compile(c.model())) for c in (soft, stiff))
+    change, roll = (stiff[name] - soft[name] for name in ("understeer_gradient", "roll_gradient"))
+    steer = (axles.drawn("rear")["roll_steer"] - axles.drawn("front")["roll_steer"]) * roll
+    assert way * change > 0.2
+    assert 0.0 < change - steer < 0.15

@@ -22,6 +22,8 @@ TRAVEL = (-0.08, 0.08)
 """Range of wheel travel where none is given, m."""
 POINTS = 81
 MOTIONS = ("parallel", "opposite", "single")
+SAME_ANGLE = 1e-9
+"""By how much both wheels may differ and count as set alike, rad."""
 FARTHEST, MOST_POINTS = 0.5, 10_001
 
 
@@ -47,11 +49,15 @@ class Kinematics:
         Returns
         -------
         dict of str to float
-            Of the left wheel and the axle, by the quantities' names; those of roll from opposite travel, those of
-            steering from the steer curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock.
+            Of the left wheel and the axle, by the quantities' names; toe and camber of a right wheel that is set
+            otherwise, as ``right_toe_angle``; those of roll from opposite travel, those of steering from the steer
+            curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock.
         """
         parallel = self.curves[axle, "parallel"].drawn()
         found = {n.removesuffix("_left"): v for n, v in parallel.items() if not n.endswith("_right")}
+        for name in ("toe_angle", "camber_angle"):
+            if abs(parallel[f"{name}_right"] - found[name]) > SAME_ANGLE:
+                found[f"right_{name}"] = parallel[f"{name}_right"]
         opposite = self.curves[axle, "opposite"].drawn()
         found |= {n: v for n, v in opposite.items() if n in ("roll_steer", "roll_camber", "roll_stiffness")}
         found["roll_wheel_rate"] = opposite["wheel_rate_left"]

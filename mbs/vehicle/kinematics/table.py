@@ -9,7 +9,9 @@ from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance_table import shown_number
 from mbs.vehicle.kinematics.quantities import BY_NAME, Quantity
 
-AT_LOCK = {
+TITLED = {
+    "right_toe_angle": ("toe_angle", "toe angle, right wheel"),
+    "right_camber_angle": ("camber_angle", "camber angle, right wheel"),
     "lock_steering_wheel_angle": ("steering_wheel_angle", "steering-wheel angle at full lock"),
     "lock_inner": ("steer_angle", "steer angle, inner wheel, at full lock"),
     "lock_outer": ("steer_angle", "steer angle, outer wheel, at full lock"),
@@ -20,15 +22,16 @@ AT_LOCK = {
 }
 SECTIONS = (
     ("At the drawing", (
-        "toe_angle", "camber_angle", "caster_angle", "kingpin_inclination_angle", "caster_trail",
-        "kingpin_offset_at_ground", "caster_offset_at_wheel_centre", "kingpin_offset_at_wheel_centre",
+        "toe_angle", "right_toe_angle", "camber_angle", "right_camber_angle", "caster_angle",
+        "kingpin_inclination_angle", "caster_trail", "kingpin_offset_at_ground",
+        "caster_offset_at_wheel_centre", "kingpin_offset_at_wheel_centre",
     )),
     ("Parallel wheel travel", (
         "toe_gradient", "camber_gradient", "roll_centre_height", "anti_dive", "anti_lift", "anti_squat",
         "anti_lift_in_drive", "spring_ratio", "damper_ratio", "spring_load", "wheel_rate", "ride_rate",
     )),
     ("Roll", ("roll_steer", "roll_camber", "anti_roll_bar_ratio", "roll_wheel_rate", "roll_stiffness")),
-    ("Steering", ("steering_ratio", *(name for name in AT_LOCK if name.startswith("lock")))),
+    ("Steering", ("steering_ratio", *(name for name in TITLED if name.startswith("lock")))),
 )  # fmt: skip
 """Rows by headings."""
 
@@ -41,7 +44,7 @@ def named(name: str) -> tuple[Quantity, str]:
     name : str
         As `Kinematics.drawn` has it.
     """
-    base, title = AT_LOCK.get(name, (name, ""))
+    base, title = TITLED.get(name, (name, ""))
     quantity = BY_NAME[base]
     return quantity, title or quantity.title
 

@@ -190,6 +190,11 @@ def _in_si(what: str, name: str, unit: str, values: Array) -> Array:
 def _grid(what: str, travel: Array, second: Array | None, second_name: str, columns: Mapping[str, Array]) -> CurveTable:
     """Rows as a table over evenly spaced points."""
     if second is None:
+        if len(_points(travel)) < len(travel):
+            raise CarFileError(
+                f"{what} has values of {TRAVEL} twice, and no second column of travels beside it: {RACK} where the "
+                f"axle steers, {OTHER} where its wheels move each other."
+            )
         _check_axis(what, TRAVEL, travel)
         even = _even(travel, COARSEST[TRAVEL])
         return CurveTable(even, np.zeros(1), "", {n: _on(travel, even, v[:, None], 0) for n, v in columns.items()})

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 import numpy as np
-from pydantic import PrivateAttr
+from pydantic import Field, PrivateAttr
 from scipy.interpolate import CubicSpline
 
 from mbs.common.affine import Affine
@@ -15,6 +15,7 @@ from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
+from mbs.vehicle.names import Name
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Factor, Length, TorsionalStiffness
 from mbs.vehicle.section import Section
@@ -22,6 +23,7 @@ from mbs.vehicle.side import Side, sides
 from mbs.vehicle.springs import AxleSprings, spring_of_length
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 from mbs.vehicle.suspensions.curve_compliance import Compliance
+from mbs.vehicle.suspensions.curve_links import CurveLink
 from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
 from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, read_curves
 
@@ -30,7 +32,9 @@ class CurvesBodies(Section):
     """Parts of the left side."""
 
     carrier: Part
-    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of links and springs."""
+    """All that moves with the wheel without turning about its axis: hub carrier, brake, shares of springs."""
+    links: dict[Name, CurveLink] = Field(default_factory=dict)
+    """Arms and rods by name; of one that is not here a share must be in the carrier, the rest in the chassis."""
 
 
 class NoPoints(Section):
@@ -122,9 +126,18 @@ class Curves(Section):
     @property
     def steers_left(self) -> bool:
         """Whether the wheels turn to the left as the rack moves to the left."""
-        turned = self.of(Side("front", "left", 1.0)).rotations[:, :, 1, 0]  # of the wheel's forward axis to the left
-        i = int(np.argmin(np.abs(self.table.travel)))
-        return bool(turned[i, -1] > turned[i, 0])
+        return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
+
+    def steered_angle(self, rack: float) -> float:
+        """Mean angle of both wheels at a travel of the rack to either side, rad.
+
+        Parameters
+        ----------
+        rack : float
+            m.
+        """
+        steer = CubicSpline(*self._steer(self.of(Side("front", "left", 1.0))))
+        return 0.5 * abs(float(steer(rack) - steer(-rack)))
 
     @property
     def compressions(self) -> tuple[float, float]:
@@ -167,8 +180,8 @@ class Curves(Section):
         levers = []
         for side in sides(axle):
             own, w = travels[side.name], side.wheel
-            curves = self.of(side)
-            over, curves = self._over(b, side, curves, travels)
+            rigid = self.of(side)
+            over, curves = self._over(b, side, rigid, travels)
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
@@ -186,6 +199,8 @@ class Curves(Section):
                 com=com,
                 inertia=[share * value for value in part.inertia],
             )
+            for name, link in self.bodies.links.items():
+                link.build(b, side, name, centre, rigid, over if self.table.second_name else [own])
             plain = own.affine * -1.0 + self.spring_length, self.spring_length
             spring = _number(b, curves, over, "spring_length", f"length of spring {w}") or plain
             damper = _number(b, curves, over, "damper_length", f"length of damper {w}")
@@ -220,9 +235,12 @@ class Curves(Section):
 
     def _steer_per_rack(self, curves: WheelCurves) -> float:
         """Of a wheel at the drawing, rad/m."""
-        i = int(np.argmin(np.abs(self.table.travel)))
-        rotations = curves.rotations[i]
-        return float(CubicSpline(curves.second, np.arctan2(rotations[:, 1, 0], rotations[:, 0, 0]))(0.0, 1))
+        return float(CubicSpline(*self._steer(curves))(0.0, 1))
+
+    def _steer(self, curves: WheelCurves) -> tuple[Array, Array]:
+        """Travels of the rack, m, and the steer angles there of a wheel at the drawing, rad."""
+        rotations = curves.rotations[int(np.argmin(np.abs(self.table.travel)))]
+        return curves.second, np.arctan2(-rotations[:, 0, 1], rotations[:, 1, 1])
 
 
 def _number(

@@ -1,0 +1,91 @@
+"""Arms and rods of an axle by its curves: bodies that turn as their outer ends, points of the carrier, ask for.
+
+A share of an arm in the carrier that weighs right has too much kinetic energy over the travel of the wheel: that of m/2
+at the end of a uniform rod, which has that of m/3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from mbs.model.coordinate import Coordinate
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.part import Part
+from mbs.vehicle.quantities import Point
+from mbs.vehicle.section import Section
+from mbs.vehicle.side import Side
+from mbs.vehicle.suspensions.curve_poses import WheelCurves
+
+Array = NDArray[np.float64]
+
+SHORTEST = 0.05  # m
+
+
+class LinkPoints(Section):
+    """Ends of a link, on the left side."""
+
+    inner: Point
+    """On the chassis."""
+    second_inner: Point | None = None
+    """The other one on the chassis of an arm, which turns about the axis through both."""
+    outer: Point
+    """On the carrier."""
+
+    def foot(self) -> Array:
+        """Where the link turns: its inner end, or the point of the axis next to its outer end, m."""
+        inner = np.array(self.inner)
+        along = np.subtract(self.second_inner or self.inner, inner)
+        return np.asarray(inner + along * (along @ (np.array(self.outer) - inner)) / max(along @ along, SHORTEST**2))
+
+    def faults(self) -> Iterator[str]:
+        """The link has a length."""
+        length = float(np.linalg.norm(np.array(self.outer) - self.foot()))
+        if length < SHORTEST:
+            what = "the axis of both inner ends" if self.second_inner else self.key("inner")
+            yield f"{self.key('outer')} is {length:.3g} m from {what}; it must be {SHORTEST:g} m or more."
+
+
+class CurveLink(Part):
+    """Arm or rod between chassis and carrier; one without a second inner end does not turn about its own line."""
+
+    points: LinkPoints
+    """Ends."""
+
+    def build(
+        self, b: CarBuilder, side: Side, name: str, centre: Array, curves: WheelCurves, over: Sequence[Coordinate]
+    ) -> None:
+        """Add the body on the chassis.
+
+        Parameters
+        ----------
+        name : str
+            Of the link.
+        centre : ndarray, shape (3,)
+            Of the wheel as drawn, m.
+        curves : WheelCurves
+            Of the wheel that it carries, without compliance: what gives are bushes of small mass.
+        over : sequence of Coordinate
+            What they are functions of.
+        """
+        drawn = self.points.foot().tolist(), self.points.outer, self.com
+        foot, outer, com = np.array([side.point(point) for point in drawn])
+        to = curves.centres + curves.rotations @ (outer - centre) - foot
+        to = to if len(over) == 2 else to[:, 0]
+        lengths = np.linalg.norm(outer - foot) * np.linalg.norm(to, axis=-1)
+        shortest = np.concatenate([np.cross(outer - foot, to), (lengths + to @ (outer - foot))[..., None]], axis=-1)
+        rotations = Rotation.from_quat(shortest.reshape(-1, 4)).as_matrix().reshape(*to.shape, 3)
+        b.m.tabled_body(
+            f"{name} {side.wheel}",
+            base=b.chassis.frame,
+            parameters=over,
+            axes=[curves.travel, curves.second][: len(over)],
+            places=foot + rotations @ (com - foot),
+            rotations=rotations,
+            mass=self.mass,
+            com=com,
+            inertia=self.inertia,
+        )
