@@ -19,8 +19,6 @@ class Option(NamedTuple):
         Whether a value is one.
     words : str
         What a value must be.
-    text : str
-        What it does.
     """
 
     good: Callable[[Any], bool]

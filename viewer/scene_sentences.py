@@ -53,8 +53,6 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
 
     Parameters
     ----------
-    scene : mapping
-        What was checked.
     error : ValidationError
         What pydantic found in it.
     """

@@ -71,8 +71,6 @@ class Costs:
         What a capped step left, m.
     interrupted : array of bool
         Whether the system took the processor away during the step.
-    refused : list of str
-        Messages of refused steps.
     worst : list of Worst
         By time without interruption, then by iterations.
     kinds : str
@@ -115,10 +113,6 @@ def drive(
         Start values beside the place.
     step : float
         Communication and inner step, s.
-    seconds : float
-        Simulated.
-    targets : sequence of Target
-        What is driven at.
     progress : callable
         Gets the share done.
     """

@@ -44,8 +44,6 @@ class Shown:
     ----------
     name : str
         Of the first of them.
-    names : sequence of str
-        All.
     variable : Variable
         That of the first car that has it.
     starts : mapping of str to list of float

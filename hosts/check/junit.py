@@ -28,8 +28,6 @@ class Case:
         Of the check, or the signal.
     verdict : str
         ``good``, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
-    words : str
-        What was found.
     seconds : float
         How long it took.
     """

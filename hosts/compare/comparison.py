@@ -54,8 +54,6 @@ def compare(
 
     Parameters
     ----------
-    curves : mapping of str to Curve
-        Of these signals.
     longest_delay : float
         The one that is looked for, s.
     skip : float

@@ -48,8 +48,6 @@ class Task:
     ----------
     inputs, outputs : dict of str to Signal
         From time 0 on; outputs of windows one window after the other.
-    stretches : list of Stretch
-        What is driven.
     step : float
         s.
     slopes : bool

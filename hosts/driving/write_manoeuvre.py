@@ -85,11 +85,6 @@ def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
     ----------
     file : Path
         The state goes beside it, with the suffix ``.state``.
-
-    Returns
-    -------
-    list of Path
-        What was written.
     """
     files = [file]
     lines = [f"# start: {name}={text_of(value)}" for name, value in manoeuvre.start.items()]

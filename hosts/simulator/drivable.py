@@ -24,8 +24,6 @@ def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], draw
 
     Parameters
     ----------
-    path : Path
-        The FMU.
     inputs, outputs : sequence of str
         Names, after aliases.
     drawn : bool

@@ -27,8 +27,6 @@ class CarSettings:
         Communication step, s.
     paced : bool
         False: as fast as it goes.
-    record : Path, optional
-        Folder of the recording.
     interval : float, optional
         Between recorded outputs, s; by default see `hosts.recordings.recorded_columns`.
     priority : bool

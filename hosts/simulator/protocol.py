@@ -124,8 +124,6 @@ def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
     ----------
     data : str or bytes
         As it came.
-    inputs : collection of str
-        That the car has.
 
     Raises
     ------

@@ -31,8 +31,6 @@ class Work:
     ----------
     fmu : str
         File name of the FMU.
-    guid, sha256 : str
-        Of the FMU.
     program : str
         Digest of the program that makes the runs.
     measures : tuple of StudyMeasure

@@ -35,8 +35,6 @@ class RunWishes:
         As for the command run.
     stop_time, step : float, optional
         s.
-    wishes : Wishes
-        What is set in it.
     """
 
     manoeuvre: str | None

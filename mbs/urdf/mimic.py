@@ -28,8 +28,6 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
         Those that move.
     given : collection of str
         Joints that the user places or moves.
-    what : str
-        Name of the file.
 
     Raises
     ------

@@ -17,8 +17,6 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 
     Parameters
     ----------
-    first, second : str
-        Their names.
     what : str
         Stands between them, as in "the tie rod".
     least : float
@@ -36,8 +34,6 @@ def off_line(
 
     Parameters
     ----------
-    ends : (str, str)
-        The two others.
     what : str
         What is between point and line, as in "the steering arm".
     line : str
@@ -63,8 +59,6 @@ def farther(
     ----------
     axis : {"x", "y", "z"}
         Of the drawing.
-    first, second : str
-        The point that is farther, and the other.
     way : str
         Where the first must be, as in "above".
     what : str

@@ -29,8 +29,6 @@ class Devices:
     ----------
     hands : Hands
         Takes what devices want, as source ``device NAME``.
-    inputs : collection of str
-        Of the car.
     constants : mapping of str to float
         Of the car; `vehicle.steering_wheel_angle_max` is used.
     tell : callable
@@ -78,8 +76,6 @@ class Devices:
         ----------
         device : str
             Its `id`.
-        name : str
-            Of the input.
         mapping : mapping or None
             Fields of `InputMapping`; None: the device does not drive this input.
 

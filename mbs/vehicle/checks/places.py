@@ -78,13 +78,7 @@ def place_oddities(car: CarContent) -> Iterator[str]:
 
 
 def parts_of(section: Section) -> list[Part]:
-    """Rigid parts of the left side in a section.
-
-    Parameters
-    ----------
-    section : Section
-        A car or a part of one.
-    """
+    """Rigid parts of the left side in a section."""
     return [inner for inner in sections_of(section) if isinstance(inner, Part)]
 
 

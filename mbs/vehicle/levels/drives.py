@@ -28,8 +28,6 @@ class Drive:
 
     Parameters
     ----------
-    name : str
-        Of its rows.
     duration : float
         s.
     inputs : dict of str to signal
@@ -98,8 +96,6 @@ def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
         CSV with the column ``time``, s, and one of each input; linear in between.
     speed : float
         At the start, m/s.
-    inputs : collection of str
-        That the car has.
 
     Raises
     ------

@@ -17,11 +17,6 @@ Array = NDArray[np.float64]
 class StandingModel:
     """Base of what puts a compiled model to other places.
 
-    Parameters
-    ----------
-    model : Model
-        With all its parts.
-
     Attributes
     ----------
     evaluator : Evaluator

@@ -59,13 +59,7 @@ class Compliance(Section):
     """Damping over stiffness."""
 
     def fits(self, second: str) -> Iterator[str]:
-        """A sentence where the table of the axle leaves no place for it.
-
-        Parameters
-        ----------
-        second : str
-            Second variable of the table.
-        """
+        """A sentence where the table of the axle leaves no place for it."""
         if second == OTHER:
             yield f"{self.path} is there, but the table has {OTHER}; an axle whose wheels move each other has none."
         for name in ("per_lateral_force", "per_longitudinal_force"):

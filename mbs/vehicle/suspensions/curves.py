@@ -89,8 +89,6 @@ class Curves(Section):
 
         Parameters
         ----------
-        folder : Path
-            Of the car.
         hub : Hub
             The left wheel as drawn.
 
