@@ -17,8 +17,6 @@ class Option(NamedTuple):
     ----------
     good : callable
         Whether a value is one.
-    words : str
-        What a value must be.
     """
 
     good: Callable[[Any], bool]

@@ -39,8 +39,6 @@ def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: st
 
     Parameters
     ----------
-    sources : Path
-        The unpacked folder.
     folder, name
         As for `compile_library`.
     """

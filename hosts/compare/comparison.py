@@ -22,8 +22,6 @@ class ComparedSignal:
     ----------
     deviations : Deviations
         At the samples of the log, as they are: no delay is taken out.
-    alignment : Alignment
-        Of this signal alone.
     """
 
     measured: Signal

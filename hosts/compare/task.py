@@ -54,8 +54,6 @@ class Task:
         Whether inputs change during a step.
     parameters : dict of str to Variable
         Of the FMU, by our names.
-    set_values : dict
-        Start values that the user has set.
     windowed : bool
         Whether the stretches are windows, each from its measured state.
     scales : dict of str to Signal

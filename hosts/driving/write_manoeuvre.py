@@ -28,8 +28,6 @@ def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None
     ----------
     file : Path
         The state goes beside it, with the suffix ``.state``.
-    comment : str
-        A line at the beginning.
     """
     lines = [f"# {comment}"] if comment else []
     lines.append(f"stop_time = {manoeuvre.stop_time!r}")

@@ -33,8 +33,6 @@ class CarSettings:
         Whether to ask for real-time priority; what was got is an event.
     world : str, optional
         What a recording calls the world.
-    seed : int, optional
-        Of the driver, for the recording.
     """
 
     fmu: Path

@@ -33,8 +33,6 @@ class Work:
         File name of the FMU.
     program : str
         Digest of the program that makes the runs.
-    measures : tuple of StudyMeasure
-        Of manoeuvres.
     columns : tuple of str
         All measures of the table.
     aliases : Aliases, optional

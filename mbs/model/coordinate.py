@@ -35,8 +35,6 @@ class Coordinate:
 
     Parameters
     ----------
-    index : int
-        Number of the full coordinate.
     unit : str
         Unit of its value, rad.
     """

@@ -329,11 +329,6 @@ class Interface(Body):
         ----------
         components : array_like, shape (3,)
             Earth axes in the reference configuration.
-
-        Returns
-        -------
-        AffineVector
-            The vector as expressions of coordinates.
         """
         v = vector(components, 3, f"a vector of interface '{self.name}'")
         carried = self.owner.vector(v)

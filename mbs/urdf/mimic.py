@@ -24,8 +24,6 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
 
     Parameters
     ----------
-    joints : mapping of str to yourdfpy joint
-        Those that move.
     given : collection of str
         Joints that the user places or moves.
 

@@ -77,13 +77,7 @@ def farther(
 
 
 def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
-    """The steering axis of a wheel stands nearly upright.
-
-    Parameters
-    ----------
-    lower, upper : str
-        Two points of the axis.
-    """
+    """The steering axis of a wheel stands nearly upright."""
     x, y, z = np.subtract(getattr(points, upper), getattr(points, lower))
     if z <= 0.0:
         return  # `farther` says so

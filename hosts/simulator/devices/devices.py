@@ -33,8 +33,6 @@ class Devices:
         Of the car; `vehicle.steering_wheel_angle_max` is used.
     tell : callable
         Takes sentences for people, from any thread.
-    folder : path
-        Of the mapping files.
     torque : callable or None
         Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
         run. Called from a thread of each motor. Instead of a callable None: the car does not have it.

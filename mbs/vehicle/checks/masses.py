@@ -68,8 +68,6 @@ def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[f
     ----------
     car : CarContent
         Each number of it is in its range.
-    payloads : bool
-        Whether with the payloads.
     """
     found = [(car.chassis.mass, car.chassis.com)]
     found += [(load.mass, load.point) for load in car.payload.values() if payloads]

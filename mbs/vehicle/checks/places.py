@@ -83,13 +83,7 @@ def parts_of(section: Section) -> list[Part]:
 
 
 def drawn_points(section: Section) -> dict[str, Point]:
-    """Points of the left side in the tables ``points`` of a section, by key path.
-
-    Parameters
-    ----------
-    section : Section
-        An axle or a part of one.
-    """
+    """Points of the left side in the tables ``points`` of a section, by key path."""
     tables = [inner for inner in sections_of(section) if inner.path.endswith(".points")]
     return {
         table.key(name): point

@@ -53,11 +53,6 @@ class Drive:
 def own_drives(system: System) -> list[Drive]:
     """The drives that a car can do by itself: a slalom, braking, and a kerb.
 
-    Parameters
-    ----------
-    system : System
-        Of the rigid car.
-
     Returns
     -------
     list of Drive

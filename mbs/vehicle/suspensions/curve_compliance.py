@@ -86,8 +86,6 @@ class Compliance(Section):
         ----------
         centre : (float, float, float)
             Of the left wheel, m.
-        part : Part
-            The left carrier.
         """
         chassis, slide = b.chassis.frame, self.longitudinal_per_longitudinal_force
         lean, way = -self.camber_per_lateral_force, self.lateral_per_lateral_force
