@@ -23,13 +23,7 @@ Point = tuple[float, float, float]
 
 
 def place_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    """
+    """A sentence for each fault."""
     for axle in (car.front, car.rear):
         yield from _suspension(axle)
         yield from _parts(axle)
@@ -52,13 +46,7 @@ def place_faults(car: CarContent) -> Iterator[str]:
 
 
 def place_oddities(car: CarContent) -> Iterator[str]:
-    """A sentence for each thing that is odd.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    """A sentence for each thing that is odd."""
     of_the_body = _points_of_the_body(car)
     points = drawn_points(car.front) | drawn_points(car.rear) | of_the_body
     points |= {part.key("com"): part.com for part in parts_of(car)}

@@ -13,13 +13,7 @@ FACTOR = 1.6  # the estimate leaves out the angle of the tie rods and the inclin
 
 
 def steering_oddities(car: CarContent) -> Iterator[str]:
-    """Sentences where a table is stretched, and where the angle at full travel is not that of the rack on its arms.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    """Sentences where a table is stretched, and where the angle at full travel is not that of the rack on its arms."""
     table = car.steering.by_table if isinstance(car.steering, RackByAngle) else None
     if isinstance(car.steering, RackByAngle) and table is not None and abs(table.factor - 1.0) > SAME:
         turn = 2.0 * math.pi * table.slope
