@@ -37,11 +37,6 @@ def bar(*things: Any, **options: Any) -> tqdm[Any]:
     ----------
     *things, **options
         Of `tqdm.tqdm`.
-
-    Returns
-    -------
-    tqdm
-        The bar.
     """
     from tqdm import tqdm
 

@@ -20,13 +20,6 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
     An environment variable names the cache; else it is a folder where the system keeps caches. Where none can be
     written, the folder is a temporary one that goes when this process ends.
 
-    Parameters
-    ----------
-    parts : str
-        Names of folders inside the cache.
-    variable : str
-        Of the environment.
-
     Raises
     ------
     FileError

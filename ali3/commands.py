@@ -16,8 +16,6 @@ class Command(NamedTuple):
         Imported when the command runs; its ``main(arguments, prog)`` returns the exit code.
     extra : str
         Of the installation, which brings the packages of the command; empty if it needs none.
-    text : str
-        One line of help.
     """
 
     name: str

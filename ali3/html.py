@@ -28,8 +28,6 @@ def page(
 
     Parameters
     ----------
-    title : str
-        Any text.
     body : str
         Markup, in which texts are escaped.
     style : str, optional
@@ -82,8 +80,6 @@ def report(title: str, body: str, style: str = "") -> str:
 
     Parameters
     ----------
-    title : str
-        Any text.
     body : str
         Markup, in which texts are escaped.
     style : str, optional

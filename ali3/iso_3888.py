@@ -47,10 +47,6 @@ def lanes(track: Track, vehicle_width: float, x_start: float = 0.0) -> tuple[Gat
     x_start : float
         Where the first lane begins, m.
 
-    Returns
-    -------
-    tuple of Gate
-
     Notes
     -----
     Lanes of ISO 3888-1 are 1.1, 1.2 and 1.3 times as wide as the vehicle and 0.25 m more; the second one is taken 3.5 m

@@ -20,10 +20,6 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
     ----------
     name : str
         Which is not among them.
-    known : iterable of str
-        All that there are.
-    most : int
-        Names that are returned.
     closeness : float
         Least share of characters that two spellings have in common, see `difflib.get_close_matches`; 0 to 1.
     """

@@ -144,8 +144,6 @@ def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names
 
     Parameters
     ----------
-    options : argparse.Namespace
-        What the user gave.
     names : sequence of str
         Of attributes of `options`.
     """

@@ -92,13 +92,7 @@ def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
 
 
 def chosen(annotation: Any, data: Any) -> Table | None:
-    """The table among those of a type that the data name by `kind`.
-
-    Parameters
-    ----------
-    data : object
-        What the file has there.
-    """
+    """The table among those of a type that the data name by `kind`."""
     found = templates(annotation)
     if len(found) == 1:
         return found[0]
@@ -153,13 +147,7 @@ def holds_keys(top: Any, path: Sequence[str], data: Any) -> bool:
 
 
 def words(annotation: Any) -> str:
-    """What a value of a type is, in words.
-
-    Parameters
-    ----------
-    annotation : type
-        With what is annotated to it.
-    """
+    """What a value of a type is, in words."""
     title = title_of(annotation)
     if title:
         return title
@@ -214,8 +202,6 @@ def item_of(data: Any, key: str) -> Any:
 
     Parameters
     ----------
-    data : object
-        Table or list.
     key : str
         Key, or place from 0.
     """

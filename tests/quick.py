@@ -1,4 +1,4 @@
-"""Cases of a sweep, of which few are in every run of the tests and the others only in the slow ones."""
+"""Cases of a sweep, of which few are in more runs of the tests than the others."""
 
 from __future__ import annotations
 
@@ -8,6 +8,13 @@ from typing import Any
 import pytest
 
 
-def quick(few: Collection[Any], cases: Iterable[Any]) -> list[Any]:
-    """`cases` as `pytest.mark.parametrize` takes them; those that are not in `few` carry the marker slow."""
-    return [case if case in few else pytest.param(case, marks=pytest.mark.slow) for case in cases]
+def quick(few: Collection[Any], cases: Iterable[Any], others: str = "slow") -> list[Any]:
+    """`cases` as `pytest.mark.parametrize` takes them; those that are not in `few` carry the marker `others`.
+
+    A slow test whose other cases repeat it on more cars or systems takes "proof"; a case of several values is a tuple.
+    """
+    mark = getattr(pytest.mark, others)
+    return [
+        case if case in few else pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=mark)
+        for case in cases
+    ]

@@ -26,11 +26,6 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
     out : Path, optional
         Folder of the bundle; by default `bundle/` beside this file.
 
-    Returns
-    -------
-    Path
-        The script.
-
     Raises
     ------
     RuntimeError

@@ -25,8 +25,6 @@ def html_of(
         As `viewer.page_file.write_page` takes them.
     height : int
         Of the frame, pixels.
-    options : mapping, optional
-        Of the player.
     most : int
         Times that a recording is thinned to.
 

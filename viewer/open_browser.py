@@ -14,11 +14,6 @@ from ali3 import html
 def open_in_browser(path: str | os.PathLike[str]) -> bool:
     """Show a page in the user's browser.
 
-    Parameters
-    ----------
-    path : path
-        The HTML file.
-
     Returns
     -------
     bool

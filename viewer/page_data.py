@@ -20,11 +20,6 @@ _LARGEST_FLOAT32 = 3e38
 def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> dict[str, Any]:
     """What the script of the page reads.
 
-    Parameters
-    ----------
-    options : mapping
-        Of the player.
-
     Returns
     -------
     dict

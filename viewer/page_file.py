@@ -21,8 +21,6 @@ class WrittenPage(NamedTuple):
 
     Parameters
     ----------
-    path : Path
-        The file.
     size : int
         Bytes.
     notes : list of str

@@ -33,8 +33,6 @@ def pictures(
         s.
     size : (int, int)
         Pixels.
-    camera : str, optional
-        Its name.
     options : mapping, optional
         Of the player; ``controls`` is false if they do not say otherwise.
     most : int
@@ -78,10 +76,6 @@ def write_picture(
         s; one outside the recordings is refused.
     size : (int, int)
         Pixels.
-    camera : str, optional
-        Its name.
-    options : mapping, optional
-        Of the player.
 
     Returns
     -------

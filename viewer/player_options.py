@@ -17,10 +17,6 @@ class Option(NamedTuple):
     ----------
     good : callable
         Whether a value is one.
-    words : str
-        What a value must be.
-    text : str
-        What it does.
     """
 
     good: Callable[[Any], bool]

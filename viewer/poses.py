@@ -43,8 +43,6 @@ class FramePoses:
 
     Parameters
     ----------
-    scene : mapping
-        That was checked.
     columns : mapping of str to array of shape (n,)
         With all that the frames read.
     count : int

@@ -25,25 +25,13 @@ def columns_of(part: Mapping[str, Any]) -> list[str]:
 
 
 def pose_columns(scene: Mapping[str, Any]) -> list[str]:
-    """Columns that frames and flexible parts read, each once.
-
-    Parameters
-    ----------
-    scene : mapping
-        That was checked.
-    """
+    """Columns that frames and flexible parts read, each once."""
     parts = [*scene["frames"].values(), *(scene.get("flexible") or [])]
     return list(dict.fromkeys(name for part in parts for name in columns_of(part)))
 
 
 def all_columns(scene: Mapping[str, Any]) -> list[str]:
-    """Columns that any part of a scene reads, each once.
-
-    Parameters
-    ----------
-    scene : mapping
-        That was checked.
-    """
+    """Columns that any part of a scene reads, each once."""
     return list(
         dict.fromkeys([*pose_columns(scene), *(name for a in scene.get("arrows") or [] for name in columns_of(a))])
     )
@@ -54,8 +42,6 @@ def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tu
 
     Parameters
     ----------
-    scene : mapping
-        That was checked.
     fault : callable
         Why a column cannot be used, as the end of a sentence; None if it can.
 

@@ -49,15 +49,7 @@ _CHOICES: dict[tuple[str | int, ...], str] = {
 
 
 def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
-    """A sentence for each fault; a key that is misspelt is not missing besides.
-
-    Parameters
-    ----------
-    scene : mapping
-        What was checked.
-    error : ValidationError
-        What pydantic found in it.
-    """
+    """A sentence for each fault; a key that is misspelt is not missing besides."""
     items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
     lengths: dict[tuple[str | int, ...], int] = {}
     for item in items:

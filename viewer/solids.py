@@ -176,10 +176,6 @@ def swept(centres: Array, across: Array, other: Array, radius: float, sides: int
         Of its rings.
     across, other : array of shape (n, 3)
         Unit vectors of the plane of each ring; their vector product points back along the curve.
-    radius : float
-        Of the tube.
-    sides : int
-        Points of a ring.
     """
     turn = 2.0 * np.pi * np.arange(sides) / sides
     normals = across[:, None] * np.cos(turn)[:, None] + other[:, None] * np.sin(turn)[:, None]

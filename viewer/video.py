@@ -43,8 +43,6 @@ class WrittenFilm(NamedTuple):
 
     Parameters
     ----------
-    path : Path
-        The file.
     size : int
         Bytes.
     frames : int

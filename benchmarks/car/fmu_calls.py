@@ -40,8 +40,6 @@ def measure(
     ----------
     kind : str
         ``native`` or ``python``.
-    folder : Path
-        To unpack it in.
     steps, repeats, instances : int
         Calls per timed run, timed runs per figure, instances at once.
 

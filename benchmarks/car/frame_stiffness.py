@@ -42,8 +42,6 @@ def stiffness(car: Car, modes: int = 4) -> Stiffness:
     ----------
     car : Car
         With a flexible frame.
-    modes : int
-        How many frequencies.
     """
     flexible = car.flexible_frame
     model = flexible.model

@@ -83,13 +83,7 @@ MEASURES = (
 
 
 def measure(car: Car) -> dict[str, float]:
-    """All `MEASURES` of a car, by name.
-
-    Parameters
-    ----------
-    car : Car
-        Of a file.
-    """
+    """All `MEASURES` of a car, by name."""
     system = compile(car.model())
     return _weight(car, system) | _modes(car) | _axles(car) | steady_turn(car, system) | _straight(system)
 

@@ -71,8 +71,6 @@ class Costs:
         What a capped step left, m.
     interrupted : array of bool
         Whether the system took the processor away during the step.
-    refused : list of str
-        Messages of refused steps.
     worst : list of Worst
         By time without interruption, then by iterations.
     kinds : str
@@ -113,8 +111,6 @@ def drive(
     ----------
     start : mapping
         Start values beside the place.
-    seconds : float
-        Simulated.
     targets : sequence of Target, optional
         What is driven at; None where nobody drives, as the FMU's own guide does.
     step : float

@@ -44,8 +44,6 @@ class Shown:
     ----------
     name : str
         Of the first of them.
-    names : sequence of str
-        All.
     variable : Variable
         That of the first car that has it.
     starts : mapping of str to list of float
@@ -76,13 +74,7 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
 
 
 def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
-    """The variables of all cars in the order of the first, without repetition for wheels and axles.
-
-    Parameters
-    ----------
-    found : mapping of str to sequence of Variable
-        By car.
-    """
+    """The variables of all cars in the order of the first, without repetition for wheels and axles."""
     merged: dict[tuple[str, str, str], Shown] = {}
     for car, table in found.items():
         present = {v.name for v in table}
@@ -99,13 +91,7 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
 
 
 def overview(found: Mapping[str, Sequence[Variable]]) -> str:
-    """A short table: a row for each part of the cars.
-
-    Parameters
-    ----------
-    found : mapping of str to sequence of Variable
-        By car.
-    """
+    """A short table: a row for each part of the cars."""
     groups: dict[tuple[str, str], list[Shown]] = {}
     for s in shown(found):
         part = s.name.rpartition(".")[0] if s.variable.causality == "parameter" else s.name.partition(".")[0]
@@ -119,13 +105,7 @@ def overview(found: Mapping[str, Sequence[Variable]]) -> str:
 
 
 def full(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
-    """A table for each causality by its name; start values of every car beside each other.
-
-    Parameters
-    ----------
-    found : mapping of str to sequence of Variable
-        By car.
-    """
+    """A table for each causality by its name; start values of every car beside each other."""
     made = {}
     for causality, title in _TITLES.items():
         members = [s for s in shown(found) if s.variable.causality == causality]

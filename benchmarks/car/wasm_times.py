@@ -30,8 +30,6 @@ def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Mea
     ----------
     fmu : Path
         With the libraries of this machine and of wasm32.
-    folder : Path
-        To unpack it in.
     stack : ExitStack
         Closes what has to be closed.
 

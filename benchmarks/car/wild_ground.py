@@ -20,13 +20,7 @@ RAMP_LENGTH, RAMP_WIDTH, FRICTION = 8.0, 6.0, 0.9
 
 
 def write_ground(file: Path) -> list[Target]:
-    """Write the road file; the same bytes each time.
-
-    Returns
-    -------
-    list of Target
-        The ramps.
-    """
+    """Write the road file; the same bytes each time."""
     n = round(2.0 * EDGE / SPACING)
     x = SPACING * np.arange(n) - EDGE
     rough = np.random.Generator(np.random.PCG64(3)).normal(0.0, ROUGHNESS, (n, n))

@@ -42,8 +42,6 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
 
     Parameters
     ----------
-    rows : sequence of dict
-        Of one scene.
     lost : float
         Error, in the unit of the case, from which a run has no point.
     file : Path

@@ -41,8 +41,6 @@ class Animation:
 
     Parameters
     ----------
-    title : str
-        What is seen.
     record : callable
         Runs the scene.
     begin, end : float

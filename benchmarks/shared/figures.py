@@ -18,8 +18,6 @@ class Again:
 
     Parameters
     ----------
-    page : str
-        Its path in the repository.
     text : str
         Rows of a Markdown table, or the sentence that the page must have.
     table : str

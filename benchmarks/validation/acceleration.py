@@ -33,10 +33,6 @@ class FromRest:
 
     Parameters
     ----------
-    car : str
-        Of the package.
-    settings : dict of str to float
-        Parameters of its FMU.
     times : dict of float to Published
         By the speed that is reached, km/h.
     """

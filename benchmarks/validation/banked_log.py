@@ -19,11 +19,6 @@ def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: floa
         Of each row of the log, m/s2, positive to the left.
     mass : float
         Of the car, kg. The loads of the wheels on a banked road are not in this force.
-
-    Returns
-    -------
-    Path, Path
-        Log and alias file.
     """
     packed = log.suffix == ".gz"
     text = gzip.decompress(log.read_bytes()).decode() if packed else log.read_text(encoding="utf-8")

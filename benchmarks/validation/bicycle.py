@@ -63,8 +63,6 @@ class Model:
 
     Parameters
     ----------
-    unknowns : tuple of Unknown
-        What is fitted.
     forces : callable or None
         Lateral forces of both axles over the mass from slip angles (front, rear), ax and the numbers; None: the yaw
         rate follows the steering angle at once, by ``understeer``.
@@ -234,8 +232,6 @@ def heun(
         Their rates, m/s2 and rad/s2, at a sample of the windows.
     begins : ndarray of shape (w,)
         Samples at which windows begin.
-    sets : int
-        Sets of numbers.
 
     Returns
     -------

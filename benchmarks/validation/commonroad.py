@@ -62,8 +62,6 @@ def compared(name: str, manoeuvre: str) -> Compared:
 
     Parameters
     ----------
-    name : str
-        Of the car.
     manoeuvre : str
         Of `MANOEUVRES`.
     """

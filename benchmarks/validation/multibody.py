@@ -33,8 +33,6 @@ class Judged:
         Windows that were not fitted and departed: their begin, s, and the signal.
     bins : list of dict
         Deviations by speed and lateral acceleration in those windows.
-    notes : list of str
-        What the command said.
     time, path : ndarray of shape (n,)
         Yaw rate of the run without restart, s and rad/s.
     predicted : tuple of ndarray of shape (w, m)
@@ -60,8 +58,6 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
     ----------
     car : str
         What ``ali3 compare`` takes: an FMU, or a car.
-    settings : dict of str to float
-        Parameters that are set.
     brief : bool
         Drive only the windows that were not fitted; `fitted` and `whole` are then NaN.
     """

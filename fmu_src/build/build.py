@@ -101,11 +101,6 @@ def build_fmu(
     names : Content, optional
         An alias file, as `ali3.alias_file.read_content` reads it: names, and units, of another program.
 
-    Returns
-    -------
-    Path
-        The FMU.
-
     Raises
     ------
     ValueError
@@ -217,15 +212,8 @@ class FmuBuilder:
         ----------
         kind : str
             One of `KINDS`.
-        platforms : sequence of str
-            Those that the kind can have.
         file : Path
             Replaced at once when all is done.
-
-        Returns
-        -------
-        Path
-            The file.
         """
         drawn = geometry_file(self._scene) if self._scene is not None else b""
         contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)

@@ -27,10 +27,6 @@ class BuiltCar:
 
     Parameters
     ----------
-    name : str
-        Of the car.
-    description : str
-        Of the car.
     systems : mapping of int to mbs.System
         By fidelity, ascending.
     files : mapping of str to bytes
@@ -61,10 +57,6 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
     fidelity : float, optional
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
         all that an FMU offers.
-
-    Returns
-    -------
-    BuiltCar
 
     Raises
     ------

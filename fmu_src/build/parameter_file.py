@@ -16,13 +16,7 @@ from fmu_src.variables.variables import Variable
 
 
 def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVariable] = ()) -> ParameterSet:
-    """All parameters of a table of variables.
-
-    Parameters
-    ----------
-    texts : sequence of TextVariable
-        Those that are text.
-    """
+    """All parameters of a table of variables."""
     chosen = [v for v in table if v.causality == "parameter" and v.start is not None]
     units = {v.unit: parse_unit(v.unit, foreign=bool(v.ours)) for v in chosen if not v.whole}
     definitions = {n: UnitDefinition(u.exponents, u.factor) for n, u in sorted(units.items())}

@@ -102,8 +102,6 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         Attributes and default experiment.
     table : sequence of Variable
         All variables; the place is the value reference.
-    reach : Dependencies
-        Which of them reach which outputs.
 
     Returns
     -------

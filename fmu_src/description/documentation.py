@@ -32,8 +32,6 @@ def documentation(
 
     Parameters
     ----------
-    name, description, version : str
-        Of the FMU.
     step_size : float
         Default step, s.
     paragraphs : sequence of str

@@ -36,10 +36,6 @@ def model_description_fmi3(
         All scalars, for units and types.
     reach : Dependencies
         Which variables of the table reach which outputs.
-
-    Returns
-    -------
-    bytes
     """
     own = {"fmiVersion": "3.0", "modelName": head.model_name, "instantiationToken": head.guid}
     root = ElementTree.Element("fmiModelDescription", own | about(head))

@@ -48,10 +48,6 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
 
     Parameters
     ----------
-    system : mbs.System
-        With its drawing.
-    frames : mapping of str to dict
-        Of the drawing.
     shared : sequence of (frame, place, frame, place)
         Points that frames share.
     """

@@ -15,15 +15,8 @@ def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str,
 
     Parameters
     ----------
-    part : mapping
-        Of a scene.
     moved : mapping of str to array of shape (3,)
         Place of the old origin in the new frame, m, by frame.
-
-    Returns
-    -------
-    dict
-        A new one.
     """
     found = dict(part)
     frame = part.get("frame")

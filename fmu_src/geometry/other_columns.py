@@ -22,10 +22,6 @@ def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) 
     named : mapping of str to Variable
         Variables that have another name, by ours. A scene is in SI units: what reads one that has another is left out,
         frames with a word in ``missing``.
-
-    Returns
-    -------
-    dict
     """
     odd = {ours for ours, v in named.items() if v.scale != 1.0}
     frames, missing = dict(scene["frames"]), list(scene["missing"])

@@ -23,8 +23,6 @@ def with_parameters(
     ----------
     roads : sequence of mapping
         Of the drawing; the first are those of the System in its order, or have their numbers.
-    system : mbs.System
-        Has the parameters.
     known : collection of str
         Names of the FMU's variables that are numbers.
 

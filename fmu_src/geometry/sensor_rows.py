@@ -35,13 +35,7 @@ class Body:
 
 
 class SensorRows:
-    """Rows of the sensors and bodies of a System.
-
-    Parameters
-    ----------
-    system : mbs.System
-        With a drawing.
-    """
+    """Rows of the sensors and bodies of a System."""
 
     def __init__(self, system: mbs.System) -> None:
         self._arrays = system.arrays

@@ -30,11 +30,6 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
         For the compiler's output.
     name : str
         Of the library, with its suffix.
-
-    Returns
-    -------
-    bytes
-        The library.
     """
     return _library(targets, _files(face, table), _INCLUDE, folder, name)
 
@@ -44,8 +39,6 @@ def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: st
 
     Parameters
     ----------
-    sources : Path
-        The unpacked folder.
     folder, name
         As for `compile_library`.
     """

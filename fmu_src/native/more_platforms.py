@@ -35,11 +35,6 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
 
-    Returns
-    -------
-    list of str
-        The platforms that were added.
-
     Raises
     ------
     ali3.errors.UserError

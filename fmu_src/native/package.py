@@ -194,8 +194,6 @@ def pack_native(
         The default experiment, then others.
     platforms : sequence of str
         Out of `fmu_src.native.platforms.TARGETS`.
-    file : Path
-        Where to.
     told : callable
         ``told(what, note)`` makes a context in which `what` is done.
     libraries : dict

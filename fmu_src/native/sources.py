@@ -28,11 +28,6 @@ def shell_files(face: str) -> list[Path]:
 def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
     """All sources as they lie in the FMU's folder ``sources``, headers too.
 
-    Parameters
-    ----------
-    table_c : str
-        The generated table.
-
     Returns
     -------
     dict of str to bytes

@@ -48,15 +48,8 @@ def c_table(
         32 hexadecimal digits.
     token : str
         GUID or instantiation token.
-    texts : sequence of TextVariable
-        Variables that are text.
     followers : sequence of int
         Per System the number of the one that computes what it leaves out; -1: none.
-
-    Returns
-    -------
-    str
-        C.
     """
     units = ["" if v.unit == "1" else f" {v.unit}" for v in table]
     uncomputed = [sum(1 << k for k in v.uncomputed) for v in table]
@@ -110,13 +103,7 @@ def _number(value: float | None, otherwise: str) -> str:
 
 
 def c_arrays(groups: Sequence[Array]) -> str:
-    """The part of `table.c` that FMI 3.0 adds.
-
-    Returns
-    -------
-    str
-        C.
-    """
+    """The part of `table.c` that FMI 3.0 adds."""
     items = [k for group in groups for k in group.items]
     numbers, time = references(groups)
     sizes = {time: 0} | {number: len(group.items) for number, group in zip(numbers, groups, strict=True)}

@@ -115,10 +115,6 @@ def parse_unit(name: str, foreign: bool = False) -> Unit:
     foreign : bool
         Whether ``h`` is an hour and ``g`` standard gravity, as other programs have them; in models they are not known.
 
-    Returns
-    -------
-    Unit
-
     Raises
     ------
     ValueError

@@ -239,13 +239,7 @@ def variable_table(
 
 
 def with_uncomputed(table: Sequence[Variable], metas: Sequence[Mapping[str, Any]]) -> tuple[Variable, ...]:
-    """The table with the fidelities at which outputs are not computed.
-
-    Parameters
-    ----------
-    metas : sequence of mapping
-        Of the System of each fidelity.
-    """
+    """The table with the fidelities at which outputs are not computed."""
     computed = [[entry.get("computed", True) for entry in meta["sensors"]] for meta in metas]
     return tuple(
         replace(v, uncomputed=tuple(k for k, sensors in enumerate(computed) if not sensors[v.index]))

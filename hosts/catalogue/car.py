@@ -55,10 +55,6 @@ class TestedCar:
 
     Parameters
     ----------
-    label : str
-        In the report.
-    path : Path
-        FMU.
     aliases : Aliases
         Our names for its variables.
     start : mapping of str to float, int, bool or str

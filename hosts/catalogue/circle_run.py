@@ -118,8 +118,6 @@ def drive_circle(
     ----------
     side : float
         1 to the left, -1 to the right.
-    ratio : float
-        Of the steering.
     progress : callable
         Called with the part that is done.
     """

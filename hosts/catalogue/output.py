@@ -100,13 +100,7 @@ def write_measures(
     outcomes: Mapping[str, Mapping[str, Outcome]],
     settings: Mapping[str, Mapping[str, float]],
 ) -> list[Path]:
-    """Write ``measures.csv`` and ``measures.json`` into a folder.
-
-    Returns
-    -------
-    list of Path
-        The files.
-    """
+    """Write ``measures.csv`` and ``measures.json`` into a folder."""
     table, record = out / "measures.csv", out / "measures.json"
     write_text(table, measures_csv(tests, outcomes))
     content = measures_record(tests, cars, outcomes, settings)

@@ -79,10 +79,6 @@ def perform(
     progress : callable
         Called with the part that is done, 0 to 1.
 
-    Returns
-    -------
-    TestRecord
-
     Raises
     ------
     HostError

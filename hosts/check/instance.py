@@ -26,8 +26,6 @@ class Finding:
     ----------
     verdict : str
         ``good``, ``note`` or ``bad``.
-    words : str
-        What was found.
     """
 
     check: str

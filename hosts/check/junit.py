@@ -24,12 +24,8 @@ class Case:
     ----------
     group : str
         What the line belongs to: the FMU, or the reference.
-    name : str
-        Of the check, or the signal.
     verdict : str
         ``good``, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
-    words : str
-        What was found.
     seconds : float
         How long it took.
     """

@@ -24,8 +24,6 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
     ----------
     given : Wishes
         What is set in it before.
-    out : Path, optional
-        Parameter set that is written.
     diff : Path, optional
         Parameter set of which only what is other is printed.
     show : bool

@@ -139,10 +139,6 @@ def check_references(
 
     Parameters
     ----------
-    path : Path
-        FMU.
-    place : Path
-        Table or folder.
     cases : list of Case
         Takes what was found, also before an error.
     bounds : sequence of (str, float)
@@ -195,8 +191,6 @@ def check_reference(
 
     Parameters
     ----------
-    path : Path
-        FMU.
     file : Path
         Table with a column time. Columns that are inputs or tunable parameters of the FMU drive it, as
         `hosts.driving.manoeuvre_table.read_table` says; those that are outputs are compared, `solver.*` where a bound
@@ -206,8 +200,6 @@ def check_reference(
     step : float, optional
         Communication step, s; by default that of the record beside the table, else of the FMU, else what divides the
         distance of the rows.
-    wishes : Wishes
-        What is set.
     bounds : sequence of (str, float)
         See `deviations`.
 

@@ -39,8 +39,6 @@ class Alignment:
         log. NaN where it cannot be found.
     drift, drift_error : float
         By how much the log's clock of this signal runs fast.
-    correlation : float
-        When aligned.
     explained : float
         Part of the squared residuals without a drift that the drift takes away.
     """
@@ -68,8 +66,6 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
         Measured and simulated.
     longest : float
         Largest delay that is looked for, s.
-    drift : bool
-        Whether a drift is looked for.
     """
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:

@@ -22,8 +22,6 @@ class ComparedSignal:
     ----------
     deviations : Deviations
         At the samples of the log, as they are: no delay is taken out.
-    alignment : Alignment
-        Of this signal alone.
     """
 
     measured: Signal
@@ -54,8 +52,6 @@ def compare(
 
     Parameters
     ----------
-    curves : mapping of str to Curve
-        Of these signals.
     longest_delay : float
         The one that is looked for, s.
     skip : float

@@ -34,12 +34,8 @@ class Crew:
 
     Parameters
     ----------
-    path : Path
-        FMU.
     step : float
         Communication step, s.
-    jobs : int
-        Processes.
     """
 
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:

@@ -48,11 +48,6 @@ class FoundForm:
 def find_form(path: Path, wish: Form) -> FoundForm:
     """Look at the first lines of a file.
 
-    Parameters
-    ----------
-    wish : Form
-        What is known of it.
-
     Raises
     ------
     HostError

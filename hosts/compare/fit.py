@@ -45,8 +45,6 @@ def fit(
 
     Parameters
     ----------
-    outputs : mapping of str to Signal
-        Samples that are compared.
     unknowns : sequence of Unknown
         Those of the FMU first.
     simulate : callable

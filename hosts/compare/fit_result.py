@@ -71,8 +71,6 @@ class Fit:
         Of the FMU, over the noise of the signals.
     samples, effective : float
         Number of samples, and as how many uncorrelated ones they count.
-    runs : int
-        Of the FMU.
     starts : list of Start
         One where only one was asked for; without those that the FMU refused.
     left_out : dict of str to float

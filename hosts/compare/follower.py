@@ -16,8 +16,6 @@ def demanded(signal: Signal, frequency: float, time: NDArray[np.float64]) -> NDA
 
     Parameters
     ----------
-    signal : Signal
-        What follows.
     frequency : float
         Of the follower, Hz.
     time : ndarray of shape (n,)

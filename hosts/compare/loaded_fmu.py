@@ -52,8 +52,6 @@ class LoadedFmu:
 
     Parameters
     ----------
-    path : Path
-        FMU.
     step : float
         Communication step, s.
 

@@ -76,8 +76,6 @@ class Log:
     ----------
     inputs, outputs : dict of str to Signal
         What drives the FMU, and what is compared with it.
-    notes : list of str
-        Sentences for the user.
     held : frozenset of str
         Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours.
     begun : dict of str to float, int, bool or str, optional

@@ -28,8 +28,6 @@ class Column:
 
     Parameters
     ----------
-    name : str
-        Of the column.
     unit : str, optional
         Without it that of the table's heading, else that of the FMU.
     time : str, optional

@@ -122,8 +122,6 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
 
     Parameters
     ----------
-    curve : Curve
-        Simulated.
     delay : float
         Of the signal, s.
     """

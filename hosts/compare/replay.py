@@ -89,8 +89,6 @@ class Replay(Closing):
 
     Parameters
     ----------
-    path : Path
-        FMU.
     aliases : Aliases
         Our names for its variables.
     step : float

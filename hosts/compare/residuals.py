@@ -34,8 +34,6 @@ class Residuals:
 
     Parameters
     ----------
-    outputs : mapping of str to Signal
-        Of the samples that are compared.
     unknowns : sequence of Unknown
         Those of the FMU first.
     noise : mapping of str to float

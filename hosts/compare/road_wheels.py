@@ -37,8 +37,6 @@ def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle
 
     Parameters
     ----------
-    path : Path
-        FMU.
     angle : Signal
         Of `mean_angle`.
 

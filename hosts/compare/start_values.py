@@ -124,10 +124,6 @@ def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tupl
 
     Parameters
     ----------
-    start : mapping
-        All start values.
-    measured : collection of str
-        Which of them were measured.
     point : tuple of float
         Of `reference_point`.
     """

@@ -23,8 +23,6 @@ def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], 
 
     Parameters
     ----------
-    path : Path
-        FMU.
     step : float
         Communication step, s.
 

@@ -48,16 +48,12 @@ class Task:
     ----------
     inputs, outputs : dict of str to Signal
         From time 0 on; outputs of windows one window after the other.
-    stretches : list of Stretch
-        What is driven.
     step : float
         s.
     slopes : bool
         Whether inputs change during a step.
     parameters : dict of str to Variable
         Of the FMU, by our names.
-    set_values : dict
-        Start values that the user has set.
     windowed : bool
         Whether the stretches are windows, each from its measured state.
     scales : dict of str to Signal

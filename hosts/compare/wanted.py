@@ -25,8 +25,6 @@ def wanted_parameters(
     ----------
     texts : sequence of str
         ``NAME`` or ``NAME=LOW:HIGH``.
-    variables : mapping of str to Variable
-        Parameters of the FMU.
     given : mapping of str to float, int, bool or str
         Values that the user sets: there the search begins.
 

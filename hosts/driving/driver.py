@@ -36,10 +36,6 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
     constants : mapping of str to float
         Constants of the FMU by name; see `CONSTANTS`.
 
-    Returns
-    -------
-    Driver
-
     Raises
     ------
     HostError

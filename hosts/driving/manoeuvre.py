@@ -100,8 +100,6 @@ def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
     ----------
     manoeuvre : Manoeuvre
         A key of its start values may be ``a | b``: the first of these names that there is.
-    names : collection of str
-        Variables that there are.
 
     Returns
     -------

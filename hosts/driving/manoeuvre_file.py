@@ -33,10 +33,6 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
         ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to begin with:
         ``file`` beside it, ``time``.
 
-    Returns
-    -------
-    Manoeuvre
-
     Raises
     ------
     HostError

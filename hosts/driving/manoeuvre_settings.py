@@ -28,8 +28,6 @@ def set_in(
         Not yet initialised.
     manoeuvre : Manoeuvre
         Its start values come first.
-    wishes : Wishes
-        Of the command line.
     fidelity : float, optional
         Of the option ``--fidelity``.
     theirs : callable

@@ -22,8 +22,6 @@ class RecordedRows:
         Outputs, read at the start.
     held : ndarray of shape (n,)
         Inputs at the start.
-    used : sequence of int
-        Which of them are set.
     straight : sequence of int
         Which of these go straight over a step.
     sizes : ndarray of shape (len(straight),)

@@ -28,8 +28,6 @@ def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None
     ----------
     file : Path
         The state goes beside it, with the suffix ``.state``.
-    comment : str
-        A line at the beginning.
     """
     lines = [f"# {comment}"] if comment else []
     lines.append(f"stop_time = {manoeuvre.stop_time!r}")
@@ -85,11 +83,6 @@ def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
     ----------
     file : Path
         The state goes beside it, with the suffix ``.state``.
-
-    Returns
-    -------
-    list of Path
-        What was written.
     """
     files = [file]
     lines = [f"# start: {name}={text_of(value)}" for name, value in manoeuvre.start.items()]

@@ -83,8 +83,6 @@ def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
 
     Parameters
     ----------
-    what : str
-        For messages.
     options : tuple of str
         Of the command, that say what is built.
 

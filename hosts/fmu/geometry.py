@@ -27,8 +27,6 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
 
     Parameters
     ----------
-    path : Path
-        FMU.
     settings : mapping of str to float, int, bool or str, optional
         What was set in it: a road of a file is drawn from the file that its parameter names, that of a world with the
         scenery that its record beside the file has.

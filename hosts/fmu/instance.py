@@ -44,8 +44,6 @@ class Instance:
 
     Parameters
     ----------
-    folder : Path
-        Where the FMU is unpacked.
     told : callable
         Takes status, category and text of each message.
     token : str, optional

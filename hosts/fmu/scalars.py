@@ -30,8 +30,6 @@ class Place:
 
     Parameters
     ----------
-    reference : int
-        Value reference.
     type : str
         Of FMI, such as ``Real`` or ``Float64``.
     item, size : int

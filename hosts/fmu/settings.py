@@ -99,13 +99,7 @@ class Settings:
             self.add_numbers({"fidelity": fidelity}, "--fidelity")
 
     def overwritten(self, names: Iterable[str], by: str) -> None:
-        """Tell which settings have no effect, since something sets these inputs and parameters from the start on.
-
-        Parameters
-        ----------
-        by : str
-            What does.
-        """
+        """Tell which settings have no effect, since something sets these inputs and parameters from the start on."""
         for name in names:
             if name in self._settings:
                 setting = self._settings.pop(name)

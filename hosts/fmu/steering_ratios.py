@@ -20,8 +20,6 @@ def steering_as_set(constants: Mapping[str, float], table: Variables, start: Map
     ----------
     constants : mapping of str to float
         Of the FMU, which keeps those of the car file.
-    start : mapping of str to float, int, bool or str
-        What is set.
 
     Returns
     -------

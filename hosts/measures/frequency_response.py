@@ -66,10 +66,6 @@ def frequency_response(
     relative_width : float
         Half of the width of the band over which spectra are averaged, over its frequency; at least six lines.
 
-    Returns
-    -------
-    FrequencyResponse
-
     Raises
     ------
     ValueError

@@ -51,8 +51,6 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
         As the file has them; a name may leave out the test before it where only one measure ends so.
     columns : mapping of str to str
         Units of all measures.
-    source : Path
-        The file.
 
     Raises
     ------

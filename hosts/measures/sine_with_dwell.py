@@ -64,10 +64,6 @@ def sine_with_dwell(
     sideslip : ndarray of shape (n,), optional
         rad.
 
-    Returns
-    -------
-    SineWithDwell
-
     Notes
     -----
     The displacement is the double integral of the lateral acceleration from the start, as the regulation has it. It is

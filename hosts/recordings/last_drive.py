@@ -99,11 +99,6 @@ def _path(drive: RecordedDrive) -> list[_Row]:
 def recorded_manoeuvre(folder: Path) -> Manoeuvre:
     """The last drive of a recording as a manoeuvre; where it begins with a saved state, so does the manoeuvre.
 
-    Parameters
-    ----------
-    folder : Path
-        Of the recording.
-
     Raises
     ------
     HostError

@@ -195,10 +195,6 @@ def replay(
     progress : callable
         Hears the number of rows that are done.
 
-    Returns
-    -------
-    Replayed
-
     Raises
     ------
     HostError

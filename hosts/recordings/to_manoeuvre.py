@@ -37,11 +37,6 @@ def to_manoeuvre(
     progress : callable
         Hears the number of rows that are repeated for the state.
 
-    Returns
-    -------
-    list of Path
-        What was written.
-
     Raises
     ------
     HostError

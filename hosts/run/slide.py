@@ -37,10 +37,6 @@ def write_slide(
         At most `MOST_ROWS` are shown; a sentence below tells of the others.
     plots : sequence of callable
         At most `MOST_PLOTS`.
-
-    Returns
-    -------
-    list of Path
     """
     plots = plots[:MOST_PLOTS]
     with plt.rc_context(_STYLE):

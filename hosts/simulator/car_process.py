@@ -43,8 +43,6 @@ class Order:
 
     Parameters
     ----------
-    fmu, folder : Path
-        The FMU, and a folder to unpack it in.
     memory : str
         Name of the shared memory.
     """

@@ -24,12 +24,8 @@ def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], draw
 
     Parameters
     ----------
-    path : Path
-        The FMU.
     inputs, outputs : sequence of str
         Names, after aliases.
-    drawn : bool
-        Whether it has a drawing.
     """
     no_inputs, no_outputs = lacking(inputs, outputs)
     parts = [f"no input {' and '.join([', '.join(no_inputs)])}"] if no_inputs else []

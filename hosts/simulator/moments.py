@@ -27,16 +27,12 @@ class CarSettings:
         Communication step, s.
     paced : bool
         False: as fast as it goes.
-    record : Path, optional
-        Folder of the recording.
     interval : float, optional
         Between recorded outputs, s; by default see `hosts.recordings.recorded_columns`.
     priority : bool
         Whether to ask for real-time priority; what was got is an event.
     world : str, optional
         What a recording calls the world.
-    seed : int, optional
-        Of the driver, for the recording.
     """
 
     fmu: Path

@@ -20,8 +20,6 @@ class Notices:
 
     Parameters
     ----------
-    names : sequence of str
-        Columns.
     times : TimesRecord
         Where steps that were cut short are counted, also those of which nothing is said.
     """

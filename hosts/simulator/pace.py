@@ -26,8 +26,6 @@ class Pace:
     ----------
     step : float
         Communication step, s.
-    times : TimesRecord
-        Where steps are counted.
     paced : bool
         Without, a step begins as soon as the one before is done, and none is late.
 

@@ -38,12 +38,8 @@ class Asked:
     ----------
     world : str, optional
         Name or file.
-    place : str, optional
-        Of the world.
     wishes : Wishes
         Of ``--set`` and ``--parameters``.
-    record : Path, optional
-        Folder.
     manoeuvre : str
         Its name; empty: none is driven.
     start : callable

@@ -19,11 +19,6 @@ _PATIENCE = (1.4, 0.4)
 class Process:
     """A process that drives an FMU, seen from the main process.
 
-    Parameters
-    ----------
-    order : Order
-        What it is started with.
-
     Attributes
     ----------
     ended : str

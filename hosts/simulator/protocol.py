@@ -120,13 +120,6 @@ Message = Want | Order | Seen | Place | Report | WatchDevices | ForDevices
 def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
     """A message of a page, checked.
 
-    Parameters
-    ----------
-    data : str or bytes
-        As it came.
-    inputs : collection of str
-        That the car has.
-
     Raises
     ------
     HostError

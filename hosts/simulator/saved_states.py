@@ -58,8 +58,6 @@ class SavedStates:
 
     Parameters
     ----------
-    inputs : int
-        Number of inputs.
     step : float
         Communication step, s.
     """

@@ -34,8 +34,6 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
 
     Parameters
     ----------
-    address : str
-        Of this machine.
     port : int, optional
         By default the first free one from `DEFAULT_PORT` on.
 

@@ -35,8 +35,6 @@ class Task:
     ----------
     fidelity : int or None
         None: the FMU has no choice.
-    seconds : float
-        Simulated.
     step : float
         Communication step, s.
     start : dict of str to float, int, bool or str
@@ -239,10 +237,6 @@ def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> O
     ----------
     tell : callable
         Hears the simulated seconds that are done.
-
-    Returns
-    -------
-    Outcome
 
     Raises
     ------

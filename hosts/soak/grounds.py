@@ -134,11 +134,6 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
 def world_ground(name: str, folder: Path) -> Ground:
     """The road of a world, by ``ali3 road --world``; its places are driven at.
 
-    Parameters
-    ----------
-    name : str
-        Or a file.
-
     Raises
     ------
     HostError

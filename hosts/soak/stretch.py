@@ -33,8 +33,6 @@ class Stretch:
 
     Parameters
     ----------
-    names, inputs : sequence of str
-        Inputs and outputs; and the inputs alone.
     step : float
         s.
     """
@@ -61,13 +59,6 @@ class Stretch:
 
     def save(self, folder: Path, kind: str, text: str, seed: int, refused: Sequence[float] | None) -> Path:
         """Write the stretch as a recording, with a manoeuvre of it.
-
-        Parameters
-        ----------
-        kind, text : str
-            What was wrong.
-        refused : sequence of float, optional
-            Inputs of a step that was refused.
 
         Returns
         -------

@@ -57,8 +57,6 @@ def run_study(
     ----------
     scheduler : str, optional
         Address.
-    workers : int, optional
-        Of this machine.
     dry : bool
         Only print the plan.
     again : bool

@@ -50,12 +50,8 @@ def performed(job: Job, path: Path, name: str, aliases: Aliases | None, values: 
 
     Parameters
     ----------
-    path : Path
-        FMU.
     name : str
         Of the FMU in messages.
-    values : mapping of str to float, int, bool or str
-        Of the parameters.
     """
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, path, aliases or Aliases(), {**job.start, **values}, step)

@@ -49,11 +49,6 @@ class Saltelli:
 
     For each base point come A, A with one coordinate of B for each dimension, with the second order B with one
     coordinate of A for each, and B [Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2].
-
-    Parameters
-    ----------
-    base : int
-        Base points.
     """
 
     def __init__(self, dimensions: int, base: int, seed: int, second_order: bool) -> None:

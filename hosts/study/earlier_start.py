@@ -32,11 +32,6 @@ _MOST = 3
 def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) -> None:
     """Refuse to go on with another study than the one that began.
 
-    Parameters
-    ----------
-    before, now : mapping
-        Records.
-
     Raises
     ------
     HostError

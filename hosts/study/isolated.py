@@ -13,13 +13,7 @@ from hosts.study.work import FAILED, Outcome, Work
 
 
 class IsolatedBench:
-    """A `Bench` in a process of its own; after a crash or a run that took too long, in a new one.
-
-    Parameters
-    ----------
-    path : Path
-        FMU.
-    """
+    """A `Bench` in a process of its own; after a crash or a run that took too long, in a new one."""
 
     def __init__(self, work: Work, path: Path) -> None:
         self._limit = work.time_limit

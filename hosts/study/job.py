@@ -20,8 +20,6 @@ class Job:
         Of the catalogue, where there is no manoeuvre.
     measures : tuple of str
         Of the test; empty: all.
-    start : dict of str to float, int, bool or str
-        For the test.
     step : float
         Communication step, s; NaN for a test that takes that of the FMU.
     every : int

@@ -35,13 +35,7 @@ Task: TypeAlias = tuple[Job, Mapping[str, Value], int]
 
 
 class Bench:
-    """An FMU on which runs are made one after the other, in one instance where that gives the same bits.
-
-    Parameters
-    ----------
-    path : Path
-        FMU.
-    """
+    """An FMU on which runs are made one after the other, in one instance where that gives the same bits."""
 
     def __init__(self, work: Work, path: Path) -> None:
         self._work, self._path = work, path
@@ -62,8 +56,6 @@ class Bench:
 
         Parameters
         ----------
-        values : mapping of str to float, int, bool or str
-            Of the parameters.
         seed : int
             For functions of the user's.
         """

@@ -45,8 +45,6 @@ class Plan:
         Inputs and outputs of the FMU: all that a run records.
     record : dict
         All of it for JSON; two plans with the same are the same study.
-    notes : tuple of str
-        Sentences for the user.
     """
 
     name: str

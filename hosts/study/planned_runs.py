@@ -48,8 +48,6 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     ----------
     file : Path
         Where it was read from; files it names are looked for beside it.
-    opened : Fmu
-        The FMU of the study.
 
     Raises
     ------
@@ -69,13 +67,7 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
-    """The study whose results a folder holds, and its runs.
-
-    Parameters
-    ----------
-    record : dict
-        Of the folder.
-    """
+    """The study whose results a folder holds, and its runs."""
     study, _ = read_study_file(folder / "study.toml")
     with Fmu(folder / record["fmu"]) as opened:
         return study, planned_runs(study, Path(record["file"]), opened)

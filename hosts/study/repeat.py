@@ -44,10 +44,6 @@ def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = Tru
 
     Parameters
     ----------
-    folder : path
-        Of the study.
-    index : int
-        Of the run.
     write : bool
         Whether the manoeuvre they name is written, into the folder ``repeat``.
 
@@ -60,13 +56,7 @@ def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = Tru
 
 
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
-    """A function that gives the commands of a run, as `repeat_command` does; the runs are planned once.
-
-    Parameters
-    ----------
-    folder : path
-        Of the study.
-    """
+    """A function that gives the commands of a run, as `repeat_command` does; the runs are planned once."""
     from hosts.study.planned_runs import runs_of_folder
 
     place = Path(folder)

@@ -11,13 +11,7 @@ from numpy.typing import NDArray
 
 
 class Sampler(Protocol):
-    """Numbers that say where a point lies.
-
-    Parameters
-    ----------
-    count : int
-        Points in all.
-    """
+    """Numbers that say where a point lies."""
 
     count: int
 

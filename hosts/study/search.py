@@ -28,8 +28,6 @@ class Run:
 
     Parameters
     ----------
-    x : float
-        Of the parameter.
     y : float
         Of the measure; NaN where the run does not yield it.
     reason : str

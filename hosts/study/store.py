@@ -99,23 +99,3 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
         data = data.assign_coords({name: ("point", rows[name].to_numpy(), unit)})
     data.attrs["units"] = units
     return data
-
-
-def planned_points(folder: str | os.PathLike[str]) -> pd.DataFrame:
-    """Values of the parameters at all points of a study, also those that have not been run.
-
-    Parameters
-    ----------
-    folder : path
-        Its copies of the study file and of the FMU are read.
-    """
-    import pandas as pd
-
-    from hosts.study.planned_runs import runs_of_folder
-
-    record = study_record(folder)
-    points = runs_of_folder(Path(folder), record)[1].points
-    frame = pd.DataFrame(dict(points.block(0, points.count)))
-    frame.index.name = "point"
-    frame.attrs["units"] = {name: record["units"][name] for name in frame.columns}
-    return frame

@@ -47,8 +47,6 @@ class Target:
         As the user names it.
     unit : str
         Of `value`; empty: that of the measure.
-    by : str
-        The parameter.
     range : tuple of float, optional
         In the unit of the FMU; None: that of the study file, else of the FMU.
     """

@@ -31,12 +31,8 @@ class Work:
     ----------
     fmu : str
         File name of the FMU.
-    guid, sha256 : str
-        Of the FMU.
     program : str
         Digest of the program that makes the runs.
-    measures : tuple of StudyMeasure
-        Of manoeuvres.
     columns : tuple of str
         All measures of the table.
     aliases : Aliases, optional

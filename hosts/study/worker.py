@@ -91,13 +91,7 @@ def why_wrong(key: str, dask_worker: Worker) -> str:
 
 
 def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
-    """Make the runs of a chunk; a task of Dask.
-
-    Returns
-    -------
-    list of Outcome
-        One for each run.
-    """
+    """Make the runs of a chunk; a task of Dask."""
     worker = get_worker()
     room = _rooms.get(f"{key} {worker.address}")
     if room is None or program_digest() != room.work.program:

@@ -43,11 +43,6 @@ def write_ssp(
     name : str
         Of the system; by default that of the file.
 
-    Returns
-    -------
-    Path
-        The file.
-
     Raises
     ------
     HostError

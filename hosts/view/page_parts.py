@@ -34,8 +34,6 @@ class FmuParts:
 
     Parameters
     ----------
-    scene : dict
-        What is drawn.
     wasm : bytes or None
         The binary; None: the FMU has none.
     resources : dict of str to bytes

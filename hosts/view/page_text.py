@@ -23,8 +23,6 @@ class Page:
     ----------
     fmus : sequence of FmuParts
         Each with its binary; they run in step, with the same inputs.
-    names : sequence of str
-        Over their pictures.
     options : mapping
         Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``.
     manoeuvre : Manoeuvre, optional

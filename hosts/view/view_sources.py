@@ -35,8 +35,6 @@ class RunWishes:
         As for the command run.
     stop_time, step : float, optional
         s.
-    wishes : Wishes
-        What is set in it.
     """
 
     manoeuvre: str | None
@@ -53,8 +51,6 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
 
     Parameters
     ----------
-    paths : sequence of Path
-        Results and FMUs.
     geometry : Path, optional
         FMU or scene that results are drawn with, in place of that of their record.
 

@@ -89,8 +89,6 @@ class LinearModel:
         Displacement of the coordinates per unit of z; ``basis' M basis`` is the unit matrix.
     slots : tuple of int
         Numbers of the element states that are part of x.
-    coordinates : tuple of str
-        Names of the nq coordinates.
     modes : tuple of Mode
         By rising frequency.
     frame_turning : tuple of float

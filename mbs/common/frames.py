@@ -44,8 +44,6 @@ class Frames:
         First full coordinate of each rigid body: centre of mass, then unit axes (spatial a, b, c; planar a).
     scalars : tuple of int
         Full coordinates that a shift or turn of the scene leaves as they are, and that may turn on: angles and spins.
-    flexible : tuple of FlexibleShapes
-        Of each flexible body.
     """
 
     T: sparse.csr_matrix

@@ -12,10 +12,6 @@ def lazy_modules(package: str, names: Iterable[str], homes: Mapping[str, str] | 
 
     Parameters
     ----------
-    package : str
-        Its full name.
-    names : iterable of str
-        Modules of the package.
     homes : mapping of str to str, optional
         Functions, classes and others by name, with the full name of the module that each is in.
     """

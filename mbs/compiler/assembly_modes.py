@@ -57,8 +57,6 @@ def mode_arrays(
         Full coordinates over z.
     q : ndarray
         Position of z, assembled.
-    guides : ndarray
-        Values of the guides there.
     """
     numbers, loops, names = [], [], []
     with_columns = [(row, set(row.columns())) for row in rows]

@@ -56,8 +56,6 @@ def eliminate(
 
     Parameters
     ----------
-    n : int
-        Number of full coordinates.
     equations : sequence of (name, Affine)
         Each expression is zero; the name is that of its joint.
     locked : set of int

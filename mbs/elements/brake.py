@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import flag, positive
+from mbs.common.checks import flag
 from mbs.elements.reals import NotNegative, Positive, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index
@@ -30,29 +29,6 @@ class Brake:
     """Torque at full hand brake, N m; that of the pedal is added to it."""
     side: NotNegative = 1.0
     """Factor on the share, so that brakes that differ from left to right may be a parameter."""
-
-    @staticmethod
-    def for_wheel(max_torque: float, radius: float, spin_inertia: float, travel: float = 0.9e-3) -> Brake:
-        """Brake under whose full torque the tread moves by a travel, critically damped with the wheel's inertia.
-
-        Parameters
-        ----------
-        max_torque : float
-            Torque at full pedal, N m.
-        radius : float
-            Of the wheel, m.
-        spin_inertia : float
-            Of the wheel about its axis, kg m2.
-        travel : float
-            Of the tread at full torque, m.
-        """
-        torque, r = (
-            positive(max_torque, "The largest torque of a brake"),
-            positive(radius, "The radius of a braked wheel"),
-        )
-        inertia = positive(spin_inertia, "The inertia of a braked wheel")
-        stiffness = torque * r / positive(travel, "The travel of a brake")
-        return Brake(torque, stiffness, 2.0 * math.sqrt(stiffness * inertia))
 
     def record(
         self,

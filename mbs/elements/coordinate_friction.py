@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Annotated
 
 from mbs.common.affine import Affine
-from mbs.common.checks import not_negative, positive, text
+from mbs.common.checks import not_negative, text
 from mbs.elements.reals import Positive, Real, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.kernel.header.enumerations import ElementType
@@ -27,28 +26,6 @@ class CoordinateFriction:
     """While it holds, N m s/rad or N s/m."""
     unit: str = "N m"
     """Unit of the force, "N m" or "N"."""
-
-    @staticmethod
-    def for_inertia(largest: float, give: float, inertia: float, unit: str = "N m") -> CoordinateFriction:
-        """Friction that gives by a small way before it slides, critically damped with an inertia.
-
-        Parameters
-        ----------
-        largest : float
-            Force at which it slides, N m or N.
-        give : float
-            By which it gives at that force, rad or m.
-        inertia : float
-            Of what it holds, kg m2 or kg.
-        unit : str
-            Unit of the force, "N m" or "N".
-        """
-        force, mass = (
-            positive(largest, "The largest force of a friction"),
-            positive(inertia, "The inertia of a friction"),
-        )
-        stiffness = force / positive(give, "The give of a friction")
-        return CoordinateFriction(force, stiffness, 2.0 * math.sqrt(stiffness * mass), unit)
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
         """The force element.

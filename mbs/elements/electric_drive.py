@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import not_negative, positive
 from mbs.elements.reals import NotNegative, Positive, Share, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.elements.record_checks import index
@@ -19,7 +18,7 @@ class ElectricDrive:
 
     Speeds and torques are those of the motor where nothing else is said. The throttle sets its part of the largest
     torque at the speed, less the other part of the torque of regeneration. Where a torque works against the motion the
-    motor gives electric power. The rotor's inertia belongs to the spins of the wheels, see `reflected_inertia`.
+    motor gives electric power. The rotor's inertia belongs to the spins of the wheels, see `Model.armature`.
     """
 
     max_torque: NotNegative
@@ -50,25 +49,6 @@ class ElectricDrive:
     in neutral."""
     engage_time: Positive = 0.3
     """In which the torque fades out of one direction, and into the other, s."""
-
-    def reflected_inertia(self, rotor_inertia: float) -> float:
-        """Inertia for the spin of each wheel, for `Model.armature`, that stands for the rotor.
-
-        It is exact while both wheels turn alike; a difference of their speeds does not turn a real rotor, so that a
-        single spinning wheel has then somewhat too much inertia.
-
-        Parameters
-        ----------
-        rotor_inertia : float
-            Of the rotor and what turns with it, about its axis, kg m2.
-
-        Returns
-        -------
-        float
-            rotor_inertia ratio^2 / 2, kg m2.
-        """
-        ratio = positive(self.ratio, "The ratio of an electric drive")
-        return 0.5 * not_negative(rotor_inertia, "The inertia of a rotor") * ratio * ratio
 
     def record(
         self,

@@ -31,8 +31,6 @@ class ElementRecord:
         Kernel type; it fixes the meaning and order of all that follows.
     signals : sequence of Affine
         Local variables u, in the order of the type.
-    real : sequence of float
-        Numbers of the element.
     real_names : sequence of str
         Names of the first entries of `real`, so that a parameter can be tied to one.
     real_checks : sequence of callable

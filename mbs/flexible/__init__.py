@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from mbs.flexible.frame import Beam, Frame
     from mbs.flexible.frequencies import natural_modes
     from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
-    from mbs.flexible.load_paths import interface_loads, load_path_modes, reduced_eigenmodes
+    from mbs.flexible.load_paths import interface_loads, load_path_modes
     from mbs.flexible.material import Material
     from mbs.flexible.matrix_files import external_model, read_matrix, read_model
     from mbs.flexible.mode_choice import ModeChoice, modes_for_output
@@ -54,7 +54,6 @@ _LAZY = {
     "read_model": "mbs.flexible.matrix_files",
     "read_nastran": "mbs.flexible.nastran",
     "rectangle": "mbs.flexible.section",
-    "reduced_eigenmodes": "mbs.flexible.load_paths",
     "round_bar": "mbs.flexible.section",
     "section_forces": "mbs.flexible.recovery",
     "shape_integrals": "mbs.flexible.inertia_integrals",
@@ -90,7 +89,6 @@ __all__ = [
     "read_model",
     "read_nastran",
     "rectangle",
-    "reduced_eigenmodes",
     "round_bar",
     "section_forces",
     "shape_integrals",

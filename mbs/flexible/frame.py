@@ -19,10 +19,6 @@ __all__ = ["Beam", "Frame"]
 class Frame(BeamFrame):
     """Nodes, rigidly joined beams and lumped masses; see `BeamFrame` for its parameters."""
 
-    def structural_mass(self) -> float:
-        """Mass of the beams, kg."""
-        return sum(b.material.rho * b.section.area * self.element_axes(e)[0] for e, b in enumerate(self.beams))
-
     def finite_element_model(self, mass: str = "consistent", rotary: bool = True) -> FiniteElementModel:
         """Assemble; node k has the degrees of freedom 6 k to 6 k + 5 (x, y, z, rx, ry, rz).
 

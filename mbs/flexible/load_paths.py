@@ -88,36 +88,6 @@ def load_path_deformations(body: ReducedBody, loads: np.ndarray, frame_loads: np
     return np.linalg.solve(body.K, shapes.T @ loads - _balancing_inertia(body, loads, frame_loads))
 
 
-def reduced_eigenmodes(body: ReducedBody, up_to: float = np.inf) -> ReducedBody:
-    """Body in its own eigenmodes with the reference held; K and M become diagonal.
-
-    Parameters
-    ----------
-    body : ReducedBody
-        Whose modes span the eigenmodes.
-    up_to : float
-        Largest frequency, Hz.
-
-    Returns
-    -------
-    ReducedBody
-        With the eigenmodes up to there.
-
-    Raises
-    ------
-    ModelError
-        No mode lies below the frequency.
-    """
-    squares, V = eigh(body.K, body.M)
-    hertz = np.sqrt(squares) / (2 * np.pi)
-    selected = hertz <= up_to
-    if not selected.any():
-        raise ModelError(f"The lowest mode of the body has {hertz[0]:.4g} Hz: none lies below {up_to:g} Hz.")
-    return body.transformed(
-        V[:, selected], tuple(f"eigenmode {i + 1}" for i in range(int(selected.sum()))), hertz[selected]
-    )
-
-
 def _balancing_inertia(body: ReducedBody, loads: np.ndarray, frame_loads: np.ndarray | None) -> np.ndarray:
     """Modal forces of the inertia of the rigid motion that each load causes, shape (n_modes, n_loads)."""
     places = np.array([interface.position for interface in body.interfaces.values()])

@@ -118,16 +118,6 @@ class StrainGauge:
         both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
 
-    def fibre_stress(self, frame: BeamFrame) -> sp.csr_array:
-        """Bending stress of the fibre, half of the half-bridge.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            Pa per m and rad.
-        """
-        return sp.csr_array(self.half_bridge(frame) * 0.5)
-
     def quarter_bridge(self, frame: BeamFrame) -> sp.csr_array:
         """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads.
 

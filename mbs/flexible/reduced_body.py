@@ -122,21 +122,6 @@ class ReducedBody:
         """
         return np.asarray(self.node_translations[self.interface(name).node])
 
-    def interface_rotation(self, name: str) -> np.ndarray:
-        """Rotation of an interface node per unit amplitude.
-
-        Returns
-        -------
-        ndarray, shape (3, m)
-            rad per amplitude.
-
-        Raises
-        ------
-        ModelError
-            The node is no interface; the message lists what there is.
-        """
-        return np.asarray(self.node_rotations[self.interface(name).node])
-
     def recovery(self, rows: np.ndarray | Sparse) -> np.ndarray:
         """Outputs per unit amplitude from outputs per nodal displacement.
 

@@ -90,13 +90,7 @@ def flexible_parts(
 
 
 def is_round(section: Section) -> bool:
-    """Whether a section is a round tube or bar.
-
-    Parameters
-    ----------
-    section : Section
-        Of a beam.
-    """
+    """Whether a section is a round tube or bar."""
     return bool(np.isclose(section.Iy, section.Iz) and np.isclose(section.J, section.Iy + section.Iz))
 
 

@@ -113,11 +113,6 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
         Triple as `zig cc -target` takes it; by default the platform this runs on.
     out : path, optional
         The library to write; by default `lib/` beside this file, under the platform's usual name.
-
-    Returns
-    -------
-    Path
-        The library.
     """
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)

@@ -201,8 +201,6 @@ class BodyVocabulary(ModelCore):
 
         Parameters
         ----------
-        body : Body
-            A rigid body of this spatial model.
         ports : mapping of str to array_like, shape (3,)
             Places by name, earth axes in the reference configuration, m.
 

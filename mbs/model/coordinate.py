@@ -35,10 +35,6 @@ class Coordinate:
 
     Parameters
     ----------
-    name : str
-        Name of the angle or of the spin.
-    index : int
-        Number of the full coordinate.
     unit : str
         Unit of its value, rad.
     """

@@ -65,11 +65,6 @@ def on_one_body(body_1: Body, body_2: Body) -> bool:
 def different(body_1: Body, body_2: Body, what: str) -> None:
     """Refuse a joint or a force of a body with itself.
 
-    Parameters
-    ----------
-    body_1, body_2 : Body
-        What is joined.
-
     Raises
     ------
     ModelError

@@ -200,18 +200,7 @@ class FlexibleBody(Body):
         return block
 
     def velocity_weight(self, linear: bool, angular: bool) -> NDArray[np.float64]:
-        """Weights of a start velocity of which these parts are given; the modes stay as they are.
-
-        Parameters
-        ----------
-        linear, angular : bool
-            Whether the velocity of the centre of mass and the angular velocity are given.
-
-        Returns
-        -------
-        ndarray, shape (size, size)
-            Weights of the rates of its full coordinates.
-        """
+        """See `Body.velocity_weight`; the modes stay as they are."""
         block = super().velocity_weight(linear, angular)
         if linear and not angular:
             place = np.array([1.0, *(self.first_moment / self.mass)])
@@ -329,11 +318,6 @@ class Interface(Body):
         ----------
         components : array_like, shape (3,)
             Earth axes in the reference configuration.
-
-        Returns
-        -------
-        AffineVector
-            The vector as expressions of coordinates.
         """
         v = vector(components, 3, f"a vector of interface '{self.name}'")
         carried = self.owner.vector(v)

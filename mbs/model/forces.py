@@ -52,8 +52,6 @@ class ForceVocabulary(BodyVocabulary):
             N/m and N s/m.
         free_length : float, optional
             m; by default as drawn.
-        stops : EndStops, optional
-            Bump and rebound stops.
 
         Raises
         ------

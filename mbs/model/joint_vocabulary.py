@@ -272,8 +272,6 @@ class JointVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        body : Body
-            A rigid body.
         point, direction : array_like, shape (2,) or (3,)
             As drawn, in earth axes, m and without unit; the height is free.
         switch : bool, optional

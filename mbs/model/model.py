@@ -345,8 +345,6 @@ class Model(
 
         Parameters
         ----------
-        inputs : tuple of Input
-            Two inputs of this model.
         gains : tuple of float
             Of each input, in units of the guide per unit of the input.
         limits : tuple of float

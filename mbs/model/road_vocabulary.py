@@ -150,8 +150,6 @@ class RoadVocabulary(BodyVocabulary):
             A rigid body of a spatial model.
         point : array_like, shape (3,)
             Earth axes in the reference configuration, m.
-        contact : ContactPoints
-            How it touches.
         """
         place = array(point, (3,), f"the place of contact point {shown(name)}")
         return self.contact_points(name, body, place[None], road=road, contact=contact)

@@ -21,8 +21,6 @@ class Sensor:
         Sensor type of the System file.
     signals : sequence of Affine
         Its signals; their numbers are put after `integers`.
-    integers, reals : sequence
-        The rest of its data.
     joint : Joint, optional
         For joint forces: the joint whose rows are weighted; ``integers`` are then numbers of its equations.
     joints : sequence of Joint

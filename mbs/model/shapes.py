@@ -263,8 +263,6 @@ class ShapeVocabulary(BodyVocabulary):
 
         Parameters
         ----------
-        body : Body or Turning
-            What it turns on.
         at : array_like, shape (dimension,)
             A point of the axis, earth axes in the reference configuration, m.
         axis : array_like, shape (3,)

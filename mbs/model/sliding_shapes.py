@@ -49,8 +49,6 @@ class SlidingVocabulary(ShapeVocabulary):
 
         Parameters
         ----------
-        body : Body or Turning
-            What it slides on.
         at : array_like, shape (dimension,)
             Its origin where the way is 0, earth axes in the reference configuration, m.
         direction : array_like, shape (3,)
@@ -81,14 +79,10 @@ class SlidingVocabulary(ShapeVocabulary):
 
         Parameters
         ----------
-        body : Body, Spin, Turning or Sliding
-            What it is of.
         positions : array_like, shape (n, 3)
             Corners, earth axes in the reference configuration, m.
         triangles : array_like of int, shape (k, 3)
             Their corners, counter-clockwise from outside.
-        name : str
-            Of the mesh.
         color, material, opacity
             As of `shape`.
         cover : bool

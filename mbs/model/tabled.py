@@ -45,13 +45,7 @@ class SmoothTable:
     coefficients: Array
 
     def value(self, *at: float) -> Array:
-        """The functions at a place, shape (k,).
-
-        Parameters
-        ----------
-        at : float
-            The variables.
-        """
+        """The functions at a place, shape (k,)."""
         found = self.coefficients
         for axis, x in zip(self.axes, at, strict=True):
             found = np.tensordot(_weights(axis, x), found, axes=1)

@@ -58,8 +58,6 @@ class TransmissionVocabulary(JointVocabulary):
         ----------
         pinion : Coordinate
             Relative angle of the pinion against the carrier, or a spin on it.
-        body, carrier : Body
-            The rack and what it slides on.
         axis : array_like, shape (dimension,)
             Direction of the slide, fixed in the carrier, earth axes as drawn.
         radius : float
@@ -95,10 +93,6 @@ class TransmissionVocabulary(JointVocabulary):
 
         Parameters
         ----------
-        body_1, body_2 : Body
-            What slides.
-        carrier_1, carrier_2 : Body
-            What they slide on.
         axis_1, axis_2 : array_like, shape (dimension,)
             Directions of the slides, fixed in their carriers, earth axes as drawn.
         ratio : float

@@ -62,8 +62,6 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     control : Control, optional
         How method and steps were chosen, where `simulate` chose them.
-    poses : Poses, optional
-        Of all bodies.
     drawing : Drawing, optional
         What `mbs.animate` draws.
     roads : mapping of int to road or str, optional

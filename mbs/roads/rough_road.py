@@ -30,8 +30,6 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
 
     Parameters
     ----------
-    nx, ny : int
-        Points.
     spacing : float
         m.
     density : float

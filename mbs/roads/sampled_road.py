@@ -30,8 +30,6 @@ class SampledRoad(GridRoad):
 
     Parameters
     ----------
-    source : str
-        What it was taken from.
     largest, rms : float
         Difference of its heights from the surface where that is, between the points of the grid and at those of the
         surface, m.

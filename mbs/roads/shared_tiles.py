@@ -217,8 +217,6 @@ def read_shared(
     ----------
     file : file
         Open.
-    head : Header
-        Of it.
     name : object
         What errors call it.
     wanted : callable

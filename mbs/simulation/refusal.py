@@ -26,8 +26,6 @@ def refusal(
         In the last good state.
     what : str
         The beginning of the sentence: what was tried.
-    error : KernelError
-        What the kernel said.
     trajectory : Trajectory, optional
         What was recorded until then.
 

@@ -29,8 +29,6 @@ def step_time(
     ----------
     duration, h : float
         Of the run and of a step, s.
-    repeats : int
-        Timed runs.
     clock : callable
         Seconds: `time.perf_counter` for wall time, `time.process_time` for that of the processor.
     inputs, parameters, pose

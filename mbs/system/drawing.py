@@ -46,12 +46,8 @@ class TurnPlace:
 
     Parameters
     ----------
-    name : str
-        Of the wheel, or of what turns.
     row : int
         The coordinate.
-    carrier : str
-        Body on which it turns.
     axis : sequence of float
         Unit vector of the carrier.
     absolute : bool
@@ -95,8 +91,6 @@ class Places:
     ----------
     matrix : sparse array of shape (rows, nq)
     constant : array of shape (rows,)
-    bodies, turns, amplitudes : tuple
-        What the rows are.
     """
 
     matrix: sparse.csr_matrix

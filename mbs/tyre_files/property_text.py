@@ -31,8 +31,6 @@ class PropertyText:
 
     Parameters
     ----------
-    name : str
-        Of the file, for messages.
     sections : dict
         Of keys to words or numbers, all in capitals; words without quotation marks.
     tables : frozenset of str

@@ -24,12 +24,8 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
 
     Parameters
     ----------
-    joints : mapping of str to yourdfpy joint
-        Those that move.
     given : collection of str
         Joints that the user places or moves.
-    what : str
-        Name of the file.
 
     Raises
     ------

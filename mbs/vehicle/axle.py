@@ -94,13 +94,7 @@ class Axle(Section):
             )
 
     def open_curves(self, folder: Path) -> None:
-        """Read the table of its suspension, if it has one; done once by the reader of the car.
-
-        Parameters
-        ----------
-        folder : Path
-            Of the car.
-        """
+        """Read the table of its suspension, if it has one; done once by the reader of the car."""
         if self.by_curves is not None:
             ahead = -1.0 if self.wheel.centre[0] < -LEAST_WHEELBASE else 1.0
             self.by_curves.open(folder, Hub(self.wheel.centre, ahead))

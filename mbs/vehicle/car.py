@@ -232,13 +232,7 @@ class Car(CarContent):
         return CarBuilder(m, whole_road, inputs, self.ports, wheel_roads=wheel_roads)
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
-        """Add steering and front axle, then the rear axle.
-
-        Returns
-        -------
-        iterator of (Steered, dict of str to Spin)
-            The steering and the spins of the wheels of each axle.
-        """
+        """Add steering and front axle, then the rear axle."""
         steered = self.steering.build(b, self.rack_way)
         if self.front.by_curves is not None and steered.travel is not None:
             b.rack = steered.travel()
@@ -334,8 +328,6 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
 
     Parameters
     ----------
-    data : mapping
-        Tables of the file.
     folder : Path
         Where its tables lie.
     at_rest : bool

@@ -60,11 +60,6 @@ def load(car: str | Path) -> Car:
 def file_of(car: str | Path) -> Path:
     """The file of a car that is given by its folder or file.
 
-    Parameters
-    ----------
-    car : str or Path
-        Folder or file.
-
     Raises
     ------
     CarFileError

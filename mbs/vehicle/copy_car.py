@@ -15,18 +15,6 @@ from mbs.vehicle.schema import SCHEMA_FILE
 def copy_car(name: str, folder: Path) -> list[Path]:
     """Copy the folder of a car; it is there whole or not at all.
 
-    Parameters
-    ----------
-    name : str
-        Of a car of the package.
-    folder : Path
-        The new folder.
-
-    Returns
-    -------
-    list of Path
-        The files in it.
-
     Raises
     ------
     CarFileError

@@ -13,8 +13,6 @@ def beside(folder: Path, name: str, key: str) -> Path:
 
     Parameters
     ----------
-    folder : Path
-        Of the car file.
     name : str
         As the car file gives it.
     key : str

@@ -17,8 +17,6 @@ def apart(points: Section, first: str, second: str, what: str, least: float = LE
 
     Parameters
     ----------
-    first, second : str
-        Their names.
     what : str
         Stands between them, as in "the tie rod".
     least : float
@@ -36,8 +34,6 @@ def off_line(
 
     Parameters
     ----------
-    ends : (str, str)
-        The two others.
     what : str
         What is between point and line, as in "the steering arm".
     line : str
@@ -63,8 +59,6 @@ def farther(
     ----------
     axis : {"x", "y", "z"}
         Of the drawing.
-    first, second : str
-        The point that is farther, and the other.
     way : str
         Where the first must be, as in "above".
     what : str
@@ -83,13 +77,7 @@ def farther(
 
 
 def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
-    """The steering axis of a wheel stands nearly upright.
-
-    Parameters
-    ----------
-    lower, upper : str
-        Two points of the axis.
-    """
+    """The steering axis of a wheel stands nearly upright."""
     x, y, z = np.subtract(getattr(points, upper), getattr(points, lower))
     if z <= 0.0:
         return  # `farther` says so

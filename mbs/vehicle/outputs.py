@@ -185,13 +185,7 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
 
 
 def work_outputs(m: Model) -> None:
-    """Work since the start of all that may give or take energy, without what it stores.
-
-    Parameters
-    ----------
-    m : Model
-        With all elements.
-    """
+    """Work since the start of all that may give or take energy, without what it stores."""
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]
         description = f"work of {text} since the start, without what is stored; negative: energy lost"
@@ -206,8 +200,6 @@ def steering_work(m: Model, ports: Ports) -> None:
 
     Parameters
     ----------
-    m : Model
-        With all elements.
     ports : Ports
         One for the travel of the rack has its work in `energy.ports`.
     """

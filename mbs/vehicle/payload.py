@@ -24,8 +24,6 @@ class Payload(Section):
 
         Parameters
         ----------
-        name : str
-            Of the payload in the file.
         fidelity : Fidelity
             Of the chassis: a frame that may bend takes the force of the payload at several joints.
         """

@@ -32,13 +32,7 @@ FASTEST_WIND = 100.0  # m/s
 
 
 def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
-    """The inputs of a driver, without those of the parts that ports replace.
-
-    Parameters
-    ----------
-    m : Model
-        Gets the inputs.
-    """
+    """The inputs of a driver, without those of the parts that ports replace."""
     inputs = {}
     if ports.steering != "rack_position":
         inputs["steering"] = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
@@ -123,8 +117,6 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
 
     Parameters
     ----------
-    m : Model
-        Gets inputs and roads.
     road : RoadSection
         Friction until there are answers.
 

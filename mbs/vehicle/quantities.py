@@ -72,13 +72,7 @@ class Quantity:
 
 
 def quantities_in(annotation: Any) -> list[Quantity]:
-    """Quantities of a type, each once: of a number, or of the elements of a list.
-
-    Parameters
-    ----------
-    annotation : type
-        Of a field.
-    """
+    """Quantities of a type, each once: of a number, or of the elements of a list."""
     found: dict[Quantity, None] = {}
     for item in (*getattr(annotation, "__metadata__", ()), *get_args(annotation)):
         found |= dict.fromkeys([item] if isinstance(item, Quantity) else quantities_in(item))

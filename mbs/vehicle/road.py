@@ -33,8 +33,6 @@ class RoadSection(Section):
 
         Parameters
         ----------
-        m : Model
-            The car.
         road : Road, RoadFile or None
             Under it; None: `default`.
         hold_at : str

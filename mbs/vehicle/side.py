@@ -40,8 +40,6 @@ class Side:
 
         Parameters
         ----------
-        model : Model
-            Gets the body.
         name : str
             The wheel's name follows it.
         part : Part

@@ -39,8 +39,6 @@ class TabledParts:
     ----------
     m : Model
         Gets the tabled bodies; all that is no part or joint goes to it.
-    base : Body
-        The chassis.
     compressions : mapping of str to Coordinate
         Of the springs, by wheel.
     rack : Coordinate or None

@@ -61,11 +61,6 @@ class MagicFormula(Section):
     def open(self, folder: Path) -> None:
         """Read the file; done once by the reader of the car.
 
-        Parameters
-        ----------
-        folder : Path
-            Of the car.
-
         Raises
         ------
         CarFileError

@@ -61,8 +61,6 @@ def make_world(
     ----------
     file : Path
         ``.toml`` of a world or of a road, or ``.road``.
-    road : Path
-        To write.
     tell : callable
         Called with what is done and its part, 0 to 1.
     thin : bool

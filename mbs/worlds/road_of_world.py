@@ -38,13 +38,10 @@ def write_world_road(
 
     Parameters
     ----------
-    file : Path
-        To write.
     tell : callable
         Called with the part that is done, 0 to 1.
     thin : bool
         Rounded, for a page; see `thin_world`.
-
     """
     x0, y0, _, _ = terrain.world.bounds
     dx, dy = terrain.world.spacing

@@ -49,8 +49,6 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
         From `key_of`.
     make : callable
         Writes the files into an empty folder.
-    out : Path
-        Where they are wanted.
 
     Returns
     -------

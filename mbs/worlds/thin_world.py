@@ -49,8 +49,6 @@ def off_by(terrain: Terrain, road: Path) -> Off:
 
     Parameters
     ----------
-    terrain : Terrain
-        What it was made of.
     road : Path
         As it lies on the disk.
     """

@@ -12,7 +12,8 @@ from tests.elements.harness import Element, frame, signals, tangent_by_differenc
 from tests.elements.stepper import Part, Stepper
 
 TORQUE, RADIUS, INERTIA = 650.0, 0.27, 0.55
-BRAKE = Brake.for_wheel(TORQUE, RADIUS, INERTIA)
+STIFFNESS = TORQUE * RADIUS / 0.9e-3  # the tread gives 0.9 mm at full torque
+BRAKE = Brake(TORQUE, STIFFNESS, 2.0 * np.sqrt(STIFFNESS * INERTIA))  # damped critically
 
 
 def brake_element() -> Element:

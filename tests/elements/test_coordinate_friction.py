@@ -10,7 +10,7 @@ from tests.elements.harness import Element, signals, tangent_by_differences
 from tests.elements.stepper import Part, Stepper
 
 LARGEST, INERTIA, GIVE = 1.5, 0.03, 0.004
-FRICTION = CoordinateFriction.for_inertia(LARGEST, GIVE, INERTIA)
+FRICTION = CoordinateFriction(LARGEST, LARGEST / GIVE, 2.0 * np.sqrt(LARGEST / GIVE * INERTIA))  # damped critically
 
 
 def element() -> Element:

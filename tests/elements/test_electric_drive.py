@@ -221,7 +221,7 @@ def car(m: Model, drive: ElectricDrive, selector: bool = False) -> None:
         for side, y in (("left", 1.0), ("right", -1.0))
     ]
     for spin in spins:
-        m.armature(spin.name, spin, inertia=drive.reflected_inertia(0.04))
+        m.armature(spin.name, spin, inertia=0.5 * 0.04, ratio=drive.ratio)
     throttle = m.input("throttle", min=0.0, max=1.0)
     lever = m.input("selector", start=1.0, min=-1.0, max=1.0) if selector else None
     up, forward = carrier.vector((0.0, 0.0, 1.0)), carrier.vector((1.0, 0.0, 0.0))
@@ -243,15 +243,8 @@ def car(m: Model, drive: ElectricDrive, selector: bool = False) -> None:
         m.sense_element(output, "drive", output)
 
 
-WHEEL = 1.0 + DRIVE.reflected_inertia(0.04)
+WHEEL = 1.0 + 0.5 * 0.04 * DRIVE.ratio**2
 CARRIER = 400.0  # about the axis: the wheels are points on it
-
-
-def test_the_reflected_inertia_is_that_of_the_rotor_at_the_speed_of_the_motor() -> None:
-    W = 13.0
-    assert 2.0 * 0.5 * DRIVE.reflected_inertia(0.04) * W**2 == pytest.approx(0.5 * 0.04 * (DRIVE.ratio * W) ** 2)
-    with pytest.raises(ValueError, match="inertia of a rotor is -1; it must not be negative"):
-        DRIVE.reflected_inertia(-1.0)
 
 
 def test_a_launch_follows_the_closed_form_and_keeps_angular_momentum() -> None:

@@ -53,7 +53,9 @@ class Corner:
         parts = [Part(element, self.TYRE_SIGNALS, upright(0.0))]
         if pedal is not None:
             f, g, spin = vectors(3, 3, 1)
-            brake = Element(Brake.for_wheel(650.0, R, INERTIA).record("brake", f, g, spin[0], 0))
+            stiffness = 650.0 * R / 0.9e-3
+            law = Brake(650.0, stiffness, 2.0 * np.sqrt(stiffness * INERTIA))
+            brake = Element(law.record("brake", f, g, spin[0], 0))
             parts.append(
                 Part(brake, self.BRAKE_SIGNALS, np.r_[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0], lambda t: (pedal(t),))
             )

@@ -16,7 +16,7 @@ from tests.quick import quick
 from tests.vehicle.content import new_with, numbers, sentences, tables
 
 FIRST, CAR_NAMES = "prototype", sorted(car_names(), reverse=True)
-SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES)
+SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES, "proof")
 
 
 def refused(changes, name=FIRST, lines=1):

@@ -56,7 +56,7 @@ def test_manoeuvre_follows_its_reference(car, name):
     assert load < BOUNDS[car][name][1]
 
 
-@pytest.mark.parametrize("car", quick(("prototype", "hatchback", "saloon"), BOUNDS))
+@pytest.mark.parametrize("car", quick(("prototype", "hatchback", "saloon"), BOUNDS, "proof"))
 @pytest.mark.parametrize("name", SMOOTH)
 def test_smooth_manoeuvres_converge_with_the_square_of_the_step(car, name):
     if (car, name) in NOT_SMOOTH:

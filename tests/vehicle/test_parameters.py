@@ -12,12 +12,14 @@ from mbs.vehicle import car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.section import AXES, PRODUCTS, sections_of
+from tests.quick import quick
 
 NOT_IN_THE_FILE = {"road.kerb_x", "road.kerb_height"}
 H = 0.005  # s
 SAME = 1e-9
 # a wheel that is turned has another elimination of zeros: a step may stop one iteration earlier or later
 SAME_ITERATED = 1e-6
+OF_ALL_KINDS = ("prototype", "hatchback", "saloon", "ferrari_250_lm", "commonroad_320i")  # each template is in one
 TOGETHER = 8  # parameters that are changed in one run
 ALONE = ("steering.by_torque",)  # with it the steering wheel is let go
 
@@ -130,7 +132,7 @@ def wrong_parameters(name, groups):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", car_names())
+@pytest.mark.parametrize("name", quick(OF_ALL_KINDS, car_names(), "proof"))
 def test_parameters_do_together_what_the_file_would_do(name):
     """A few at a time, each of which is seen in its run."""
     car = load(name)

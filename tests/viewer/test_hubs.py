@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import mbs
 from mbs.vehicle import car_names, load
+from tests.quick import quick
 from viewer.gltf.parts import Parts
 from viewer.poses import FramePoses, conjugate, rotated
 
@@ -80,7 +81,7 @@ def too_near(surfaces: list[tuple[str, NDArray[np.float64]]], radius: float) -> 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", car_names())
+@pytest.mark.parametrize("name", quick(("prototype", "hatchback", "commonroad_320i"), car_names(), "proof"))
 def test_no_surfaces_of_a_hub_flicker(name: str) -> None:
     scene = mbs.compile(load(name).model()).scene
     wheels = [shape for shape in scene["shapes"] if shape["kind"] == "wheel"]

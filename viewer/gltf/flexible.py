@@ -52,8 +52,6 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
 
     Parameters
     ----------
-    part : mapping
-        Of the scene.
     columns : mapping of str to array of shape (n,)
         With its amplitudes.
     deformation : float

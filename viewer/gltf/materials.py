@@ -48,8 +48,6 @@ def look(shape: Mapping[str, Any], other: str = "plastic", color: str | None = N
         May have ``material``, ``color`` and ``opacity``.
     other : str
         Kind where it names none.
-    color : str, optional
-        Where it names none.
     double : bool
         Seen from both sides.
     """

@@ -29,10 +29,6 @@ class Parts:
 
     Parameters
     ----------
-    poses : FramePoses
-        Of the frames.
-    scene : mapping
-        That was checked.
     fixed : list of (frame, name, solids)
         What moves with a frame.
     free : list of (name, motion, solids)

@@ -22,16 +22,10 @@ def path_solids(scene: Mapping[str, Any], poses: FramePoses, up: Vectors) -> lis
 
     Parameters
     ----------
-    scene : mapping
-        That was checked.
     poses : FramePoses
         Of its frames, over the run.
     up : array of shape (3,)
         Unit.
-
-    Returns
-    -------
-    list of (name, Solid, Look)
     """
     focus = scene.get("focus")
     if not focus or scene.get("planar"):

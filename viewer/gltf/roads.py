@@ -19,8 +19,6 @@ def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: floa
 
     Parameters
     ----------
-    road : mapping
-        Of the scene.
     up : array of shape (3,)
         Unit.
     centre : array of shape (3,)

@@ -43,8 +43,6 @@ class WrittenGltf(NamedTuple):
 
     Parameters
     ----------
-    path : Path
-        The file.
     size : int
         Bytes.
     times : int
@@ -86,8 +84,6 @@ def write_gltf(
     ----------
     path : path
         ``.glb``, one binary file, or ``.gltf``, one text file; an older one is replaced when the new one is whole.
-    recording : Recording
-        With a scene.
     rate : float
         Times a second of the file that are kept at most, 1 to 240 Hz; a part that turns far between two of them has
         more.

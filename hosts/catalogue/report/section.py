@@ -32,8 +32,6 @@ def section(
     ----------
     records : mapping of str to TestRecord or str
         By label of the car, in the order of the cars.
-    settings : mapping of str to float
-        Those used.
     command : sequence of str
         That makes the whole report; empty where nobody knows it.
     """

@@ -169,8 +169,6 @@ def steering_of(driver: str, course: Course, constants: Mapping[str, float], spe
     ----------
     driver : str
         One of `DRIVERS`.
-    constants : mapping of str to float
-        Of the car.
     speed : float
         m/s.
     """

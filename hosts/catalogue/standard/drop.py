@@ -63,8 +63,6 @@ def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
     ----------
     result : Result
         From the start of the fall.
-    settings : mapping of str to float
-        Those of the test.
     """
     time, load = result.time, total_load(result)
     loads = at_wheels(result, "Fz")

@@ -88,11 +88,6 @@ class StraightBraking:
 def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, tuple[str, ...]]:
     """Drive straight, brake to rest.
 
-    Parameters
-    ----------
-    settings : mapping of str to float
-        Those of the test.
-
     Returns
     -------
     result : Result

@@ -25,10 +25,6 @@ class CircleFollower:
         m.
     wheel_angle_max : float
         Mean angle of the front wheels where the input is 1, rad.
-    name : str
-        Of the steering input.
-    largest : float
-        Of the steering input.
     horizon : float
         Time in which an error is taken back, s.
 

@@ -17,8 +17,6 @@ class FixedSteering:
         s.
     mean_over : float
         Time before that, s; the steering is the mean over it.
-    name : str
-        Of the input.
 
     Attributes
     ----------

@@ -17,8 +17,6 @@ class ConstantSteering:
     ----------
     value : float
         In the unit of the input.
-    name : str
-        Of the input.
     """
 
     def __init__(self, value: float, name: str = "steering") -> None:
@@ -39,8 +37,6 @@ class SteeringTable:
         s, not decreasing; of two equal times the later value is taken.
     values : array_like of shape (n,)
         In the unit of the input, linear in between, constant outside.
-    name : str
-        Of the input.
 
     Raises
     ------

@@ -42,11 +42,6 @@ class Derived:
 def in_order(derived: Sequence[Derived], known: Collection[str]) -> tuple[list[Derived], dict[str, str]]:
     """Those that can be computed, each after what it needs.
 
-    Parameters
-    ----------
-    known : collection of str
-        Names that are there.
-
     Returns
     -------
     done : list of Derived

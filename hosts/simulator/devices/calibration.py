@@ -143,8 +143,6 @@ class Assignment:
 
     Parameters
     ----------
-    name : str
-        Of the input.
     base : Reading
         When it began.
     until : float

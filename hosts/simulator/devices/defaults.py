@@ -38,8 +38,6 @@ def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collecti
         As it came: a pedal that rests at the high end of its axis is inverted.
     bindings : str
         SDL's table of a gamepad.
-    inputs : collection of str
-        That the car has.
 
     Returns
     -------

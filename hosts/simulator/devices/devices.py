@@ -29,14 +29,10 @@ class Devices:
     ----------
     hands : Hands
         Takes what devices want, as source ``device NAME``.
-    inputs : collection of str
-        Of the car.
     constants : mapping of str to float
         Of the car; `vehicle.steering_wheel_angle_max` is used.
     tell : callable
         Takes sentences for people, from any thread.
-    folder : path
-        Of the mapping files.
     torque : callable or None
         Torque of the driver's hands on the car's steering wheel, N m, positive to the left; None while the car does not
         run. Called from a thread of each motor. Instead of a callable None: the car does not have it.
@@ -78,8 +74,6 @@ class Devices:
         ----------
         device : str
             Its `id`.
-        name : str
-            Of the input.
         mapping : mapping or None
             Fields of `InputMapping`; None: the device does not drive this input.
 

@@ -51,8 +51,6 @@ class Source:
     ----------
     kind : str
         ``axis``, ``button`` or ``hat``.
-    way : str
-        Of a hat.
     """
 
     kind: str

@@ -18,10 +18,6 @@ _INSTEAD = "the keyboard, and gamepads in the page, still drive"
 def load() -> Any:
     """The module `sdl2`, not yet initialised.
 
-    Returns
-    -------
-    module
-
     Raises
     ------
     HostError

@@ -50,8 +50,6 @@ class Response:
 
     Parameters
     ----------
-    measure : str
-        Its column.
     rows : ndarray of int, shape (m,)
         Positions in the frame of the runs that yield it.
     values : ndarray of shape (m,)

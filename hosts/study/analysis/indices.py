@@ -23,8 +23,6 @@ class Indices:
 
     Parameters
     ----------
-    names : tuple of str
-        Parameters.
     first, first_conf : ndarray of shape (d,)
         Part of the variance that a parameter makes alone, and half its 95 % confidence interval.
     total, total_conf : ndarray of shape (d,)

@@ -271,8 +271,6 @@ class Instance:
         ----------
         h : float
             Step, s.
-        n : int
-            Number of steps.
         inputs : buffer of float64, shape (n, nu), optional
             Input values, a row per step; None keeps them as they are.
         every : int

@@ -16,8 +16,6 @@ class LoadedSystem:
 
     Parameters
     ----------
-    data : bytes
-        A System file.
     library : path, optional
         The kernel library; by default `library_path()`.
 

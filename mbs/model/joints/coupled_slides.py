@@ -20,8 +20,6 @@ class Slide(NamedTuple):
 
     Parameters
     ----------
-    body, carrier : Body
-        What slides, and what it slides on.
     axis : array_like, shape (dimension,)
         Direction of the slide, fixed in the carrier, earth axes as drawn.
     """

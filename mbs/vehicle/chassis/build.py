@@ -80,13 +80,7 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
 
 
 def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
-    """Moments and stresses at the gauges; zero for the rigid chassis, where `stress.computed` says so.
-
-    Parameters
-    ----------
-    flexible : FlexibleFrame
-        Has the gauges.
-    """
+    """Moments and stresses at the gauges; zero for the rigid chassis, where `stress.computed` says so."""
     note = "; zero where stress.computed is 0"
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description

@@ -33,8 +33,6 @@ class FlexibleFrame:
         Of the file and its tables.
     structure : Structure
         Its finite elements and gauges.
-    joints : FrameJoints
-        What the car is fixed to.
 
     Attributes
     ----------

@@ -53,8 +53,6 @@ class JointFinder:
 
     Parameters
     ----------
-    attached : Attachments
-        Hard points on the chassis.
     keys : mapping of tuple to str
         Key paths of hard points and accelerometers, for messages.
     """

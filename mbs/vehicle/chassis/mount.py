@@ -20,8 +20,6 @@ class LeverCarrier(Body):
 
     Parameters
     ----------
-    chassis : Body
-        Has the points.
     axes : list of AffineVector
         x, y and z axis.
     """

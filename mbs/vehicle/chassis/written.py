@@ -14,11 +14,6 @@ def write_inertia(b: CarBuilder, data: Chassis) -> None:
 
     What they change rides on the frame that takes the forces of the ground, and loads a flexible chassis there; its own
     mass and modes stay.
-
-    Parameters
-    ----------
-    b : CarBuilder
-        With the chassis.
     """
     _, axes, _ = b.chassis.contact_frame
     chassis = b.m.written_inertia(

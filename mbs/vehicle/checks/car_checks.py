@@ -17,13 +17,7 @@ from mbs.vehicle.section import sections_of
 
 
 def car_faults(car: CarContent) -> list[str]:
-    """A sentence for each fault, without the equilibrium, which `settled` looks for.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    """
+    """A sentence for each fault, without the equilibrium, which `settled` looks for."""
     return list(_faults(car))
 
 
@@ -42,13 +36,7 @@ def _faults(car: CarContent) -> Iterator[str]:
 
 
 def car_oddities(car: CarContent, rest: Rest) -> list[str]:
-    """A sentence for each thing that is odd.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    """A sentence for each thing that is odd."""
     return [
         *rest.oddities(car),
         *place_oddities(car),

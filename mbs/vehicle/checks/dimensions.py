@@ -11,13 +11,7 @@ OVERHANG, BESIDE = 3.0, 0.9  # m: most that the outline has beyond both axles, a
 
 
 def dimension_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    """
+    """A sentence for each fault."""
     front, rear = car.front.wheel, car.rear.wheel
     wheels = car.front.tyre.radius + car.rear.tyre.radius
     if car.wheelbase < max(LEAST_WHEELBASE, wheels):

@@ -42,13 +42,7 @@ class Rest:
     lean: float
 
     def faults(self, car: CarContent) -> Iterator[str]:
-        """A sentence for each axle far from where it is drawn.
-
-        Parameters
-        ----------
-        car : CarContent
-            At rest.
-        """
+        """A sentence for each axle far from where it is drawn."""
         yield from self._moved(car, TOO_FAR, math.inf)
         for name, axle in _axles(car):
             free, length = axle.spring.free_length, self.spring_length[name]
@@ -59,13 +53,7 @@ class Rest:
                 )
 
     def oddities(self, car: CarContent) -> Iterator[str]:
-        """A sentence for each difference from the drawing.
-
-        Parameters
-        ----------
-        car : CarContent
-            At rest.
-        """
+        """A sentence for each difference from the drawing."""
         yield from self._moved(car, ODD, TOO_FAR)
         for name, axle in _axles(car):
             drawn, found = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
@@ -99,11 +87,6 @@ class Rest:
 
 def settled(model: Model, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
 
     Raises
     ------

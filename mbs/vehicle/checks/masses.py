@@ -21,13 +21,7 @@ BODY_RADII = 0.1, 0.5  # of the car's width about x, of its length about y and z
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    """
+    """A sentence for each fault."""
     yield from _sum(car)
     for part in parts_of(car):
         yield from _tensor(part.key("inertia"), part.inertia)
@@ -45,13 +39,7 @@ def mass_faults(car: CarContent) -> Iterator[str]:
 
 
 def mass_oddities(car: CarContent) -> Iterator[str]:
-    """A sentence for each thing that is odd.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    """A sentence for each thing that is odd."""
     least = SMALL_PRODUCT * max(car.chassis.inertia)
     for k, (axes, product) in enumerate(zip(("xy", "xz", "yz"), car.chassis.products, strict=True)):
         if 0.0 < abs(product) < least:
@@ -62,15 +50,7 @@ def mass_oddities(car: CarContent) -> Iterator[str]:
 
 
 def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
-    """Masses with their places as drawn, of both sides.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    payloads : bool
-        Whether with the payloads.
-    """
+    """Masses with their places as drawn, of both sides."""
     found = [(car.chassis.mass, car.chassis.com)]
     found += [(load.mass, load.point) for load in car.payload.values() if payloads]
     points = car.front.suspension.points

@@ -23,13 +23,7 @@ Point = tuple[float, float, float]
 
 
 def place_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    """
+    """A sentence for each fault."""
     for axle in (car.front, car.rear):
         yield from _suspension(axle)
         yield from _parts(axle)
@@ -52,13 +46,7 @@ def place_faults(car: CarContent) -> Iterator[str]:
 
 
 def place_oddities(car: CarContent) -> Iterator[str]:
-    """A sentence for each thing that is odd.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    """A sentence for each thing that is odd."""
     of_the_body = _points_of_the_body(car)
     points = drawn_points(car.front) | drawn_points(car.rear) | of_the_body
     points |= {part.key("com"): part.com for part in parts_of(car)}
@@ -78,24 +66,12 @@ def place_oddities(car: CarContent) -> Iterator[str]:
 
 
 def parts_of(section: Section) -> list[Part]:
-    """Rigid parts of the left side in a section.
-
-    Parameters
-    ----------
-    section : Section
-        A car or a part of one.
-    """
+    """Rigid parts of the left side in a section."""
     return [inner for inner in sections_of(section) if isinstance(inner, Part)]
 
 
 def drawn_points(section: Section) -> dict[str, Point]:
-    """Points of the left side in the tables ``points`` of a section, by key path.
-
-    Parameters
-    ----------
-    section : Section
-        An axle or a part of one.
-    """
+    """Points of the left side in the tables ``points`` of a section, by key path."""
     tables = [inner for inner in sections_of(section) if inner.path.endswith(".points")]
     return {
         table.key(name): point

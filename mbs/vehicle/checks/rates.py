@@ -20,11 +20,6 @@ def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
 
     The motion ratio of a spring is the load that it carries, wheel load less unsprung weight, over its force: virtual
     work at rest.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
     """
     for name, axle in (("front", car.front), ("rear", car.rear)):
         unsprung = axle.wheel.mass + sum(part.mass for part in parts_of(axle))

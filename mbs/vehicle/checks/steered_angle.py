@@ -15,13 +15,7 @@ CURVES_MISS = 0.1  # of the angle: a table says it, but for what both wheels dif
 
 def steering_oddities(car: CarContent) -> Iterator[str]:
     """Sentences where a table is stretched, and where the angle at full travel is not that of the rack on its arms or
-    of the table of its axle.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    of the table of its axle."""
     table = car.steering.by_table if isinstance(car.steering, RackByAngle) else None
     if isinstance(car.steering, RackByAngle) and table is not None and abs(table.factor - 1.0) > SAME:
         turn = 2.0 * math.pi * table.slope

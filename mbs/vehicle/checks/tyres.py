@@ -16,26 +16,14 @@ LOADS = 0.2, 5.0  # load at rest over the nominal load
 
 
 def tyre_faults(car: CarContent) -> Iterator[str]:
-    """A sentence for each fault.
-
-    Parameters
-    ----------
-    car : CarContent
-        Each number of it is in its range.
-    """
+    """A sentence for each fault."""
     for axle in (car.front, car.rear):
         yield from _radii(axle)
         yield from _friction(axle)
 
 
 def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
-    """A sentence for each thing that is odd.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
-    """
+    """A sentence for each thing that is odd."""
     for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
         if isinstance(axle.tyre, MagicFormula):
             yield from axle.tyre.notes

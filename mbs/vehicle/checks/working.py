@@ -32,11 +32,6 @@ def working_ranges(car: CarContent) -> Ranges:
 
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
     unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
-
-    Parameters
-    ----------
-    car : CarContent
-        Without faults.
     """
     found: Ranges = {}
     loads: dict[str, tuple[float, float]] = {}

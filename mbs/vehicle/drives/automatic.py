@@ -115,8 +115,6 @@ class Automatic(Section):
         ----------
         spins : mapping of str to Spin
             Of the wheels, by their names.
-        neutral : bool
-            Whether the selector is in neutral.
         """
         own = ("kind", "wheels", "ratio_factor")
         values = {name: getattr(self, name) for name in type(self).model_fields if name not in own}

@@ -84,8 +84,6 @@ class Electric(Section):
         ----------
         spins : mapping of str to Spin
             Of the wheels, by their names.
-        neutral : bool
-            Whether the selector is in neutral.
         """
         own = ("kind", "wheels", "motor_inertia")
         drive = ElectricDrive(**{name: getattr(self, name) for name in type(self).model_fields if name not in own})

@@ -154,13 +154,7 @@ def brake_share(car: CarContent, axle: str) -> float:
 
 
 def length(linkage: Linkage, line: AffineVector, at: Position) -> float:
-    """Length of a spring or damper, m.
-
-    Parameters
-    ----------
-    line : AffineVector
-        From one end to the other.
-    """
+    """Length of a spring or damper, m."""
     D, d = linkage.linear(line)
     return float(np.linalg.norm(D @ at.q + d))
 
@@ -170,8 +164,6 @@ def stretch(linkage: Linkage, line: AffineVector, at: Position, direction: Array
 
     Parameters
     ----------
-    line : AffineVector
-        From one end to the other.
     direction : ndarray, shape (3,)
         Rates of the travels of the left and the right wheel, and of the rack.
     """

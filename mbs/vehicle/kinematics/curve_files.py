@@ -21,8 +21,6 @@ def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
 
     Parameters
     ----------
-    curve : Curve
-        Of an axle.
     file : path
         To be written; one that exists is replaced when the new one is whole.
 
@@ -60,13 +58,7 @@ def read_curve(file: str | PathLike[str]) -> Curve:
 
 
 def curve_file(curve: Curve) -> str:
-    """Name of the file of a curve, as ``front_parallel.csv``.
-
-    Parameters
-    ----------
-    curve : Curve
-        Of an axle.
-    """
+    """Name of the file of a curve, as ``front_parallel.csv``."""
     return f"{curve.axle}_{curve.motion}.csv"
 
 

@@ -96,8 +96,6 @@ def steer_curve(linkage: Linkage, rack: Array, wheel_by_rack: WheelByRack) -> Cu
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the front axle.
     rack : ndarray, shape (n,)
         Rising, with 0 among them, m.
     wheel_by_rack : callable

@@ -17,13 +17,7 @@ if TYPE_CHECKING:
 
 
 def page(found: Kinematics, gives: Compliance) -> str:
-    """The page as text; it needs no other file.
-
-    Parameters
-    ----------
-    gives : Compliance
-        Of the same car.
-    """
+    """The page as text; it needs no other file."""
     title = f"Kinematics of the car '{found.car}'"
     parts = [
         element("h1", title),

@@ -24,8 +24,6 @@ def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -
 
     Parameters
     ----------
-    linkage : Linkage
-        Of the steered axle.
     wheel_by_rack : callable
         Gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m.
 

@@ -57,8 +57,6 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Ch
     rows : sequence of mapping
         With "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output; None where there is
         none.
-    outputs : sequence of str
-        Those that must have an error.
     """
     names = {row["manoeuvre"] for row in rows}
     found: list[Choice] = []

@@ -28,8 +28,6 @@ class Drive:
 
     Parameters
     ----------
-    name : str
-        Of its rows.
     duration : float
         s.
     inputs : dict of str to signal
@@ -54,11 +52,6 @@ class Drive:
 
 def own_drives(system: System) -> list[Drive]:
     """The drives that a car can do by itself: a slalom, braking, and a kerb.
-
-    Parameters
-    ----------
-    system : System
-        Of the rigid car.
 
     Returns
     -------
@@ -98,8 +91,6 @@ def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
         CSV with the column ``time``, s, and one of each input; linear in between.
     speed : float
         At the start, m/s.
-    inputs : collection of str
-        That the car has.
 
     Raises
     ------

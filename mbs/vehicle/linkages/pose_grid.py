@@ -51,13 +51,7 @@ class PoseGrid:
     q: Array
 
     def full(self, start: int, size: int) -> Array:
-        """Full coordinates of the linkage's model over the grid, shape (n, k, size).
-
-        Parameters
-        ----------
-        start, size : int
-            Of them.
-        """
+        """Full coordinates of the linkage's model over the grid, shape (n, k, size)."""
         rows = [self.linkage.full(start + i) for i in range(size)]
         return np.stack([self.q @ row + constant for row, constant in rows], axis=-1)
 

@@ -17,11 +17,6 @@ Array = NDArray[np.float64]
 class StandingModel:
     """Base of what puts a compiled model to other places.
 
-    Parameters
-    ----------
-    model : Model
-        With all its parts.
-
     Attributes
     ----------
     evaluator : Evaluator
@@ -35,13 +30,7 @@ class StandingModel:
         self.evaluator = Evaluator(StandingSystem(system))
 
     def linear(self, v: AffineVector) -> tuple[Array, Array]:
-        """Matrix (n, nq) and constant (n,) of a point or vector over the coordinates.
-
-        Parameters
-        ----------
-        v : AffineVector
-            Over the full coordinates.
-        """
+        """Matrix (n, nq) and constant (n,) of a point or vector over the coordinates."""
         full = np.zeros((len(v), len(self._constant)))
         for row, component in zip(full, v.components, strict=True):
             for k, c in component.terms.items():

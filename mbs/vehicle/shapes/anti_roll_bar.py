@@ -11,13 +11,7 @@ BODIES = {"half": "half axle"}  # parts of a suspension whose bodies have anothe
 
 
 def anti_roll_bar_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw the bar of an axle, if it has one.
-
-    Parameters
-    ----------
-    name : str
-        "front" or "rear".
-    """
+    """Draw the bar of an axle, if it has one."""
     bar = axle.anti_roll_bar
     if bar is None:
         return

@@ -70,13 +70,7 @@ SLIM = 0.36  # height over length where nothing tells it
 
 @dataclass(frozen=True)
 class BodyShell:
-    """Surfaces of the body.
-
-    Parameters
-    ----------
-    car : CarContent
-        Its outline.
-    """
+    """Surfaces of the body."""
 
     car: CarContent
 

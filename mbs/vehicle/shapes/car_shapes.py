@@ -36,8 +36,6 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> Non
 
     Parameters
     ----------
-    b : CarBuilder
-        The whole car.
     spins : mapping of str to Spin
         Its wheels by name.
     """

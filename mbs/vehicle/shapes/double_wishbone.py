@@ -10,13 +10,7 @@ from mbs.vehicle.side import sides
 
 
 def double_wishbone_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw both sides.
-
-    Parameters
-    ----------
-    name : str
-        "front" or "rear".
-    """
+    """Draw both sides."""
     for side in sides(name):
         w = side.wheel
         p = {key: side.point(point) for key, point in axle.suspension.points}

@@ -39,8 +39,6 @@ class Looks:
 
     Parameters
     ----------
-    b : CarBuilder
-        With all its bodies.
     spins : mapping of str to Spin
         Wheels by name.
     rack : Owner

@@ -16,8 +16,6 @@ def spring_and_damper(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> 
 
     Parameters
     ----------
-    name : str
-        Of the spring in the model.
     lower, upper : (body, point)
         Its ends.
     """

@@ -10,24 +10,12 @@ from mbs.vehicle.side import sides
 
 
 def lower_arm_strut_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw both sides of a suspension whose strut stands on the ball joint and which a toe link steers.
-
-    Parameters
-    ----------
-    name : str
-        "front" or "rear".
-    """
+    """Draw both sides of a suspension whose strut stands on the ball joint and which a toe link steers."""
     _strut_shapes(looks, name, axle, "lower_ball_joint", "toe_link")
 
 
 def macpherson_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw both sides of a MacPherson suspension.
-
-    Parameters
-    ----------
-    name : str
-        "front" or "rear".
-    """
+    """Draw both sides of a MacPherson suspension."""
     _strut_shapes(looks, name, axle, "strut_lower", "tie_rod")
 
 

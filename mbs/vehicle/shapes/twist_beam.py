@@ -10,13 +10,7 @@ from mbs.vehicle.side import sides
 
 
 def twist_beam_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw trailing arms and cross-beam.
-
-    Parameters
-    ----------
-    name : str
-        "front" or "rear".
-    """
+    """Draw trailing arms and cross-beam."""
     ends = []
     for side in sides(name):
         w = side.wheel

@@ -23,13 +23,7 @@ def tyre_width(tyre: TMeasy | MagicFormula) -> float:
 
 
 def wheel_shapes(looks: Looks, name: str, axle: Axle) -> None:
-    """Draw the wheels of an axle.
-
-    Parameters
-    ----------
-    name : str
-        "front" or "rear".
-    """
+    """Draw the wheels of an axle."""
     for side in sides(name):
         looks.m.shape(
             looks.spins[side.wheel],

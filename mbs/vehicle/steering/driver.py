@@ -15,8 +15,6 @@ def angle_demand(m: Model, largest: float) -> Input:
 
     Parameters
     ----------
-    m : Model
-        Gets the input.
     largest : float
         Angle at full lock, rad.
     """
@@ -34,8 +32,6 @@ def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
 
     Parameters
     ----------
-    m : Model
-        Gets the outputs.
     demand : Input
         From `angle_demand`.
     guide : Guide

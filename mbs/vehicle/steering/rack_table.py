@@ -76,8 +76,6 @@ def table_faults(key: str, rows: Rows, travel_key: str, travel: float) -> Iterat
 
     Parameters
     ----------
-    key : str
-        Of the table, for messages.
     travel_key, travel : str, float
         Of the travel at full lock, m, that it must reach.
     """

@@ -19,8 +19,6 @@ def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn
 
     Parameters
     ----------
-    b : CarBuilder
-        With the outputs of the steering.
     held : Guide
         Of the travel of the rack, of the angle in the table, or of the angle of the arm.
     turn : float

@@ -59,13 +59,7 @@ class Compliance(Section):
     """Damping over stiffness."""
 
     def fits(self, second: str) -> Iterator[str]:
-        """A sentence where the table of the axle leaves no place for it.
-
-        Parameters
-        ----------
-        second : str
-            Second variable of the table.
-        """
+        """A sentence where the table of the axle leaves no place for it."""
         if second == OTHER:
             yield f"{self.path} is there, but the table has {OTHER}; an axle whose wheels move each other has none."
         for name in ("per_lateral_force", "per_longitudinal_force"):
@@ -92,8 +86,6 @@ class Compliance(Section):
         ----------
         centre : (float, float, float)
             Of the left wheel, m.
-        part : Part
-            The left carrier.
         """
         chassis, slide = b.chassis.frame, self.longitudinal_per_longitudinal_force
         lean, way = -self.camber_per_lateral_force, self.lateral_per_lateral_force

@@ -86,8 +86,6 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
 
     Parameters
     ----------
-    side : Side
-        Left or right.
     hub : Hub
         The left wheel as drawn.
     """

@@ -101,8 +101,6 @@ def read_curves(folder: Path, name: str, key: str) -> CurveTable:
 
     Parameters
     ----------
-    folder : Path
-        Of the car.
     key : str
         Key path of the name, for messages.
 

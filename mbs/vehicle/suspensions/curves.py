@@ -93,8 +93,6 @@ class Curves(Section):
 
         Parameters
         ----------
-        folder : Path
-            Of the car.
         hub : Hub
             The left wheel as drawn.
 

@@ -217,7 +217,7 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
 def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The grip that is 0.8 of the car's pays for its fit, that at its start does not; both starts agree."""
     log = logged(car, tmp_path, {"initial.speed": 15.0, "front.tyre.grip": 0.8}, noise=1.0)
-    windows = ("--windows", "1", "--window-every", "0.5", "--fit-step", "0.004", "--starts", "2")
+    windows = ("--windows", "1", "--window-every", "1", "--fit-step", "0.004", "--starts", "2")
     _, record = compared(
         car, log, *windows, "--fit", "front.tyre.grip", "--fit", "rear.tyre.grip=0.5:1.5", signals="chassis.wz"
     )

@@ -111,8 +111,16 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ported", [CARS[0], CARS[3]], indirect=True)
-@pytest.mark.parametrize("normal", [(0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.7, 0.7, 0.7), (1.0, 0.0, 0.0)])
+@pytest.mark.parametrize(
+    ("ported", "normal"),
+    [
+        (CARS[0], (0.0, 0.0, 0.0)),
+        (CARS[0], (0.7, 0.7, 0.7)),
+        (CARS[3], (0.0, 0.0, -1.0)),
+        (CARS[3], (1.0, 0.0, 0.0)),
+    ],
+    indirect=["ported"],
+)
 def test_a_normal_that_is_none_is_a_sentence_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
     with Car(ported, step=0.004) as car:
         for wheel in WHEELS:

@@ -15,7 +15,7 @@ from hosts.common.errors import HostError
 from hosts.study.campaign import run_study
 from hosts.study.one_run import Bench
 from hosts.study.plan import make_plan
-from hosts.study.store import open_signals, planned_points, read_study
+from hosts.study.store import open_signals, read_study
 from hosts.study.study_file import read_study_file
 
 GRAVITY = 9.81
@@ -61,8 +61,6 @@ def test_pandas_opens_the_parts_with_units_and_origin(folder: Path) -> None:
     part = next((folder / "runs").glob("*.parquet"))
     assert pq.read_schema(part).field("lowest").metadata[b"unit"] == b"m"
     assert read_study(folder).attrs == table.attrs
-    planned = planned_points(folder)
-    assert planned.equals(table.set_index("point")[list(planned.columns)].sort_index())
 
 
 def test_xarray_opens_the_signals(folder: Path) -> None:

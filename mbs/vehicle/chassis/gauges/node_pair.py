@@ -30,11 +30,6 @@ class NodePair(Section):
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
         """What it reports.
 
-        Parameters
-        ----------
-        model : FiniteElementModel
-            Has the nodes.
-
         Raises
         ------
         ModelError

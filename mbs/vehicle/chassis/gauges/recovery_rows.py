@@ -37,11 +37,6 @@ class RecoveryRows(Section):
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
         """What it reports.
 
-        Parameters
-        ----------
-        model : FiniteElementModel
-            Has the nodes.
-
         Raises
         ------
         ModelError
