@@ -108,7 +108,7 @@ NAN_STAYS = b"$ROAD_CRG_MODS\nGRID_NAN_MODE = 0\n$\n$ROAD_CRG\n"
         (b"no road", "cannot be read as OpenCRG"),
         (b"\0" * 5000, "cannot be read as OpenCRG"),
         (STRAIGHT.replace(b"#:LRFI", b"#:KDBI"), "as OpenCRG: unexpected end of binary data"),
-        (STRAIGHT.replace(b"#:LRFI", b"#:KRBI")[:-1], "(corrupted file?), the first of 3 faults."),
+        (STRAIGHT.replace(b"#:LRFI", b"#:KRBI")[:-1], "truncated file?), the first of 2 faults."),
         (STRAIGHT.replace(b"#:LRFI", b"#:XXXX"), "data format 'XXXX' is not supported"),
         (HEADER + b"$$$$\n" + b" *missing*" * 7 + b"\n", "cannot be read as OpenCRG"),
         (
