@@ -155,6 +155,14 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("name", ["yaw control", "torque vectoring", "two cars"])
+def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(name: str) -> None:
+    ways = ((controlled.INNER, "repeated"), (0.004, "held"), (0.004, "repeated"))
+    finest, held, again = (run(name, step, inputs=inputs)[SYSTEMS[name].measure][-1] for step, inputs in ways)
+    assert abs(again - finest) < 0.5 * abs(held - finest)
+
+
+@pytest.mark.slow
 def test_a_partner_that_falls_silent_or_gives_no_number_is_told(partners: dict[str, Path]) -> None:
     """Three ports that nobody sets, and one whose partner breaks: it holds the last value, and the car drives on."""
     parts = {"car": car_fmu("prototype", "torque"), "spring": partners["half_spring"]}
