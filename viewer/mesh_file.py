@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ali3.extras import missing_module
 from ali3.reading import check_file
+from ali3.words import reader_stops
 from viewer.errors import ViewerError
 
 if TYPE_CHECKING:
@@ -112,6 +113,8 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
     triangles = np.asarray(mesh.faces, dtype=np.int64)
     if not len(triangles):
         raise MeshError(f"{path} is no mesh: it has no triangles.")
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise MeshError(f"{path} is no mesh: its points have not three coordinates each.")
     if triangles.min() < 0 or triangles.max() >= len(points):
         raise MeshError(f"{path} is no mesh: a triangle has a point that is not there.")
     used = points[triangles]
@@ -140,8 +143,7 @@ def _load(file: Path, extra: str) -> trimesh.Trimesh:
     except ModuleNotFoundError as error:
         raise MeshError(f"{file} cannot be read as a mesh. {missing_module(error, extra)}") from None
     except Exception as error:  # what a reader of many formats raises on a damaged file has no common kind
-        words = str(error).strip().splitlines()
-        raise MeshError(f"{file} cannot be read as a mesh: {words[0].rstrip('.') if words else repr(error)}.") from None
+        raise MeshError(f"{file} cannot be read as a mesh: {reader_stops(error)}") from None
 
 
 def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -1,4 +1,4 @@
-// An FMU of FMI 2.0 for co-simulation as an object of C++17, in one header. `drive.cpp` beside it is an example.
+// An FMU of FMI 2.0 for co-simulation as an object of C++17 or later, in one header. `drive.cpp` beside it is an example.
 //
 //   fmu::Fmu car("unpacked/Prototype");
 //   car.initialise({{"initial.speed", 15.0}});
@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -156,7 +157,8 @@ inline std::vector<Tag> tags_of(const std::string &xml) {
 }
 
 inline std::string uri_of(const std::filesystem::path &folder) {
-  const std::string path = std::filesystem::absolute(folder).generic_u8string();
+  const auto utf8 = std::filesystem::absolute(folder).generic_u8string(); // of char8_t from C++20 on
+  const std::string path(utf8.begin(), utf8.end());
   std::string uri = path.empty() || path[0] != '/' ? "file:///" : "file://";
   for (const char c : path) {
     const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -166,6 +168,15 @@ inline std::string uri_of(const std::filesystem::path &folder) {
     uri += plain ? std::string(1, c) : code;
   }
   return uri;
+}
+
+inline fmi2ValueReference reference_of(const std::string &text, const std::string &name) {
+  char *end = nullptr;
+  const unsigned long long number = std::strtoull(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0' || number > std::numeric_limits<fmi2ValueReference>::max())
+    throw std::runtime_error("modelDescription.xml is damaged: '" + name + "' has the valueReference '" + text +
+                             "', which must be a whole number below 2^32.");
+  return static_cast<fmi2ValueReference>(number);
 }
 
 } // namespace detail
@@ -331,8 +342,8 @@ private:
       if (tag.name == "CoSimulation" && !guid.empty()) model = value("modelIdentifier", "");
       if (tag.name == "ScalarVariable") {
         name = value("name", "");
-        known[name] = {static_cast<fmi2ValueReference>(std::stoul(value("valueReference", "0"))), "",
-                       value("causality", "local"), value("variability", "continuous")};
+        known[name] = {detail::reference_of(value("valueReference", ""), name), "", value("causality", "local"),
+                       value("variability", "continuous")};
       } else if (!name.empty() && known[name].type.empty() &&
                  (tag.name == "Real" || tag.name == "Integer" || tag.name == "Boolean" || tag.name == "String" ||
                   tag.name == "Enumeration")) {

@@ -11,11 +11,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.near_names import did_you_mean
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu, StepRefusedError
-from hosts.systems.wires import Wire, wires_of
+from hosts.systems.wires import Wire, parted, starts_of, wires_of
 
 Array = NDArray[np.float64]
 Order = Literal["in turn", "at once"]
@@ -97,6 +98,7 @@ class CoupledFmus(Closing):
     def close(self) -> None:
         """Free the instances."""
         self._stack.close()
+        self._state = "closed"
 
     @property
     def time(self) -> float:
@@ -110,7 +112,10 @@ class CoupledFmus(Closing):
 
     def fmu(self, name: str) -> Fmu:
         """A part; inputs that no wire sets are set there."""
-        return next(p.fmu for p in self._parts if p.name == name)
+        fmus = self._fmus()
+        if name not in fmus:
+            raise HostError(f"There is no part '{name}'{did_you_mean(name, fmus)}")
+        return fmus[name]
 
     def initialise(self, **start: Value) -> None:
         """Start all parts at the time 0, each with what those before it give; once more after steps, too.
@@ -125,12 +130,7 @@ class CoupledFmus(Closing):
         HostError
             There is no such part, or a part does not take its values.
         """
-        by_part: dict[str, dict[str, Value]] = {p.name: {} for p in self._parts}
-        for text, value in start.items():
-            part, _, name = text.partition(".")
-            if part not in by_part:
-                raise HostError(f"'{text}' names no part; the parts are {', '.join(by_part)}.")
-            by_part[part][name] = value
+        by_part = starts_of(start, self._fmus())
         now: dict[tuple[str, str], float] = {}
         used, self._state = self._state != "new", "moved in part"
         for p in self._parts:
@@ -151,6 +151,7 @@ class CoupledFmus(Closing):
             A part refused it, or an input. Where all parts can save their states, they are then as before the step;
             else the system must be initialised again.
         """
+        self._fmus()
         if self._state != "whole":
             raise HostError(
                 "A system must be initialised before a step, and again after one that only some parts made."
@@ -179,7 +180,7 @@ class CoupledFmus(Closing):
 
     def read(self, names: Sequence[str]) -> Array:
         """Values of variables now, each named as ``part.variable``; shape (len(names),)."""
-        return np.array([self.fmu(part).getter([name])()[0] for part, _, name in (n.partition(".") for n in names)])
+        return self._reader(names)()
 
     def run(self, duration: float, names: Sequence[str], act: Callable[[CoupledFmus], None] | None = None) -> Array:
         """Steps over a time.
@@ -187,7 +188,7 @@ class CoupledFmus(Closing):
         Parameters
         ----------
         duration : float
-            s.
+            A whole number of communication steps, s.
         names : sequence of str
             What is read at each communication point.
         act : callable, optional
@@ -196,14 +197,46 @@ class CoupledFmus(Closing):
         Returns
         -------
         ndarray of shape (steps + 1, len(names))
+
+        Raises
+        ------
+        hosts.fmu.fmu.StepRefusedError, HostError
+            As of `step`; or the time is no whole number of steps.
         """
-        rows = [self.read(names)]
-        for _ in range(round(duration / self.step_length)):
+        steps = duration / self.step_length
+        if not (0.0 <= steps < np.inf and abs(steps - round(steps)) < 1e-6 * max(steps, 1.0)):
+            raise HostError(
+                f"A run of {duration:g} s is {steps:.6g} communication steps of {self.step_length:g} s; it must be a "
+                "whole number of them."
+            )
+        read = self._reader(names)
+        rows = [read()]
+        for _ in range(round(steps)):
             if act is not None:
                 act(self)
             self.step()
-            rows.append(self.read(names))
+            rows.append(read())
         return np.array(rows)
+
+    def _fmus(self) -> dict[str, Fmu]:
+        """The parts, while there are any."""
+        if self._state == "closed":
+            raise HostError("The system is closed; make another one.")
+        return {p.name: p.fmu for p in self._parts}
+
+    def _reader(self, names: Sequence[str]) -> Callable[[], Array]:
+        """A function that reads variables, prepared once."""
+        fmus = self._fmus()
+        if self._state == "new":
+            raise HostError("A system must be initialised before its values are read.")
+        getters = []
+        for text in names:
+            part, name = parted(text, fmus)
+            known = [n for n, v in fmus[part].variables.items() if v.type in ("Real", "Integer")]
+            if name not in known:
+                raise HostError(f"The part '{part}' has no number '{name}'{did_you_mean(name, known)}")
+            getters.append(fmus[part].getter([name]))
+        return lambda: np.array([get()[0] for get in getters])
 
     def _pass(
         self, begin: Mapping[tuple[str, str], float], end: Mapping[tuple[str, str], float] | None

@@ -10,14 +10,13 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
 from ali3.files import check_writable, whole_file
-from ali3.near_names import did_you_mean
 from ali3.parameter_set import Entry, ParameterSet
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.parameters_as_set import written
-from hosts.systems.wires import Wire, wires_of
+from hosts.systems.wires import Wire, starts_of, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"
@@ -53,20 +52,15 @@ def write_ssp(
     if file.suffix != ".ssp":
         raise HostError(f"{file}: the name of an SSP ends in .ssp.")
     check_writable(file)
-    for text in start:
-        part = text.partition(".")[0]
-        if part not in parts:
-            known = f"the parts are {', '.join(parts)}"
-            raise HostError(f"'{text}' names no part{did_you_mean(part, parts, known)}")
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         fmus = {part: stack.enter_context(Fmu(Path(path))) for part, path in parts.items()}
         wires = wires_of(connections, fmus)
         content = {f"resources/{part}.fmu": Path(path) for part, path in parts.items()}
-        for part, fmu in fmus.items():
-            if values := _values(part, fmu, start):
+        for part, values in starts_of(start, fmus).items():
+            if values:
                 made = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
-                write_parameter_set(ParameterSet(SET, values, {}), made, as_built=False)
+                write_parameter_set(ParameterSet(SET, _entries(fmus[part], values), {}), made, as_built=False)
         document = _document(name or file.stem, fmus, wires, content)
         with whole_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("SystemStructure.ssd", document)
@@ -111,12 +105,7 @@ def _component(elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], co
         SubElement(bindings, f"{_STRUCTURE}ParameterBinding", source=values)
 
 
-def _values(part: str, fmu: Fmu, start: Mapping[str, Value]) -> list[Entry]:
+def _entries(fmu: Fmu, values: Mapping[str, Value]) -> list[Entry]:
     """Start values of a part as a parameter set has them."""
-    found, source = [], f"The part '{part}'"
-    for text, value in start.items():
-        owner, _, name = text.partition(".")
-        if owner == part:
-            variable = fmu.table.settable(name, source)
-            found.append(Entry(name, variable.kind, written(variable, variable.check(value, source)), None))
-    return found
+    variables = {name: fmu.table.settable(name, "") for name in values}
+    return [Entry(name, v.kind, written(v, values[name]), None) for name, v in variables.items()]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.common.units import known_unit, says_nothing
 from hosts.fmu.fmu import Fmu
 
@@ -62,10 +63,40 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
     return tuple(wires)
 
 
-def _split(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
+def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str, dict[str, Value]]:
+    """Start values by part and variable.
+
+    Parameters
+    ----------
+    start : mapping of str to float, int, bool or str
+        Parameters and inputs, as ``part.variable``.
+
+    Raises
+    ------
+    HostError
+        There is no such part or variable, or a value is none of its variable.
+    """
+    found: dict[str, dict[str, Value]] = {part: {} for part in parts}
+    for text, value in start.items():
+        part, name = parted(text, parts)
+        source = f"The part '{part}'"
+        found[part][name] = parts[part].table.settable(name, source).check(value, source)
+    return found
+
+
+def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
+    """Part and variable of ``part.variable``; a `HostError` where there is no such part."""
     part, dot, name = text.partition(".")
-    if not dot or part not in parts:
-        raise HostError(f"'{text}' names no part{did_you_mean(part, parts)} It must be PART.VARIABLE.")
+    if part not in parts:
+        known = f"the parts are {', '.join(parts)}"
+        raise HostError(f"'{text}' names no part{did_you_mean(part, parts, known)}")
+    if not dot:
+        raise HostError(f"'{text}' names a part and no variable; it must be PART.VARIABLE.")
+    return part, name
+
+
+def _split(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
+    part, name = parted(text, parts)
     known: Sequence[str] = parts[part].names(causality)
     if name not in known:
         raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, known)}")

@@ -8,7 +8,7 @@ from typing import Any
 
 from ali3.extras import missing_module
 from ali3.reading import check_file
-from ali3.words import one_line
+from ali3.words import reader_stops
 from mbs.common.errors import ModelError
 
 LARGEST = 8_000_000_000
@@ -23,4 +23,4 @@ def read_foreign(path: Path, reader: Callable[[Path], Any]) -> Any:
     except ModuleNotFoundError as error:
         raise ModelError(f"{path.name} cannot be read. {missing_module(error, 'fem')}") from error
     except Exception as error:  # what a damaged file does to the readers is not declared
-        raise ModelError(f"{path.name} cannot be read: {one_line(str(error))}.") from error
+        raise ModelError(f"{path.name} cannot be read: {reader_stops(error)}") from error

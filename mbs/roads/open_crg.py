@@ -103,15 +103,18 @@ def _read(source: str) -> pyopencrg.CrgRoad:
     except ModuleNotFoundError as error:
         raise RoadFileError(f"{source} cannot be read. {missing_module(error, 'roads')}") from None
     except Exception as error:  # what a reader raises on a damaged file has no common kind
-        words = _words(error).removeprefix(f"{source}: ").partition(" To open it anyway")[0].rstrip(".")
-        raise RoadFileError(f"{source} cannot be read as OpenCRG: {words}.") from None
+        raise RoadFileError(f"{source} cannot be read as OpenCRG: {_first_fault(error, source)}.") from None
     for what in odd:
-        warnings.warn(f"{source}: {_words(what.message)}", RoadWarning, stacklevel=4)
+        warnings.warn(f"{source}: {_first_fault(what.message, source)}.", RoadWarning, stacklevel=4)
     return crg
 
 
-def _words(said: object) -> str:
-    return one_line(" ".join(str(said).replace("\n  - ", " ").split()))
+def _first_fault(said: object, source: str) -> str:
+    """The first fault of those that the reader lists, as one causes others, and how many more there are."""
+    text, *faults = str(said).partition("\nTo open it anyway")[0].split("\n  - ")
+    first = faults[0].removeprefix("(reading) ") if faults else text.removeprefix(f"{source}: ")
+    more = f", the first of {len(faults)} faults" if len(faults) > 1 else ""
+    return one_line(" ".join(first.split()).rstrip(".")) + more
 
 
 def _checked(crg: pyopencrg.CrgRoad, source: str) -> None:

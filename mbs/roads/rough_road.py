@@ -23,6 +23,8 @@ LOWEST, HIGHEST = 0.011, 2.83
 def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -> NDArray[np.float64]:
     """Heights of an isotropic surface: along every straight line the one-sided density is Gd(n) = Gd(n0) (n0/n)^2.
 
+    Near the highest frequency N of the surface it is less, sqrt(1 - (n/N)^2) of that.
+
     A surface whose two-dimensional density is A n^-3 has the two-sided density 2 A n^-2 along a line (the integral over
     the other component), so A = Gd(n0) n0^2 / 4. Random phases, amplitudes as given. The
     coherence of two tracks b apart follows from the density: (x K1(x))^2 with x = 2 pi n b and the modified Bessel

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +17,8 @@ from scipy.spatial.transform import Rotation
 
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
+from ali3.reading import read_bytes
+from ali3.words import brief
 from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -26,6 +30,8 @@ from mbs.model.perpendicular import perpendicular
 from mbs.urdf.mimic import Follower, followers_of, start_of
 
 Pose = NDArray[np.float64]
+_LARGEST = 100_000_000
+"""Bytes of a file."""
 TURNING, FREE = ("revolute", "continuous"), 1e9  # N m: range of the torque of a joint without a limit
 
 
@@ -136,6 +142,10 @@ def _read(file: Path) -> Any:
         import yourdfpy  # noqa: F401
     except ModuleNotFoundError as error:
         raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
+    try:  # the reader takes of a cut file what it understands; prefixes of robots are often of no namespace
+        expat.ParserCreate().Parse(read_bytes(file, _LARGEST, ModelError, file.name), True)
+    except expat.ExpatError as error:
+        raise ModelError(f"{file.name} is damaged or no URDF file; as XML it ends with {error}.") from None
     found = read_foreign(file, reader)
     if not found.links:
         raise ModelError(f"{file.name} has no links; it is no URDF file.")
@@ -202,7 +212,8 @@ def _mass(parts: Iterable[tuple[Any, Pose]]) -> tuple[float, Pose, Pose]:
     for link, pose in parts:
         if link.inertial is not None and link.inertial.mass:
             own = pose @ _pose(link.inertial.origin)
-            tensor = own[:3, :3] @ np.asarray(link.inertial.inertia, float) @ own[:3, :3].T
+            inertia = _numbers(link.inertial.inertia, (3, 3), f"inertia of the link '{link.name}'")
+            tensor = own[:3, :3] @ inertia @ own[:3, :3].T
             found.append((float(link.inertial.mass), own[:3, 3], tensor))
     mass = sum(m for m, _, _ in found)
     if mass <= 0.0:
@@ -296,11 +307,24 @@ def _tell_left_out(joints: Iterable[Any], what: str) -> None:
 
 
 def _loss(joint: Any, kind: str) -> float:
-    return 0.0 if joint.dynamics is None else float(getattr(joint.dynamics, kind) or 0.0)
+    given = getattr(joint.dynamics, kind, None) or 0.0
+    return float(_numbers(given, (), f"{kind} of the joint '{joint.name}'"))
+
+
+def _numbers(given: Any, shape: tuple[int, ...], what: str) -> Pose:
+    """What the reader found for a quantity, of a shape."""
+    try:
+        found = np.asarray(given, float)
+    except ValueError:
+        found = np.empty(0)
+    if given is None or found.shape != shape:
+        wanted = f"{math.prod(shape)} numbers" if shape else "a number"
+        raise ModelError(f"The {what} is {brief(given)}; it must be {wanted}.")
+    return found
 
 
 def _axis(joint: Any) -> Pose:
-    axis = np.array([1.0, 0.0, 0.0]) if joint.axis is None else np.asarray(joint.axis, float)
+    axis = _numbers([1.0, 0.0, 0.0] if joint.axis is None else joint.axis, (3,), f"axis of the joint '{joint.name}'")
     size = float(np.linalg.norm(axis))
     if not 0.0 < size < np.inf:
         raise ModelError(f"The axis of the joint '{joint.name}' is {axis.tolist()}; it must have a direction.")

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.special import k1
 
 from mbs.roads import RoadFileError, read_road, write_road
-from mbs.roads.rough_road import ISO_8608, rough_heights
+from mbs.roads.rough_road import HIGHEST, ISO_8608, rough_heights
 
 Array = NDArray[np.float64]
 BOUNDS = {
@@ -54,6 +54,16 @@ def test_the_density_lies_within_the_bounds_of_the_class(tmp_path, roughness: st
     assert low < one < high
     slope = np.polyfit(np.log(CENTRES), np.log(in_bands.mean(axis=1) * (0.1 / CENTRES) ** 2), 1)[0]
     assert slope == pytest.approx(-2.0, abs=0.15)
+
+
+def test_near_its_end_the_density_is_that_of_waves_in_all_directions() -> None:
+    """The integral of A (n^2 + m^2)^-1.5 over |m| < sqrt(N^2 - n^2) is the whole one times sqrt(1 - (n/N)^2)."""
+    n, found, _ = density(rough_heights(2000, 2000, SPACING, ISO_8608["B"], 7))
+    for low, high in ((0.05, 0.2), (0.2, 0.8), (0.9, 1.1), (1.9, 2.1), (2.4, 2.6)):
+        band = (n > low) & (n < high)
+        line = ISO_8608["B"] * (0.1 / n[band]) ** 2
+        share = np.sqrt(1.0 - (n[band] / HIGHEST) ** 2).mean()
+        assert (found[band].mean(axis=1) / line).mean() == pytest.approx(share, rel=0.04), (low, high)
 
 
 def test_the_coherence_of_two_tracks_is_that_of_an_isotropic_surface() -> None:

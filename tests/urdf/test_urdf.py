@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -179,6 +180,33 @@ def test_what_is_no_urdf_file_is_one_sentence(text: str, tmp_path: Path) -> None
     file = tmp_path / "robot.urdf"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=r"robot\.urdf"):
+        read_urdf(file)
+
+
+@pytest.mark.parametrize("part", [0.2, 0.5, 0.9])
+def test_a_file_that_is_cut_is_no_smaller_robot(part: float, tmp_path: Path) -> None:
+    """Between two elements, too, where all that is left is whole; marks of other programs need no namespace."""
+    file = write_urdf(ROBOTS["ur5"], tmp_path / "ur5.urdf", '<gazebo:mark value="1"/>')
+    assert len(read_urdf(file).angles) == 6
+    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+    file.write_text("".join(lines[: round(part * len(lines))]), encoding="utf-8")
+    with pytest.raises(ModelError, match=r"ur5\.urdf is damaged or no URDF file; as XML it ends with .*: line \d+"):
+        read_urdf(file)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (r"<inertia .*/>", "", "The inertia of the link 'link_1' is None; it must be 9 numbers"),
+        ('<axis xyz="[^"]*"/>', '<axis xyz="1"/>', r"The axis of the joint 'joint_1' is .* it must be 3 numbers"),
+        ("<limit", '<dynamics friction="1,5"/><limit', "friction of the joint 'joint_1' is '1,5'; it must be a number"),
+        ('mass value="[^"]*"', 'mass value="1,5"', r"rod\.urdf cannot be read: it is damaged .* stops with 'could not"),
+    ],
+)
+def test_a_value_that_is_none_is_one_sentence(old: str, new: str, words: str, tmp_path: Path) -> None:
+    file = write_urdf([ROD], tmp_path / "rod.urdf")
+    file.write_text(re.sub(old, new, file.read_text(encoding="utf-8")), encoding="utf-8")
+    with pytest.raises(ModelError, match=words):
         read_urdf(file)
 
 

@@ -155,7 +155,8 @@ def test_a_unit_that_does_not_fit_is_warned_about(tmp_path):
         ("a.glb", b"glTFxxxx", "cannot be read as a mesh"),
         ("a.gltf", b"{}", "has no triangles"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "has no triangles"),
-        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "cannot be read as a mesh"),
+        ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "it is damaged or of another format; its reader stops with"),
+        ("a.obj", b"v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", "its points have not three coordinates each"),
         (
             "a.obj",
             b"v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n",

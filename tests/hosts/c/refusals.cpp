@@ -23,6 +23,10 @@ int main(int, char **argument) {
   refused([&] { fmu::Fmu none(other); });
   std::ofstream(library / (std::string("Prototype") + fmu::detail::SUFFIX)) << "no library";
   refused([&] { fmu::Fmu none(other); });
+  std::ofstream(other / "modelDescription.xml")
+      << "<fmiModelDescription fmiVersion='2.0'><CoSimulation modelIdentifier="
+         "'a'/><ScalarVariable name='b' valueReference='c'/>";
+  refused([&] { fmu::Fmu none(other); });
   refused([&] { car.set("stering", 1.0); });
   refused([&] { car.set("steering", "left"); });
   refused([&] { car.set("selector", 0.5); });

@@ -26,9 +26,9 @@ PLATFORMS = {
 }
 
 
-def compiled(compiler: Sequence[str], source: Path, folder: Path) -> Path:
+def compiled(compiler: Sequence[str], source: Path, folder: Path, standard: str = "c++17") -> Path:
     program = folder / f"{source.stem}.exe"
-    options = ["-std=c++17", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", f"-I{HERE}"]
+    options = [f"-std={standard}", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", f"-I{HERE}"]
     libraries = [] if any("windows" in word for word in compiler) else ["-ldl"]
     command = [*compiler, *options, str(source), *libraries, "-o", str(program)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -69,6 +69,15 @@ def test_the_example_drives_as_python_does(prototype: Path, tmp_path: Path) -> N
     check([str(compiled(["c++"], HERE / "drive.cpp", tmp_path)), str(prototype)])
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("compiler", ["g++", "clang++"])
+@pytest.mark.parametrize("standard", ["c++17", "c++20"])
+def test_the_header_compiles_without_a_warning(compiler: str, standard: str, tmp_path: Path) -> None:
+    if shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is not there")
+    compiled([compiler], HERE / "drive.cpp", tmp_path, standard)
+
+
 @pytest.mark.proof
 def test_zig_compiles_the_header_too(prototype: Path, tmp_path: Path) -> None:
     """Its first program takes minutes, as its C++ library is compiled."""
@@ -84,6 +93,7 @@ def test_what_is_refused_is_one_sentence(prototype: Path, tmp_path: Path) -> Non
         "modelDescription.xml cannot be read.",
         "The FMU has no library for ",
         " cannot be loaded: ",
+        "modelDescription.xml is damaged: 'b' has the valueReference 'c', which must be a whole number below 2^32.",
         "The FMU has no variable 'stering'.",
         "'steering' is no String, but Real.",
         "'selector' is 0.500000; it must be a whole number.",

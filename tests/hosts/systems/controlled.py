@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -12,8 +13,8 @@ from pythonfmu import FmuBuilder
 
 from hosts.common.numbers import Value
 from hosts.systems import CoupledFmus
-from hosts.systems.coupled import Inputs, Order
-from tests.hosts.systems.weak_coupling import car_fmu
+from hosts.systems.coupled import INPUTS, Inputs, Order
+from tests.hosts.systems.weak_coupling import car_fmu, percent
 from tests.vehicle.test_ports import WHEELS
 
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
@@ -118,8 +119,9 @@ SYSTEMS = {
 
 @cache
 def controller_fmu(name: str) -> Path:
-    """A controller, built by PythonFMU once a process."""
-    return Path(FmuBuilder.build_FMU(CONTROLLERS / f"{name}.py", dest=tempfile.mkdtemp()))
+    """A controller whose state can be saved, built by PythonFMU once a process."""
+    file = CONTROLLERS / f"{name}.py"
+    return Path(FmuBuilder.build_FMU(file, dest=tempfile.mkdtemp(), canGetAndSetFMUstate=True))
 
 
 def parts_of(case: Controlled) -> dict[str, Path]:
@@ -151,15 +153,13 @@ def run(
     return dict(zip(reads, rows.T, strict=True))
 
 
-def main() -> None:
-    """Print by how much the measure at the end changes with the step, in parts of its change over the run."""
+def lines() -> Iterator[str]:
+    """The table of how much the measure at the end changes with the step, in parts of its change over the run."""
     steps = (0.002, 0.004, 0.01)
-    print("| system | measured at the end | " + " | ".join(f"{1e3 * h:g} ms" for h in steps) + " | measured order |")
-    print("| --- | --- |" + " --- |" * (len(steps) + 1))
+    yield "| system | measured at the end | " + " | ".join(f"{1e3 * h:g} ms" for h in steps) + " |"
+    yield "| --- | --- |" + " --- |" * len(steps)
     for name, case in SYSTEMS.items():
-        finest = run(name, 0.001, inputs="followed")[case.measure]
-        for inputs in ("held", "followed"):
+        finest = run(name, INNER, inputs="repeated")[case.measure]
+        for inputs in INPUTS:
             errors = [abs(run(name, h, inputs=inputs)[case.measure][-1] - finest[-1]) / np.ptp(finest) for h in steps]
-            rate = np.log(errors[2] / errors[1]) / np.log(2.5)
-            cells = " | ".join(f"{100 * e:.2g} %" for e in errors)
-            print(f"| {name}, {inputs} | `{case.measure}` | {cells} | {rate:.1f} |", flush=True)
+            yield f"| {name}, {inputs} | `{case.measure}` | {' | '.join(map(percent, errors))} |"

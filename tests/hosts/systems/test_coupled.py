@@ -131,9 +131,35 @@ def test_states_are_freed_where_a_later_part_cannot_save_its_own(partners: dict[
         assert len(freed) == 1
 
 
+def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> None:
+    """Not after it is closed either, where the library of the FMU is gone."""
+    parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
+    with CoupledFmus(parts, WIRES, step=0.1) as system:
+        for act, words in (
+            (lambda: system.read(["mass.position"]), "must be initialised before its values are read"),
+            (lambda: system.initialise(**{"mas.start": 1.0}), "'mas.start' names no part; did you mean 'mass'"),
+            (lambda: system.initialise(**{"mass.start": "a"}), "The part 'mass': 'start' is 'a'; it must be a Real"),
+            (lambda: system.initialise(mass=1.0), "'mass' names a part and no variable"),
+            (lambda: system.fmu("sprin"), "There is no part 'sprin'; did you mean 'spring'"),
+        ):
+            with pytest.raises(HostError, match=words):
+                act()
+        system.initialise()
+        with pytest.raises(HostError, match="The part 'mass' has no number 'positio'; did you mean 'position'"):
+            system.read(["mass.positio"])
+        for duration in (0.25, -0.1, math.nan):
+            with pytest.raises(HostError, match=rf"A run of {duration:g} s is .* it must be a whole number of them"):
+                system.run(duration, ["mass.position"])
+        assert len(system.run(0.3, ["mass.position"])) == 4
+    for act in (system.step, system.initialise, lambda: system.read(["mass.position"]), lambda: system.fmu("mass")):
+        with pytest.raises(HostError, match="The system is closed; make another one"):
+            act()
+
+
 @pytest.mark.parametrize(
     ("wires", "words"),
     [
+        ({"spring": "mass.position"}, "'spring' names a part and no variable"),
         ({"spring.position": "car.x"}, "'car.x' names no part"),
         ({"spring.place": "mass.position"}, "The part 'spring' has no input 'place'"),
         ({"spring.position": "mass.force"}, "The part 'mass' has no output 'force'"),
@@ -159,6 +185,14 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
     rate = coupled(name, 0.004)[0] / load
     assert 1.5 < rate < 5.0, "of order one, and of order two where the answers are planes"
     assert (rate > 3.0) == (name == "road")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["yaw control", "torque vectoring", "two cars"])
+def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(name: str) -> None:
+    ways = ((controlled.INNER, "repeated"), (0.004, "held"), (0.004, "repeated"))
+    finest, held, again = (run(name, step, inputs=inputs)[SYSTEMS[name].measure][-1] for step, inputs in ways)
+    assert abs(again - finest) < 0.5 * abs(held - finest)
 
 
 @pytest.mark.slow

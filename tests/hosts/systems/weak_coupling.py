@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -190,19 +190,21 @@ def chart(errors: Errors, file: Path) -> None:
     figure.savefig(file, dpi=90)
 
 
-def main(picture: str = "") -> None:
-    """Print the table, and draw it."""
-    print(
+def percent(share: float) -> str:
+    """Two digits of a share, without an exponent where it is large."""
+    return f"{100.0 * share:.0f} %" if share >= 0.995 else f"{100.0 * share:.2g} %"
+
+
+def lines(errors: Errors) -> Iterator[str]:
+    """The table, whose numbers are left in `errors`."""
+    yield (
         "| part | order | inputs | " + " | ".join(f"{1e3 * h:g} ms: loads, path" for h in STEPS) + " | measured order |"
     )
-    print("| --- | --- | --- |" + " --- |" * (len(STEPS) + 1))
-    errors: Errors = {}
+    yield "| --- | --- | --- |" + " --- |" * (len(STEPS) + 1)
     for name in CASES:
         for order, inputs in WAYS:
             found = [coupled(name, h, order, inputs) for h in STEPS]
             errors[name, order, inputs] = [(load, path) for load, path, _ in found]
             rate = np.log(found[1][0] / found[0][0]) / np.log(2.0)
-            cells = " | ".join(f"{100 * a:.2g} %, {100 * b:.2g} %" for a, b, _ in found)
-            print(f"| {name} | {order} | {inputs} | {cells} | {rate:.1f} |", flush=True)
-    if picture:
-        chart(errors, Path(picture))
+            cells = " | ".join(f"{percent(a)}, {percent(b)}" for a, b, _ in found)
+            yield f"| {name} | {order} | {inputs} | {cells} | {rate:.1f} |"
