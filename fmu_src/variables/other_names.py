@@ -100,7 +100,8 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     else:
         base = v.unit
     declared = base if unit is None else unit
-    scale = number(factor, f"{entry.where}: factor") / _size(declared, base, entry)
+    with_factor = base == "1" and "factor" in value  # which is in the unit there
+    scale = number(factor, f"{entry.where}: factor") / _size(declared, None if with_factor else base, entry)
     if scale == 0.0:
         raise UserError(f"{entry.where}: factor is 0; it must be another number.")
     if scale != 1.0 and (v.source not in _SCALED or v.whole):
@@ -122,12 +123,13 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     )
 
 
-def _size(unit: str, base: str, entry: Entry) -> float:
-    """How many of the SI unit of a value are one of a unit."""
+def _size(unit: str, base: str | None, entry: Entry) -> float:
+    """How many of the SI unit of a value are one of a unit, of the quantity of the unit `base` if there is one."""
     try:
-        one, other = parse_unit(unit, foreign=True), parse_unit(base)
+        one, other = parse_unit(unit, foreign=True), parse_unit(base or unit, foreign=True)
     except ValueError as error:
         raise UserError(f"{entry.where}: {error}") from None
-    if base != "1" and one.exponents != other.exponents:
-        raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity.")
+    if one.exponents != other.exponents:
+        more = ": name a factor beside it" if base == "1" else ""
+        raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity{more}.")
     return one.factor

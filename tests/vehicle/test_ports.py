@@ -253,6 +253,30 @@ def test_the_rack_follows_its_port() -> None:
     assert now["steering_rack"] == pytest.approx(0.01 * (1.0 - (1.0 + w * 0.1) * np.exp(-w * 0.1)), rel=1e-6)
 
 
+@pytest.mark.slow
+def test_the_force_on_the_rack_is_that_of_its_work_where_the_demand_goes_on() -> None:
+    """To 1e-3 of the work; of held demands the follower makes jolts, which the force at the end of a step has too."""
+    run = mbs.simulate(
+        system(rigid, (("steering", "rack_position"),)),
+        0.5,
+        STEP,
+        {"steering_rack_demand": lambda t: 0.008 * np.sin(4.0 * t)},
+        pose=mbs.Pose(speed=10.0),
+        estimate_error=False,
+    )
+    force, rack = run["steering_rack_force"], run["steering_rack"]
+    work = -float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(rack)))
+    assert work > 1.0
+    assert work == pytest.approx(run["energy.ports"][-1], rel=1e-3)
+    held, jolts = simulation(rigid, steering="rack_position"), []
+    for k in range(250):
+        held.set_input("steering_rack_demand", 0.008 * np.sin(4.0 * k * STEP))
+        held.step(STEP)
+        jolts.append(abs(held.sensors["steering_rack_force"] - force[k + 1]))
+    assert 140.0 < max(jolts[25:]) < 170.0
+    assert held.sensors["energy.ports"] == pytest.approx(run["energy.ports"][-1], rel=1e-2)
+
+
 def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
     """In a standing start of a turn the force that the rods ask for is that of the actuator and of the pinion."""
     car, held = column_car(), {}
