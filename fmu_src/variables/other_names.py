@@ -100,8 +100,7 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     else:
         base = v.unit
     declared = base if unit is None else unit
-    with_factor = base == "1" and "factor" in value  # which is in the unit there
-    scale = number(factor, f"{entry.where}: factor") / _size(declared, None if with_factor else base, entry)
+    scale = number(factor, f"{entry.where}: factor") / _size(declared, base, entry)
     if scale == 0.0:
         raise UserError(f"{entry.where}: factor is 0; it must be another number.")
     if scale != 1.0 and (v.source not in _SCALED or v.whole):
@@ -123,13 +122,12 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     )
 
 
-def _size(unit: str, base: str | None, entry: Entry) -> float:
-    """How many of the SI unit of a value are one of a unit, of the quantity of the unit `base` if there is one."""
+def _size(unit: str, base: str, entry: Entry) -> float:
+    """How many of the SI unit of a value are one of a unit."""
     try:
-        one, other = parse_unit(unit, foreign=True), parse_unit(base or unit, foreign=True)
+        one, other = parse_unit(unit, foreign=True), parse_unit(base)
     except ValueError as error:
         raise UserError(f"{entry.where}: {error}") from None
-    if one.exponents != other.exponents:
-        more = ": name a factor beside it" if base == "1" else ""
-        raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity{more}.")
+    if one.exponents != other.exponents and (base != "1" or "factor" not in entry.value):
+        raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity.")
     return one.factor

@@ -83,7 +83,7 @@ class Car(Closing):
         inputs: Sequence[str] | None = None,
         parameters: Mapping[str, Value] | None = None,
     ) -> None:
-        if not (isinstance(step, (int, float)) and 0.0 < step < np.inf):
+        if not (isinstance(step, (int, float, np.number)) and 0.0 < step < np.inf):
             raise HostError(f"The communication step of a car is {step!r} s; it must be a positive number.")
         given = Path(car)
         if given.suffix.lower() == ".fmu" and ports is not None:
