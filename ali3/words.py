@@ -18,7 +18,7 @@ def brief(value: object) -> str:
         value = value[: VALUE + 1]  # the rest of a large text need not be escaped
     elif isinstance(value, int) and value.bit_length() > 64:
         return "a whole number of more than 19 digits"  # Python refuses to write a very long one
-    text = repr(value)
+    text = re.sub(r"\n\s*", " ", repr(value))  # of an array in one line
     return text if len(text) <= VALUE else f"{text[:VALUE]}..."
 
 

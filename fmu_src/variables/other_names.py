@@ -128,6 +128,6 @@ def _size(unit: str, base: str, entry: Entry) -> float:
         one, other = parse_unit(unit, foreign=True), parse_unit(base)
     except ValueError as error:
         raise UserError(f"{entry.where}: {error}") from None
-    if base != "1" and one.exponents != other.exponents:
+    if one.exponents != other.exponents and (base != "1" or "factor" not in entry.value):
         raise UserError(f"{entry.where} is in {base}, and {unit} is of another quantity.")
     return one.factor

@@ -83,7 +83,7 @@ class Car(Closing):
         inputs: Sequence[str] | None = None,
         parameters: Mapping[str, Value] | None = None,
     ) -> None:
-        if not (isinstance(step, (int, float)) and 0.0 < step < np.inf):
+        if not (isinstance(step, (int, float, np.number)) and 0.0 < step < np.inf):
             raise HostError(f"The communication step of a car is {step!r} s; it must be a positive number.")
         given = Path(car)
         if given.suffix.lower() == ".fmu" and ports is not None:
@@ -157,6 +157,8 @@ class Car(Closing):
             if not (len(ends) == len(value) == 2 and ends[0] <= ends[1]):
                 raise HostError(f"'{name}' is {value_words(value)}; a range is two numbers, the smaller one first.")
             return float(random.uniform(float(ends[0]), float(ends[1])))
+        if not isinstance(value, (int, float, str, np.number)):
+            raise HostError(f"'{name}' is {brief(value)}; it must be a number, or a range of two.")
         known = self.fmu.variables.get(name)
         if known is not None and isinstance(value, str) and known.type != "String":
             raise HostError(f"'{name}' is {brief(value)}; it must be a number.")
@@ -173,12 +175,15 @@ class Car(Closing):
         Raises
         ------
         HostError
-            They are not as many, or one is refused; nothing has changed then.
+            They are no numbers or not as many, or one is refused; nothing has changed then.
         hosts.fmu.fmu.StepRefusedError
             The FMU refused the step; the state before it is kept.
         """
         self._check_started()
-        values: list[float] = np.asarray(inputs, dtype=float).ravel().tolist()
+        try:
+            values: list[float] = np.asarray(inputs, dtype=float).ravel().tolist()
+        except (TypeError, ValueError):
+            raise HostError(f"The inputs are {brief(inputs)}; they must be numbers, in an array.") from None
         if len(values) != len(self.inputs):
             raise HostError(f"{len(values)} inputs are given; the car takes {len(self.inputs)}: {self.inputs}.")
         self._set(values)
@@ -203,7 +208,7 @@ class Car(Closing):
         Raises
         ------
         HostError
-            There is no such variable that is a number.
+            There is no such variable that is a number, or the array is none of floats of this shape.
         """
         self._check_started()
         key = names if isinstance(names, tuple) else tuple(names)
@@ -211,6 +216,8 @@ class Car(Closing):
         if reader is None:
             reader = self._readers[key] = self.fmu.reader(self._known(names if isinstance(names, str) else key, _READ))
         values = np.empty(len(key)) if into is None else into
+        if not isinstance(values, np.ndarray) or values.shape != (len(key),) or values.dtype != float:
+            raise HostError(f"Values go into {brief(into)}; it must be an array of {len(key)} floats.")
         reader(values)
         return values
 

@@ -21,22 +21,38 @@ from hosts.plant.lane import Lane
 Floats = NDArray[np.float32]
 
 
+def two_numbers(given: Any, what: str) -> tuple[float, float]:
+    """A pair that an environment is given, checked; `what` says in a sentence which it is."""
+    try:
+        first, second = (float(number) for number in given)
+    except (TypeError, ValueError):
+        first = second = np.nan
+    if not (0.0 <= first < np.inf and 0.0 <= second < np.inf):
+        raise HostError(f"The {what} of an environment are {brief(given)}; they must be two finite numbers from 0.")
+    return first, second
+
+
 class CarEnvironment(gymnasium.Env[Floats, Floats]):
     """What the environments share: a car, its start, its step.
 
-    An episode that the car's solver refuses to go on with is terminated; `info["refused"]` has its words then.
+    The `options` of `reset` are parameters of this start as `Car.reset` takes them, in place of what is drawn:
+    ``reset(options={"initial.speed": 15.0, "road.friction": (0.5, 0.9)})``. An episode that the car's solver refuses to
+    go on with is terminated; `info["refused"]` has its words then.
     """
 
     def __init__(self, car: Car, reads: tuple[str, ...], seconds: float) -> None:
+        if not (isinstance(seconds, (int, float)) and car.step_length <= seconds < np.inf):
+            car.close()
+            raise HostError(f"An episode has {brief(seconds)} s; it must be a number, and a step or more.")
         self.car, self._reads = car, reads
         self._most = round(seconds / car.step_length)
         self._steps = 0
         self._now = np.zeros(len(reads))
 
-    def _start(self, seed: int | None, **ranges: tuple[float, float]) -> None:
+    def _start(self, seed: int | None, options: dict[str, Any] | None, **ranges: tuple[float, float]) -> None:
         """A start whose numbers are drawn by the generator of the environment."""
         super().reset(seed=seed)
-        self.car.reset(int(self.np_random.integers(2**31)), **ranges)
+        self.car.reset(int(self.np_random.integers(2**31)), **ranges | (options or {}))
         self._steps = 0
         self.car.read(self._reads, self._now)
 
@@ -92,8 +108,8 @@ class LaneEnvironment(CarEnvironment):
         self.observation_space = spaces.Box(-high, high, dtype=np.float32)
         self._steering = 0.0
 
-    def _start(self, seed: int | None, **ranges: tuple[float, float]) -> None:
-        super()._start(seed, **ranges)
+    def _start(self, seed: int | None, options: dict[str, Any] | None, **ranges: tuple[float, float]) -> None:
+        super()._start(seed, options, **ranges)
         self.lane.forget()
         self._steering = 0.0
 
@@ -130,15 +146,16 @@ class LaneKeeping(LaneEnvironment):
         seconds: float = 8.0,
         step: float = 0.02,
     ) -> None:
+        self._speed = two_numbers(speed, "speeds at the start")
         made = Car(car, step=step, inputs=("steering", "throttle"))
         width = made.fmu.constants().get("vehicle.width", 1.6)
         super().__init__(made, Lane.of_course(course_of("iso_3888_1", width), 200.0), seconds, most=(5.0, 60.0))
-        self._speed = speed
         self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A start in the first lane; see `gymnasium.Env.reset`."""
-        self._start(seed, **{"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.02, 0.02)})
+        ranges = {"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.02, 0.02)}
+        self._start(seed, options, **ranges)
         return self._observed(), {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
@@ -190,18 +207,19 @@ class AntiLockBraking(CarEnvironment):
         slips = tuple(f"wheel_{w}.slip" for w in WHEELS)
         rates = tuple(f"wheel_{w}.omega" for w in WHEELS)
         reads = ("speed", *slips, *rates, "chassis.wz", "chassis.ax", "chassis.yaw")
+        self._speed = two_numbers(speed, "speeds at the start")
+        self._friction = two_numbers(friction, "frictions of the road")
+        self._torque = np.repeat(two_numbers(torque, "torques of the brakes"), 2)
         ports = None if Path(car).suffix.lower() == ".fmu" else "brakes"
         made = Car(car, ports=ports, step=step, inputs=inputs, parameters={"selector": 0})
         super().__init__(made, reads, seconds)
-        self._speed, self._friction = speed, friction
-        self._torque = np.array([torque[0], torque[0], torque[1], torque[1]])
         self.action_space = spaces.Box(0.0, 1.0, (4,), np.float32)
         high = np.array([100.0, *4 * [10.0], *4 * [200.0], 20.0, 60.0], np.float32)
         self.observation_space = spaces.Box(-high, high, dtype=np.float32)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A start at speed with free wheels; see `gymnasium.Env.reset`."""
-        self._start(seed, **{"initial.speed": self._speed, "road.friction": self._friction})
+        self._start(seed, options, **{"initial.speed": self._speed, "road.friction": self._friction})
         return self._observed(), {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 
@@ -28,7 +31,7 @@ class Lane:
     Raises
     ------
     HostError
-        They are no line.
+        They are no line, or the width is no positive number.
     """
 
     def __init__(self, points: ArrayLike, width: float = 3.5) -> None:
@@ -38,6 +41,8 @@ class Lane:
         chords = np.hypot(*np.diff(p, axis=0).T)
         if not (chords > 0.0).all():
             raise HostError(f"Point {int(np.argmin(chords)) + 1} of a lane lies on the one before it.")
+        if not (isinstance(width, (int, float, np.number)) and 0.0 < width < np.inf):
+            raise HostError(f"The width of a lane is {brief(width)}; it must be a positive number, in m.")
         self.width = float(width)
         self.closed = bool((p[0] == p[-1]).all())
         way = np.concatenate([[0.0], np.cumsum(chords)])
@@ -67,7 +72,15 @@ class Lane:
         self._last = None
 
     def place(self, x: float, y: float) -> float:
-        """Way along the lane of the point of its centre line that is nearest, near that of the last call, m."""
+        """Way along the lane of the point of its centre line that is nearest, near that of the last call, m.
+
+        Raises
+        ------
+        HostError
+            The place is not finite.
+        """
+        if not math.isfinite(x + y):
+            raise HostError(f"The place on a lane is ({x:g}, {y:g}); it must be two finite numbers.")
         away = np.hypot(self._places[:, 0] - x, self._places[:, 1] - y)
         if self._last is not None:
             gap = np.abs(self._ways - self._last)

@@ -14,7 +14,7 @@ from hosts.driving.course import Course
 from hosts.driving.driver import CONSTANTS
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.plant.car import Car
-from hosts.plant.environments import Floats, LaneEnvironment
+from hosts.plant.environments import Floats, LaneEnvironment, two_numbers
 from hosts.plant.lane import Lane
 
 STRAIGHT, RADIUS, BEGIN, WIDTH = 640.0, 60.0, -20.0, 12.0
@@ -68,17 +68,18 @@ class ProvingGroundLap(LaneEnvironment):
         step: float = 0.02,
         road: str | None = None,
     ) -> None:
+        self._speed = two_numbers(speed, "speeds at the start")
         if road is None:
             road = str(make_world("proving_ground", lambda line: None).road)
         made = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
         super().__init__(made, ring(), seconds, most=(20.0, 90.0))
-        self._speed = speed
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self._way = self.driven = 0.0
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
         """A flying start at x = 0; see `gymnasium.Env.reset`."""
-        self._start(seed, **{"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.01, 0.01)})
+        ranges = {"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.01, 0.01)}
+        self._start(seed, options, **ranges)
         self.driven = 0.0
         seen = self._observed()
         self._way = self.lane.way

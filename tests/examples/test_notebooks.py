@@ -12,7 +12,8 @@ import pytest
 FOLDER = Path(__file__).parents[2] / "examples" / "notebooks"
 CLAIMS = {
     "abs_by_pid": "ways['PID'] < 0.95 * ways['locked']",
-    "lane_keeping_by_lqr": "errors['LQR'] < 0.15 < errors['plain feedback'] and not runs['LQR'][1]",
+    "lane_keeping_by_mpc": "errors['MPC'] < 0.08 and errors['plain feedback'] > 0.15 and not runs['MPC'][1] "
+    "and abs(runs['MPC'][0][:, 1]).max() == np.float32(0.08)",
     "lap_by_evolution": "lap_time < baseline[1] - 5.0 and lap_time == best[1] and told == sorted(told, reverse=True)",
 }
 """What is true at the end of each."""

@@ -141,6 +141,7 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
         ('torque = { name = "T", factor = 0.0 }', "'torque': factor is 0; it must be another number"),
         ('torque = { name = "T", unit = "furlong" }', "Unit 'furlong' is not understood"),
         ('torque = { name = "T", unit = "deg" }', "'torque' is in N.m, and deg is of another quantity"),
+        ('"solver.status" = { name = "S", unit = "N" }', "'solver.status' is in 1, and N is of another quantity."),
         ('torque = { name = "T", factor = "gain" }', "'torque': factor is 'gain'; it must be a number, or a constant"),
     ],
 )

@@ -253,6 +253,30 @@ def test_the_rack_follows_its_port() -> None:
     assert now["steering_rack"] == pytest.approx(0.01 * (1.0 - (1.0 + w * 0.1) * np.exp(-w * 0.1)), rel=1e-6)
 
 
+@pytest.mark.slow
+def test_the_force_on_the_rack_is_that_of_its_work_where_the_demand_goes_on() -> None:
+    """To 1e-3 of the work; of held demands the follower makes jolts, which the force at the end of a step has too."""
+    run = mbs.simulate(
+        system(rigid, (("steering", "rack_position"),)),
+        0.5,
+        STEP,
+        {"steering_rack_demand": lambda t: 0.008 * np.sin(4.0 * t)},
+        pose=mbs.Pose(speed=10.0),
+        estimate_error=False,
+    )
+    force, rack = run["steering_rack_force"], run["steering_rack"]
+    work = -float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(rack)))
+    assert work > 1.0
+    assert work == pytest.approx(run["energy.ports"][-1], rel=1e-3)
+    held, jolts = simulation(rigid, steering="rack_position"), []
+    for k in range(250):
+        held.set_input("steering_rack_demand", 0.008 * np.sin(4.0 * k * STEP))
+        held.step(STEP)
+        jolts.append(abs(held.sensors["steering_rack_force"] - force[k + 1]))
+    assert 140.0 < max(jolts[25:]) < 170.0
+    assert held.sensors["energy.ports"] == pytest.approx(run["energy.ports"][-1], rel=1e-2)
+
+
 def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
     """In a standing start of a turn the force that the rods ask for is that of the actuator and of the pinion."""
     car, held = column_car(), {}
@@ -291,6 +315,54 @@ def test_outputs_that_loops_need_agree_with_others() -> None:
     # a free wheel that rolls evenly: of its Fx and My nothing is left about the axle
     lever = now["wheel_RL.Fx"] * now["wheel_RL.loaded_radius"]
     assert now["wheel_RL.My"] == pytest.approx(lever, abs=0.1 * abs(lever) + 1.0)
+
+
+def test_a_damper_tells_its_speed_and_force_apart_from_the_stops() -> None:
+    """In a fall that reaches both stops: c times the rate of its length; spring and stops have the rest."""
+    rest = simulation(rigid, 0.0, torque="half_shafts").sensors
+    s = mbs.Simulation(system(rigid, (("torque", "half_shafts"),)), pose=mbs.Pose(z=0.4))
+    names, rows = ("spring_FL.length", "spring_FL.force", "damper_FL.speed", "damper_FL.force"), []
+    for _ in range(300):
+        s.step(STEP)
+        rows.append([s.sensors[name] for name in names])
+    length, whole, rate, force = np.array(rows).T
+    front = rigid()._data["front"]
+    assert force == pytest.approx(front["damper"]["damping"] * rate, rel=1e-12)
+    assert 0.5 * (rate[1:] + rate[:-1]) == pytest.approx(np.diff(length) / STEP, abs=0.01 * np.ptp(rate))
+    longer = length - rest["spring_FL.length"]
+    stops = whole - force - rest["spring_FL.force"] - front["spring"]["stiffness"] * longer
+    assert stops.min() < -1000.0
+    assert stops.max() > 1000.0
+    between = (longer > -front["stops"]["bump_gap"]) & (longer < front["stops"]["rebound_gap"] - 0.003)
+    assert between.any()
+    assert stops[between] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_the_sum_of_the_forces_is_the_change_of_the_momentum() -> None:
+    """In a turn with drive, brakes, wind and a force: tyres, air and port against mass times the earth velocities."""
+    s = simulation(rigid, 15.0, torque="half_shafts", brakes="torque", forces="earth", wind="speed")
+    mass = sum(s.sensors[f"wheel_{w}.Fz"] for w in WHEELS) / 9.81
+    for name, value in {"steering": 0.1, "wind.speed": 8.0, "wind.heading": 2.0, "point_reference.Fy": 150.0}.items():
+        s.set_input(name, value)
+    area = 0.5 * rigid()._data["aerodynamics"]["air_density"] * rigid()._data["aerodynamics"]["drag_area"]
+    velocities, sums = [], []
+    for k in range(500):
+        s.set_input("wheel_RL.drive_torque", 100.0 + 60.0 * np.sin(0.01 * k))
+        s.set_input("wheel_FR.brake_torque_demand", 60.0)
+        s.step(STEP)
+        now = s.sensors
+        velocity = np.array([now["chassis.earth_vx"], now["chassis.earth_vy"]])
+        over = 8.0 * np.array([np.cos(2.0), np.sin(2.0)]) - velocity
+        force = np.array([0.0, 150.0]) + area * np.hypot(*over) * over
+        for w in WHEELS:
+            turn = np.exp(1j * (now["chassis.yaw"] + now[f"wheel_{w}.steer"]))
+            tyre = turn * complex(now[f"wheel_{w}.Fx"], now[f"wheel_{w}.Fy"])
+            force += [tyre.real, tyre.imag]
+        velocities.append(velocity)
+        sums.append(force)
+    forces, changes = np.array(sums)[100:-1], mass * np.gradient(np.array(velocities), STEP, axis=0)[100:-1]
+    assert np.abs(changes).max() > 1000.0
+    assert forces == pytest.approx(changes, abs=0.01 * np.abs(changes).max())
 
 
 def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_without() -> None:

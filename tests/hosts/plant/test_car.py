@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 import fmpy
@@ -26,7 +27,8 @@ def drive(car: Car, steps: int) -> np.ndarray:
     return np.array(rows)
 
 
-def by_fmpy(path: Path, steps: int) -> np.ndarray:
+def by_fmpy(path: Path, start: dict[str, float], inputs: Sequence[str], given: np.ndarray) -> dict[str, np.ndarray]:
+    """All outputs that are real, after each row of inputs, by a plain host."""
     description = fmpy.read_model_description(str(path))
     reference = {v.name: v.valueReference for v in description.modelVariables}
     folder, rows = fmpy.extract(str(path)), []
@@ -34,17 +36,18 @@ def by_fmpy(path: Path, steps: int) -> np.ndarray:
     slave = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=name, instanceName="car")
     slave.instantiate()
     slave.setupExperiment(startTime=0.0)
-    slave.setReal([reference["initial.speed"]], [15.0])
+    slave.setReal([reference[n] for n in start], list(start.values()))
     slave.enterInitializationMode()
     slave.exitInitializationMode()
-    for k in range(steps):
-        slave.setReal([reference[n] for n in INPUTS], [0.3 * np.sin(0.1 * k), 0.4])
+    outputs = [v.name for v in description.modelVariables if (v.causality, v.type) == ("output", "Real")]
+    for k, row in enumerate(given):
+        slave.setReal([reference[n] for n in inputs], list(row))
         slave.doStep(k * 0.01, 0.01)
-        rows.append([slave.getReal([reference[n]])[0] for n in READS[:-1]])
+        rows.append(slave.getReal([reference[n] for n in outputs]))
     slave.terminate()
     slave.freeInstance()
     shutil.rmtree(folder)
-    return np.array(rows)
+    return dict(zip(outputs, np.array(rows).T, strict=True))
 
 
 @pytest.fixture
@@ -53,10 +56,37 @@ def car(rigid_fmu: Path):
         yield made
 
 
-def test_its_bits_are_those_of_the_fmu_by_a_plain_host(car: Car, rigid_fmu: Path) -> None:
-    car.reset(**SPEED)
-    assert (drive(car, 60)[:, :-1] == by_fmpy(rigid_fmu, 60)).all()
-    assert car.time == pytest.approx(0.6)
+@pytest.mark.parametrize(
+    ("fmu", "inputs", "start"),
+    [
+        ("rigid_fmu", INPUTS, SPEED),
+        (
+            "braked_fmu",
+            ("steering", "wheel_FL.brake_torque_demand", "wheel_RR.brake_torque_demand"),
+            SPEED | {"road.friction": 0.7, "front.spring.stiffness": 18000.0, "initial.yaw": 1.0},
+        ),
+    ],
+)
+def test_its_bits_are_those_of_the_fmu_by_a_plain_host(
+    fmu: str, inputs: tuple[str, ...], start: dict[str, float], request: pytest.FixtureRequest
+) -> None:
+    """All outputs, with changed parameters, through ports, beyond ranges, and beside inputs that are refused."""
+    path, random = request.getfixturevalue(fmu), np.random.default_rng(1)
+    given = random.random((40, len(inputs))) * [0.5, *(len(inputs) - 1) * [200.0 if "braked" in fmu else 0.7]]
+    given[7, 0], given[20, 1] = 3.0, 1e6
+    if fmu == "braked_fmu":
+        given[30, 2] = np.nan
+    outputs = by_fmpy(path, start, inputs, given)
+    with Car(path, inputs=inputs) as car:
+        car.reset(3, **start)
+        for k, row in enumerate(given):
+            for bad in ((np.nan, *row[1:]), row[1:], "none"):
+                with pytest.raises(HostError):
+                    car.step(bad)
+            car.step(row)
+            now = car.read(tuple(outputs))
+            assert (now == [values[k] for values in outputs.values()]).all()
+        assert car.time == pytest.approx(0.4)
 
 
 def test_a_new_start_and_a_saved_state_give_the_same_bits(car: Car, rigid_fmu: Path) -> None:
@@ -119,6 +149,13 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
         car.step([0.0, 0.0, 0.0])
     with pytest.raises(HostError, match="no variable that is a number 'sped'"):
         car.read(("sped",))
+    for bad in ("brake", {"steering": 0.0}, [0.0, "x"]):
+        with pytest.raises(HostError, match="they must be numbers, in an array"):
+            car.step(bad)
+    for into in (np.zeros(3), np.zeros((2, 1)), np.zeros(2, int), [0.0, 0.0]):
+        with pytest.raises(HostError, match="it must be an array of 2 floats") as told:
+            car.read(("speed", "chassis.x"), into)
+        assert "\n" not in str(told.value)
 
 
 @pytest.mark.parametrize(
@@ -128,6 +165,7 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
         (1, {"initial.speed": (10.0, 20.0, 30.0)}, "a range is two numbers"),
         (1, {"initial.speed": (10.0, float("inf"))}, "a range is two numbers"),
         (1, {"initial.speed": "fast"}, "'initial.speed' is 'fast'; it must be a number."),
+        (1, {"initial.speed": None}, "'initial.speed' is None; it must be a number, or a range of two."),
         (-1, {}, "The seed is -1; it must be a whole number from 0, or None."),
         ("a", {}, "The seed is 'a'"),
         (1, {"initial.sped": 1.0}, "no parameter or input 'initial.sped'; did you mean 'initial.speed' or"),

@@ -12,6 +12,7 @@ from gymnasium.utils.env_checker import check_env
 
 from hosts.common.errors import HostError
 from hosts.plant import environments  # registers them
+from hosts.plant.lap import ProvingGroundLap
 
 LANE, BRAKES = "ali3/LaneKeeping-v0", "ali3/AntiLockBraking-v0"
 
@@ -84,6 +85,36 @@ def test_an_action_that_is_none_is_refused_and_changes_nothing(braked_fmu: Path,
                 rows.append(env.step(np.full(shape, 0.5, np.float32)))
             assert (rows[0][0] == rows[1][0]).all()
             assert rows[0][1] == rows[1][1]
+
+
+def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> None:
+    with closing(environments.LaneKeeping(str(rigid_fmu))) as env:
+        drawn, _ = env.reset(seed=1)
+        given, _ = env.reset(seed=1, options={"initial.speed": 10.0, "road.friction": (0.4, 0.5)})
+        assert given[2] == pytest.approx(10.0, rel=1e-3)
+        assert 0.4 < env.car.read(("road.friction",))[0] < 0.5
+        with pytest.raises(HostError, match=r"no parameter or input 'speed'"):
+            env.reset(seed=1, options={"speed": 10.0})
+        again, _ = env.reset(seed=1)
+        assert (again == drawn).all()
+
+
+@pytest.mark.parametrize(
+    ("made", "options", "words"),
+    [
+        (environments.LaneKeeping, {"speed": 12.0}, "speeds at the start of an environment are 12.0; they must be two"),
+        (environments.AntiLockBraking, {"torque": (np.nan, 5.0)}, "torques of the brakes of an environment are"),
+        (environments.AntiLockBraking, {"friction": (-1.0, 0.5)}, "frictions of the road of an environment are"),
+        (ProvingGroundLap, {"speed": (1.0, 2.0, 3.0), "road": "plane.road"}, "speeds at the start"),
+        (environments.LaneKeeping, {"seconds": np.nan}, "An episode has nan s"),
+        (environments.LaneKeeping, {"seconds": 0}, "An episode has 0 s; it must be a number, and a step or more."),
+    ],
+)
+def test_an_environment_that_cannot_be_is_one_sentence(
+    made: type[environments.CarEnvironment], options: dict[str, object], words: str, rigid_fmu: Path
+) -> None:
+    with pytest.raises(HostError, match=words):
+        made(str(rigid_fmu), **options)
 
 
 def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> None:

@@ -58,3 +58,11 @@ def test_what_is_no_line_is_one_sentence() -> None:
     for points, words in ((np.zeros((3, 2)), "shape"), (np.zeros((5, 2)), "lies on the one before")):
         with pytest.raises(HostError, match=words):
             Lane(points)
+    for width in (0.0, np.nan, "wide"):
+        with pytest.raises(HostError, match="width of a lane"):
+            Lane(POINTS, width)
+    lane = Lane(POINTS)
+    lane.sense(0.0, RADIUS, 0.0)
+    with pytest.raises(HostError, match="must be two finite numbers"):
+        lane.sense(np.nan, RADIUS, 0.0)
+    assert lane.way == pytest.approx(0.25 * lane.length, abs=1e-3)
