@@ -8,6 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
+from hosts.common.errors import HostError
+from hosts.common.options import ROAD
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
@@ -93,11 +95,25 @@ def write_record(
         if driver is None
         else {"track": driver.course.name, "vehicle_width": driver.settings.vehicle_width},
         "marks": result.marks,
+        "world": _world_under(settings),
         "outputs_from": next(iter(fmu.names("output")), ""),
     }
     if names:
         record["names"] = names
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
+
+
+def _world_under(settings: Settings) -> str | None:
+    """Name of the world that the run's road is of, where its record lies beside the road."""
+    if not (road := settings.start.get(ROAD)):
+        return None
+    from hosts.common.world_record import world_beside
+
+    try:
+        world = world_beside(Path(str(road)))
+    except HostError:  # one that cannot be read is told where it is drawn
+        return None
+    return None if world is None else str(world["name"])
 
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:

@@ -22,6 +22,7 @@ from viewer.recording import Recording
 # What a car without inputs of the user's is driven through.
 _CAR_MANOEUVRE = "double_lane_change"
 _WIDEST = 10.0  # m, of a vehicle
+_OF_WORLDS = ("the road ", "the scenery of ")  # names of what is told on the terminal where it is not drawn
 _ON_THE_GROUND = "what the manoeuvre has on the ground"
 
 
@@ -88,7 +89,7 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         made.append(recording)
         told += words
         missing = [] if recording.scene is None else recording.missing
-        told += [_undrawn(item) for item in missing if item["name"].startswith("the road ")]
+        told += [_undrawn(item) for item in missing if item["name"].startswith(_OF_WORLDS)]
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
     return made, told
@@ -140,7 +141,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         described, same = _units(fmu, str(record.get("token", "")))
         units = described | units
         _add_names_of_fmu(table, units, record, record_file)
-        scene = scene_of(fmu, settings)
+        scene = scene_of(fmu, settings, record.get("world"))
         if scene is None:
             told.append(_foreign(fmu))
         else:

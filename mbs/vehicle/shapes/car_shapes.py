@@ -56,7 +56,7 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> Non
 
 
 def tabled_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
-    """Draw the chassis of a car whose suspensions are tables: drawings have no place for what those move.
+    """Draw chassis and wheels of a car whose suspensions are tables: there are no links.
 
     Parameters
     ----------
@@ -64,7 +64,10 @@ def tabled_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> 
         As of `car_shapes`.
     """
     b.m.default_shapes = False
-    _cabin_shapes(Looks(b, car, spins, b.chassis.frame), b, car)
+    looks = Looks(b, car, spins, b.chassis.frame)
+    for name, axle in (("front", car.front), ("rear", car.rear)):
+        wheel_shapes(looks, name, axle)
+    _cabin_shapes(looks, b, car)
 
 
 def _cabin_shapes(looks: Looks, b: CarBuilder, car: CarContent) -> None:
