@@ -82,7 +82,7 @@ def _roads(
                 if world is None:
                     roads.append(_part(name, fmu))
                     if given and expected:
-                        why = f"{file.with_suffix('.json')} is not there; it is made again by: {_made_by(file)}"
+                        why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"
                         missing.append({"name": f"the scenery of {expected}", "why": why})
                 else:
                     roads += world["roads"]
@@ -117,7 +117,7 @@ def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
             file = Path(folder, Path(inside).name)
             file.write_bytes(fmu.read(inside))
         elif not file.is_file():
-            remedy = f"; that of a world is made again by: {_made_by(file)}" if file.is_absolute() else ""
+            remedy = f"; {_made_by(file)}" if file.is_absolute() else ""
             raise HostError(f"its file is not there{remedy}")
         out = Path(folder, "part.json")
         run_module("ali3", "road", str(file), "--part", str(out))
@@ -126,5 +126,6 @@ def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
 
 
 def _made_by(road: Path) -> str:
-    """The command that makes the world of a road file."""
-    return f"{command_name('road')} --world {quote(road.stem)} --out {quote(str(road.parent))}"
+    """How the world of a road file is made again."""
+    line = f"{command_name('road')} --world {quote(road.stem)} --out {quote(str(road.parent))}"
+    return f"that of a world is made again by: {line}"

@@ -140,13 +140,10 @@ class TabledBody(Body):
         Variables of its table.
     table : SmoothTable
         Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes.
-    outputs : tuple of str
-        Sensors by which it is drawn with its wheel: the place of the wheel's centre, m, the four parts of its own
-        quaternion, and the angle of the wheel, rad; without them it is not drawn.
     """
 
     is_tabled = True
-    outputs: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
 
     def coordinates(self) -> list[CoordinateInfo]:
         """Its dependent coordinates: of the position, then of each axis."""

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import Vector
 from mbs.flexible.scene_part import flexible_parts
-from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape, in_space

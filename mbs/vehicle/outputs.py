@@ -8,7 +8,6 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.carried import Spin
-from mbs.model.tabled import TabledBody
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -157,9 +156,6 @@ def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
             description=f"q{c} of the orientation of the wheel's carrier, which does not spin, scalar first (qw), from "
             "drawing to earth axes",
         )
-    if isinstance(spin.carrier, TabledBody):
-        parts = ("x", "y", "z", "qw", "qx", "qy", "qz", "angle")
-        spin.carrier.outputs = tuple(f"wheel_{w}.{part}" for part in parts)
     for name in ("contact", "normal") if b.ports.tyre is None else ():
         for c in "xyz":
             m.sense_element(f"wheel_{w}.{name}_{c}", f"tyre {w}", f"{name}_{c}")

@@ -178,7 +178,9 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     of_world.unlink()
     count, (sentence,) = drawn()
     assert count == 0
-    assert sentence.startswith(f"The scenery of line is not drawn: {of_world} is not there; it is made again by: ")
+    assert sentence.startswith(
+        f"The scenery of line is not drawn: {of_world} is not there; that of a world is made again by: "
+    )
     assert sentence.endswith(f" road --world line --out {tmp_path}.")
     of_world.write_text(re.sub(r'"checksum": *\d+', '"checksum": 7', content))
     (recording,), told = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
