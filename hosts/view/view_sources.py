@@ -22,7 +22,6 @@ from viewer.recording import Recording
 # What a car without inputs of the user's is driven through.
 _CAR_MANOEUVRE = "double_lane_change"
 _WIDEST = 10.0  # m, of a vehicle
-_OF_WORLDS = ("the road ", "the scenery of ")  # names of what is told on the terminal where it is not drawn
 _ON_THE_GROUND = "what the manoeuvre has on the ground"
 
 
@@ -88,16 +87,9 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
             raise HostError(_no_kind(path))
         made.append(recording)
         told += words
-        missing = [] if recording.scene is None else recording.missing
-        told += [_undrawn(item) for item in missing if item["name"].startswith(_OF_WORLDS)]
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
     return made, told
-
-
-def _undrawn(item: dict[str, str]) -> str:
-    """A sentence on what is not drawn."""
-    return f"{item['name'][0].upper()}{item['name'][1:]} is not drawn: {item['why'].rstrip('.')}."
 
 
 def _no_kind(path: Path) -> str:

@@ -19,6 +19,7 @@ from hosts.common.options import Wishes
 from hosts.view.command import main
 from hosts.view.view_sources import RunWishes, recordings_of
 from mbs.worlds.command import main as road
+from viewer.page_file import notes_of
 
 SCENE = "resources/geometry.json"
 SCENES = Path(__file__).parent / "scenes.py"
@@ -144,8 +145,8 @@ def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path,
     result.write_text("time,height\n0,1\n1,2\n")
     record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(gone)}]}
     result.with_suffix(".json").write_text(json.dumps(record))
-    (recording,), told = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
-    (sentence,) = [line for line in told if "is not drawn" in line]
+    (recording,), _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    (sentence,) = notes_of([recording])
     remedy = f" road --world skidpad --out '{gone.parent}'"
     assert sentence.startswith(f"The road {gone} is not drawn: its file is not there; that of a world is made again by")
     assert sentence.endswith(f"{remedy}.")
@@ -167,10 +168,10 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     result.with_suffix(".json").write_text(json.dumps(record))
 
     def drawn() -> tuple[int, list[str]]:
-        (recording,), told = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+        (recording,), _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
         assert recording.scene is not None
         assert len(recording.scene["roads"]) == 1
-        return len(recording.scene.get("scenery", [])), [line for line in told if "is not drawn" in line]
+        return len(recording.scene.get("scenery", [])), notes_of([recording])
 
     assert drawn() == (2, [])
     of_world = tmp_path / "line.json"
@@ -183,10 +184,10 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     )
     assert sentence.endswith(f" road --world line --out {tmp_path}.")
     of_world.write_text(re.sub(r'"checksum": *\d+', '"checksum": 7', content))
-    (recording,), told = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    (recording,), _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
     assert recording.scene is not None
     assert recording.scene["roads"] == []
-    assert f"{of_world} is the record of another line.road than that beside it; make it again with" in told[0]
+    assert f"{of_world} is the record of another line.road than that beside it" in notes_of([recording])[0]
 
 
 def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
