@@ -55,7 +55,9 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
     assert system.drawing is not None, "asked for before"
     places = {place.columns[0]: place for place in system.drawing.places.bodies}
     for name, frame in frames.items():
-        if "position" in frame:
+        if "position" in frame and frame["position"][0] in rows.names:
+            bound.frames[name] = dict(frame)  # sensors place it in the model already
+        elif "position" in frame:
             _by_columns(rows, name, frame, places[frame["position"][0]], bound)
     _by_points(frames, shared, bound)
     turns = {turn.column: turn for turn in system.drawing.places.turns}

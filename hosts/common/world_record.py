@@ -9,6 +9,7 @@ from ali3.reading import read_json
 from hosts.common.errors import HostError
 
 FORMAT, VERSION = "ALi3 world", 1
+_REMEDY = "make it again with: ali3 road --world NAME-or-FILE --out FOLDER."
 
 
 def read_world_record(file: Path) -> dict[str, Any]:
@@ -27,8 +28,7 @@ def read_world_record(file: Path) -> dict[str, Any]:
     content: dict[str, Any] = read_json(file, HostError)
     found = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
     if found != (FORMAT, VERSION):
-        remedy = "make it again with: ali3 road --world NAME-or-FILE --out FOLDER"
-        raise HostError(f"{file} is no world of version {VERSION}, which this version of ali3 reads; {remedy}.")
+        raise HostError(f"{file} is no world of version {VERSION}, which this version of ali3 reads; {_REMEDY}")
     return content
 
 
@@ -38,7 +38,7 @@ def world_beside(road: Path) -> dict[str, Any] | None:
     Raises
     ------
     HostError
-        It is a world that cannot be read.
+        It is a world that cannot be read, or that of another road file of that name.
     """
     file = road.with_suffix(".json")
     if not file.is_file():
@@ -46,4 +46,12 @@ def world_beside(road: Path) -> dict[str, Any] | None:
     content = read_json(file, HostError)
     if not isinstance(content, dict) or content.get("format") != FORMAT or content.get("road") != road.name:
         return None
+    if road.is_file() and content.get("checksum") not in (None, _checksum(road)):
+        raise HostError(f"{file} is the record of another {road.name} than that beside it; {_REMEDY}")
     return read_world_record(file)
+
+
+def _checksum(road: Path) -> int:
+    """The checksum in the header of a road file, which the record of its world repeats."""
+    with road.open("rb") as file:
+        return int.from_bytes(file.read(16)[12:], "little")

@@ -22,7 +22,9 @@ RESOURCE = "resources/geometry.json"
 _ROADS = "resources/roads"
 
 
-def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
+def scene_of(
+    path: Path, settings: Mapping[str, Value] | None = None, world: str | None = None
+) -> dict[str, Any] | None:
     """The scene of an FMU.
 
     Parameters
@@ -30,6 +32,8 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
     settings : mapping of str to float, int, bool or str, optional
         What was set in it: a road of a file is drawn from the file that its parameter names, that of a world with the
         scenery that its record beside the file has.
+    world : str, optional
+        The world that the road of a file was of; where its record is gone, `missing` says so.
 
     Returns
     -------
@@ -49,7 +53,7 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
                 raise HostError(f"{RESOURCE} of {path} has more than {LARGEST_JSON} bytes.")
             content = fmu.read(RESOURCE)
             scene = read_scene(content, f"{RESOURCE} of {path}")
-            roads, missing, scenery = _roads(scene, fmu, settings or {})
+            roads, missing, scenery = _roads(scene, fmu, settings or {}, world)
     except (OSError, zipfile.BadZipFile, KeyError, RuntimeError) as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}.") from None
     except SceneError as error:
@@ -59,7 +63,7 @@ def scene_of(path: Path, settings: Mapping[str, Value] | None = None) -> dict[st
 
 
 def _roads(
-    scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value]
+    scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value], expected: str | None
 ) -> tuple[list[Any], list[dict[str, str]], list[Any]]:
     """Roads with those of files read and with the values that were set; what cannot be drawn, and why; scenery."""
     roads, missing, scenery = list[Any](), list[dict[str, str]](), list[Any]()
@@ -71,9 +75,13 @@ def _roads(
             roads.append(_moved(road, variables, settings))
         elif name:
             try:
-                world = world_beside(Path(name.removeprefix("file://")))
+                file = Path(name.removeprefix("file://"))
+                world = world_beside(file)
                 if world is None:
                     roads.append(_part(name, fmu))
+                    if given and expected:
+                        why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"
+                        missing.append({"name": f"the scenery of {expected}", "why": why})
                 else:
                     roads += world["roads"]
                     scenery += world["scenery"]
@@ -107,10 +115,15 @@ def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
             file = Path(folder, Path(inside).name)
             file.write_bytes(fmu.read(inside))
         elif not file.is_file():
-            line = f"{command_name('road')} --world {quote(file.stem)} --out {quote(str(file.parent))}"
-            remedy = f"; that of a world is made again by: {line}" if file.is_absolute() else ""
+            remedy = f"; {_made_by(file)}" if file.is_absolute() else ""
             raise HostError(f"its file is not there{remedy}")
         out = Path(folder, "part.json")
         run_module("ali3", "road", str(file), "--part", str(out))
         part: dict[str, Any] = read_json(out, HostError)
         return part
+
+
+def _made_by(road: Path) -> str:
+    """How the world of a road file is made again."""
+    line = f"{command_name('road')} --world {quote(road.stem)} --out {quote(str(road.parent))}"
+    return f"that of a world is made again by: {line}"

@@ -54,7 +54,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
         fmu = Path(drive.meta["fmu"])
         if not (fmu.is_file() and zipfile.is_zipfile(fmu)):
             raise HostError(f"{folder} names the FMU {fmu}, which is not there any more; name it by --geometry FMU.")
-        scene = scene_of(fmu, drive.meta["start"])
+        scene = scene_of(fmu, drive.meta["start"], drive.meta.get("world"))
         if described(fmu).guid != drive.meta["guid"]:
             told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     if scene is None:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ali3.files import check_writable, whole_file, write_text
+from hosts.common.options import ROAD
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
@@ -69,7 +70,7 @@ def write_record(
     names : mapping of str to (str, float, float), optional
         By the FMU's names those of the table, with factor and offset: value of the FMU = factor * that + offset.
     """
-    state = None
+    state, road = None, Path(str(settings.start.get(ROAD, "")))
     if manoeuvre.state is not None:
         from hosts.driving.state_file import write_state
 
@@ -89,14 +90,12 @@ def write_record(
         "held": result.held,
         "jumps": {k: [float(result.time[k]), *before] for k, before in result.jumps.items()},
         "state": state,
-        "course": None
-        if driver is None
-        else {"track": driver.course.name, "vehicle_width": driver.settings.vehicle_width},
+        "course": driver and {"track": driver.course.name, "vehicle_width": driver.settings.vehicle_width},
         "marks": result.marks,
+        "world": road.stem if road.suffix and road.with_suffix(".json").is_file() else None,
         "outputs_from": next(iter(fmu.names("output")), ""),
+        **({"names": names} if names else {}),
     }
-    if names:
-        record["names"] = names
     write_text(file, json.dumps(record, indent=2, ensure_ascii=False) + "\n")
 
 

@@ -45,9 +45,12 @@ def show(options: argparse.Namespace) -> int:
     unknown = next((name for name in options.plot if name not in known), None)
     if unknown is not None:
         raise HostError(f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known), unknown)}.")
-    written: list[object] = list(_exports(recordings, options))
+    notes: list[str] = []
+    written: list[object] = list(_exports(recordings, options, notes))
     if page is not None:
-        written.append(_write_page(page, recordings, options))
+        written.append(_write_page(page, recordings, options, notes))
+    for note in dict.fromkeys(notes):
+        print(note)
     print(f"written: {', '.join(map(str, written))}")
     if page is not None and not options.no_open:
         open_page(page)
@@ -85,20 +88,18 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
     return start
 
 
-def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace) -> str:
+def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> str:
     from viewer.page_file import write_page
 
     made = write_page(page, recordings, options=_start(recordings, options), most=options.most)
-    for note in made.notes:
-        print(note)
+    notes += made.notes
     return f"{made.path} ({1e-6 * made.size:.2g} MB)"
 
 
-def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> Iterator[Path]:
-    """Write the pictures, films and animations that were asked for, and print what there is to say of them."""
+def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> Iterator[Path]:
+    """Write the pictures, films and animations that were asked for, and note what there is to say of them."""
     start = _look(options)
     size = (options.size[0], options.size[1])
-    notes: list[str] = []
     if options.gltf is not None:
         from viewer.gltf import write_gltf
 
@@ -120,8 +121,6 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace) -> It
 
         notes += write_mp4(options.mp4, recordings, size=size, camera=options.camera, options=start).notes
         yield options.mp4
-    for note in dict.fromkeys(notes):
-        print(note)
 
 
 def _some(names: list[str], word: str) -> str:

@@ -83,16 +83,9 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
             raise HostError(_no_kind(path))
         made.append(recording)
         told += words
-        missing = [] if recording.scene is None else recording.missing
-        told += [_undrawn(item) for item in missing if item["name"].startswith("the road ")]
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
     return made, told
-
-
-def _undrawn(item: dict[str, str]) -> str:
-    """A sentence on what is not drawn."""
-    return f"{item['name'][0].upper()}{item['name'][1:]} is not drawn: {item['why'].rstrip('.')}."
 
 
 def _no_kind(path: Path) -> str:
@@ -136,7 +129,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         described, same = _units(fmu, str(record.get("token", "")))
         units = described | units
         _add_names_of_fmu(table, units, record, record_file)
-        scene = scene_of(fmu, settings)
+        scene = scene_of(fmu, settings, record.get("world"))
         if scene is None:
             told.append(_foreign(fmu))
         else:

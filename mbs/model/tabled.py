@@ -137,6 +137,7 @@ class TabledBody(Body):
     """
 
     is_tabled = True
+    outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
 
     def coordinates(self) -> list[CoordinateInfo]:
         """Its dependent coordinates: of the position, then of each axis."""

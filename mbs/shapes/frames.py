@@ -18,7 +18,8 @@ from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Owner, Turning, in_space, origin_of
 from mbs.model.sliding_shapes import Sliding
-from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace
+from mbs.model.tabled import TabledBody
+from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace, matrices
 
 Anchor = tuple[str, list[float]]
 """Frame and place in it, m."""
@@ -65,6 +66,8 @@ class FrameNames:
 
     def of_body(self, body: Body) -> str:
         """Frame of a body, of the node of a flexible one or of a body with ports."""
+        if body.is_tabled:
+            return body.name
         return "ground" if body.is_ground else self.bodies[body.owner.number]
 
     def of_owner(self, owner: Owner) -> str:
@@ -78,9 +81,14 @@ class FrameNames:
 
 
 def turns_of(model: Model) -> list[Spin | Turning]:
-    """What turns about an axis of a body; what is on a tabled one has no frame."""
+    """What turns about an axis of a body; on a tabled one a wheel that sensors place, nothing else."""
     every: list[Spin | Turning] = [*model.spins, *model.turnings]
-    return [t for t in every if not _body_of(t).is_tabled]
+    return [t for t in every if not _body_of(t).is_tabled or _outputs_of(t)]
+
+
+def _outputs_of(turn: Spin | Turning) -> tuple[str, ...]:
+    """Sensors that place a wheel on a tabled body; empty where there are none, and on other bodies."""
+    return turn.carrier.outputs if isinstance(turn, Spin) and isinstance(turn.carrier, TabledBody) else ()
 
 
 def _body_of(turn: Spin | Turning) -> Body:
@@ -101,11 +109,22 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
             "quaternion": list(place.columns[3:]),
             "start": [numbers(pose[:3]), numbers(pose[3:])],
         }
+    for spin in model.spins:
+        if outputs := _outputs_of(spin):
+            assert isinstance(spin.carrier, TabledBody), "it has outputs"
+            base = spin.carrier.base
+            place, quaternion = frames[names.of_body(base)]["start"]
+            (turn,) = matrices(np.array([quaternion]))
+            frames[names.of_body(spin.carrier)] = {
+                "position": list(outputs[:3]),
+                "quaternion": list(outputs[3:7]),
+                "start": [numbers(np.array(place) + turn @ (origin_of(spin) - origin_of(base))), quaternion],
+            }
     for turn in turns_of(model):
         along, value = ("direction", "way") if isinstance(turn, Sliding) else ("axis", "angle")
         frames[names.turns[turn.name]] = {
             "parent": names.of_owner(turn.carrier),
-            "at": numbers(origin_of(turn) - origin_of(turn.carrier)),
+            "at": numbers(np.zeros(3) if _outputs_of(turn) else origin_of(turn) - origin_of(turn.carrier)),
             along: numbers(turn.axis_reference),
             value: _angle_column(turn, names),
         }
@@ -115,6 +134,8 @@ def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.flo
 def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
     if isinstance(turn, Turning) and isinstance(turn.angle, str):
         return turn.angle
+    if outputs := _outputs_of(turn):
+        return outputs[7]
     return names.columns[f"{turn.name}.angle"]
 
 
@@ -143,7 +164,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
             amplitudes.append(AmplitudePlace(body.name, modes, row, columns))
     for turn in turns_of(model):
         angle = turn.affine if isinstance(turn, Spin) else turn.angle
-        if isinstance(angle, str):
+        if isinstance(angle, str) or _outputs_of(turn):
             continue
         weights = sparse.csr_matrix(
             (list(angle.terms.values()), ([0] * len(angle.terms), list(angle.terms))), shape=(1, len(constant))

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import Vector
 from mbs.flexible.scene_part import flexible_parts
-from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import Shape, in_space
+from mbs.model.tabled import TabledBody
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers
@@ -72,7 +72,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
         "arrows": arrows_of(model, names, found.lines),
         "roads": roads_of(model),
         "missing": [{"name": name, "why": SLIDES} for name in found.sliding if name not in named]
-        + [{"name": t.name, "why": TABLED} for t in model.tabled if isinstance(t, Body)],
+        + [{"name": t.name, "why": TABLED} for t in model.tabled if isinstance(t, TabledBody) and not t.outputs],
     }
     return Drawing(scene, places, shared_points(model, names), _flexible(model, names, places, q))
 

@@ -197,9 +197,9 @@ class Car(CarContent):
 
     def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
         """Add all shapes, when somebody asks for the drawing."""
-        from mbs.vehicle.shapes.car_shapes import car_shapes, tabled_shapes
+        from mbs.vehicle.shapes.car_shapes import car_shapes
 
-        (tabled_shapes if fidelity is Fidelity.TABLE else car_shapes)(b, self, spins)
+        car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
         """Amplitudes of the frame as outputs, and its parts of the scene."""

@@ -18,6 +18,8 @@ from hosts.common import commands
 from hosts.common.options import Wishes
 from hosts.view.command import main
 from hosts.view.view_sources import RunWishes, recordings_of
+from mbs.worlds.command import main as road
+from viewer.page_file import notes_of
 
 SCENE = "resources/geometry.json"
 SCENES = Path(__file__).parent / "scenes.py"
@@ -139,17 +141,53 @@ def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
 def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path, tmp_path: Path) -> None:
     """On the terminal, and to the page; a world that is made again there is drawn."""
     fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
-    road, result = tmp_path / "my worlds" / "skidpad.road", tmp_path / "drive.csv"
+    gone, result = tmp_path / "my worlds" / "skidpad.road", tmp_path / "drive.csv"
     result.write_text("time,height\n0,1\n1,2\n")
-    record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(road)}]}
+    record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(gone)}]}
     result.with_suffix(".json").write_text(json.dumps(record))
-    (recording,), told = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
-    (sentence,) = [line for line in told if "is not drawn" in line]
-    remedy = f" road --world skidpad --out '{road.parent}'"
-    assert sentence.startswith(f"The road {road} is not drawn: its file is not there; that of a world is made again by")
+    (recording,), _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    (sentence,) = notes_of([recording])
+    remedy = f" road --world skidpad --out '{gone.parent}'"
+    assert sentence.startswith(f"The road {gone} is not drawn: its file is not there; that of a world is made again by")
     assert sentence.endswith(f"{remedy}.")
     assert recording.scene is not None
-    assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"the road {road}")
+    assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"the road {gone}")
+
+
+def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Path) -> None:
+    """Its ground is drawn from the road file; what stood on it was known to the record that has gone."""
+    fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
+    world, result = tmp_path / "line.toml", tmp_path / "drive.csv"
+    world.write_text(
+        'kind = "world"\nversion = 1\nname = "line"\nbounds = [0.0, 0.0, 20.0, 20.0]\nspacing = [0.5, 0.5]\n'
+        "[[cones]]\nat = [[5.0, 5.0], [6.0, 5.0]]\n"
+    )
+    assert road([f"--world={world}", f"--out={tmp_path}"]) == 0
+    result.write_text("time,height\n0,1\n1,2\n")
+    record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(tmp_path / "line.road")}], "world": "line"}
+    result.with_suffix(".json").write_text(json.dumps(record))
+
+    def drawn() -> tuple[int, list[str]]:
+        (recording,), _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+        assert recording.scene is not None
+        assert len(recording.scene["roads"]) == 1
+        return len(recording.scene.get("scenery", [])), notes_of([recording])
+
+    assert drawn() == (2, [])
+    of_world = tmp_path / "line.json"
+    content = of_world.read_text()
+    of_world.unlink()
+    count, (sentence,) = drawn()
+    assert count == 0
+    assert sentence.startswith(
+        f"The scenery of line is not drawn: {of_world} is not there; that of a world is made again by: "
+    )
+    assert sentence.endswith(f" road --world line --out {tmp_path}.")
+    of_world.write_text(re.sub(r'"checksum": *\d+', '"checksum": 7', content))
+    (recording,), _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    assert recording.scene is not None
+    assert recording.scene["roads"] == []
+    assert f"{of_world} is the record of another line.road than that beside it" in notes_of([recording])[0]
 
 
 def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from fmu_src.build.car_registry import build_car
+from fmu_src.geometry.geometry import geometry, lost_frames
+from fmu_src.variables.variables import variable_table
 from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.model.tabled import TabledBody
@@ -15,6 +17,7 @@ from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.linkages.linkage import Linkage
 from mbs.vehicle.linkages.pose_grid import at_springs
 from tests.vehicle.column_car import column_car
+from viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -107,6 +110,41 @@ def test_it_drives_as_the_car_with_links(name: str) -> None:
     assert tabled.report is not None
     assert linked.report is not None
     assert tabled.report.iterations <= linked.report.iterations
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_its_wheels_are_drawn_where_those_of_the_car_with_links_are(name: str) -> None:
+    """Centre and a point of the rim, which steers and turns with its wheel, as drawn and in a run."""
+    scenes, drawn = [], []
+    inputs = {"steering": (np.array([0.0, 0.5]), np.array([0.0, 0.4]))}
+    for system in systems(name):
+        run = simulate(system, 0.5, 0.005, inputs=inputs, pose=Pose(speed=10.0)).recording()
+        assert run.scene is not None
+        assert not [item for item in run.missing if "wheel" in item["name"]]
+        poses = FramePoses(run.scene, run.columns, len(run.t))
+        shapes = [shape for shape in run.scene["shapes"] if shape["kind"] == "wheel"]
+        assert [shape["frame"] for shape in shapes] == [f"wheel {wheel}" for wheel in WHEELS]
+        drawn.append([poses.points([s["frame"], p]) for s in shapes for p in (s["at"], (0.0, 0.1, s["rim"]))])
+        scenes.append(run.scene["frames"])
+    assert np.abs(np.subtract(*drawn)).max() < 1e-6
+    assert np.ptp(drawn[0][1][:, 2]) > 0.3, "it turns"
+    tabled, linked = scenes
+    for wheel in WHEELS:
+        carrier = linked[linked[f"wheel {wheel}"]["parent"]]["start"]
+        centre = np.add(carrier[0], linked[f"wheel {wheel}"]["at"])
+        assert np.abs(tabled[tabled[f"wheel {wheel}"]["parent"]]["start"][0] - centre).max() < 5e-3
+
+
+def test_wheels_of_a_car_by_curves_are_drawn_from_the_outputs_of_its_fmu() -> None:
+    (system,) = build_car("commonroad_escort", fidelity=0).systems.values()
+    assert lost_frames(system) == []
+    found = geometry(system, variable_table(system.meta, pose=False, step_size=0.01), "Name", "what it is")
+    assert found is not None
+    for wheel in WHEELS:
+        frame = found["frames"][f"wheel {wheel}"]
+        assert frame["angle"] == f"wheel_{wheel}.angle"
+        assert found["frames"][frame["parent"]]["position"] == [f"wheel_{wheel}.{c}" for c in "xyz"]
+    assert found["missing"] == []
 
 
 def test_stresses_are_refused_and_a_rack_with_mass_is_a_sentence() -> None:

@@ -363,6 +363,13 @@ def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chro
         opened.page.keyboard.press(key)
         assert opened.page.locator('[data-a3="show arrows"]').is_checked() is not before
     opened.page.locator('[data-a3="touch levers"]').click()
+    levers = [f'[data-a3="lever {name}"]' for name in ("steering", "brake", "throttle")]
+    for width, height in ((390, 844), (844, 390), (800, 600)):
+        opened.page.set_viewport_size({"width": width, "height": height})
+        figures, *boxes = (opened.page.locator(part).bounding_box() for part in (".a3-hud", *levers))
+        beside = [figures["x"] + figures["width"] <= box["x"] for box in boxes]
+        above = [figures["y"] + figures["height"] <= box["y"] for box in boxes]
+        assert all(np.logical_or(beside, above)), "figures can be read beside levers"
     box = opened.page.locator('[data-a3="lever throttle"]').bounding_box()
     opened.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] * 0.25)
     opened.page.mouse.down()

@@ -257,6 +257,33 @@ def test_a_ghost_where_the_run_is_leaves_its_picture_as_it_is(opened: Callable[.
     assert both(shown) == [[False, False]]
 
 
+def beam(amplitude: np.ndarray) -> Recording:
+    """A steel beam along y whose middle sinks by its amplitude, m."""
+    nodes = [[0.0, -1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    modes = np.zeros((3, 3, 1))
+    modes[1, 2, 0] = -1.0
+    flexible = {"frame": "ground", "nodes": nodes, "beams": [[0, 1], [1, 2]], "radii": [0.02, 0.02]}
+    flexible |= {"amplitudes": ["q"], "modes": floats(modes)}
+    scene = {"format": "ALi3 scene", "version": 1, "name": "beam", "up": [0, 0, 1], "planar": False, "extent": 2.0}
+    scene |= {"focus": "", "frames": {}, "shapes": [], "flexible": [flexible]}
+    return Recording(scene, np.linspace(0.0, 1.0, 101), {"q": amplitude})
+
+
+def test_a_flexible_ghost_is_drawn_where_it_bends_otherwise_only(opened: Callable[..., Opened]) -> None:
+    """Half-way the ghost begins to rise, by 20 cm in the end; before, the beam has the pixels of a run without one."""
+    t = np.linspace(0.0, 1.0, 101)
+    alone, both = opened(beam(0.0 * t)), opened(beam(0.0 * t), beam(-0.4 * np.maximum(t - 0.5, 0.0)))
+    pictures = []
+    for page in (alone, both):
+        page.seek(0.3)
+        x, y = page.place([0.0, 0.5, 0.0])
+        pictures.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5])
+    assert abs(pictures[0] - pictures[1]).max() <= 2
+    both.seek(1.0)
+    x, y = both.place([0.0, 0.0, 0.2])
+    assert is_magenta(*both.picture()[y, x])
+
+
 def test_a_picture_of_two_runs_tells_whose_colour_is_whose(opened: Callable[..., Opened]) -> None:
     """As pictures and films are made, without controls; a picture of one run has no names."""
     ghost = run("two")
@@ -270,21 +297,13 @@ def test_a_picture_of_two_runs_tells_whose_colour_is_whose(opened: Callable[...,
 
 
 def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened: Callable[..., Opened]) -> None:
-    """A beam along y whose middle sinks by 2 cm, drawn thirtyfold: 0.6 m."""
-    nodes = [[0.0, -1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-    modes = np.zeros((3, 3, 1))
-    modes[1, 2, 0] = -1.0
-    flexible = {"frame": "ground", "nodes": nodes, "beams": [[0, 1], [1, 2]], "radii": [0.02, 0.02]}
-    flexible |= {"amplitudes": ["q"], "modes": floats(modes)}
-    scene = {"format": "ALi3 scene", "version": 1, "name": "beam", "up": [0, 0, 1], "planar": False, "extent": 2.0}
-    scene |= {"focus": "", "frames": {}, "shapes": [], "flexible": [flexible]}
-    t = np.linspace(0.0, 1.0, 101)
-    page = opened(Recording(scene, t, {"q": 0.02 * np.sin(np.pi * t)}), deformation=30)
+    """A beam whose middle sinks by 2 cm, drawn thirtyfold: 0.6 m."""
+    sinks = 0.02 * np.sin(np.pi * np.linspace(0.0, 1.0, 101))
+    page = opened(beam(sinks), deformation=30)
     assert page("() => window.player.view.floor") < -0.6
     assert page("() => { window.player.set({ deformation: 60 }); return window.player.view.floor }") < -1.2
     assert page("() => { window.player.set({ deformation: 1 }); return window.player.view.floor }") > -0.2
-    ghost = Recording(scene, t, {"q": 0.04 * np.sin(np.pi * t)})
-    page = opened(Recording(scene, t, {"q": 0.0 * t}), ghost, deformation=30)
+    page = opened(beam(0.0 * sinks), beam(2.0 * sinks), deformation=30)
     assert page("() => window.player.view.floor") < -1.2
 
 

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 
 from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody
+from mbs.model.tabled import TabledBody
+from mbs.system.drawing import POSE
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -31,42 +33,30 @@ SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
 """Looks of suspensions by their kind."""
 
 
-def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
+def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links: bool) -> None:
     """Draw a car whose model has all bodies and sensors.
 
     Parameters
     ----------
     spins : mapping of str to Spin
         Its wheels by name.
+    links : bool
+        Whether its suspensions have links, no tables in their place.
     """
-    if car.front.by_curves is not None or car.rear.by_curves is not None:
-        tabled_shapes(b, car, spins)
-        return
     b.m.default_shapes = False
-    looks = Looks(b, car, spins, rack_of(b, car))
+    linked = links and car.front.by_curves is None and car.rear.by_curves is None
+    for wheel, spin in spins.items():
+        if isinstance(spin.carrier, TabledBody):
+            spin.carrier.outputs = tuple(f"wheel_{wheel}.{part}" for part in (*POSE, "angle"))
+    looks = Looks(b, car, spins, rack_of(b, car) if linked else b.chassis.frame)
     for name, axle in (("front", car.front), ("rear", car.rear)):
-        SUSPENSIONS[axle.suspension.kind](looks, name, axle)
-        anti_roll_bar_shapes(looks, name, axle)
+        if linked:
+            SUSPENSIONS[axle.suspension.kind](looks, name, axle)
+            anti_roll_bar_shapes(looks, name, axle)
         wheel_shapes(looks, name, axle)
-    steering_shapes(looks)
-    powertrain_shapes(looks)
-    _cabin_shapes(looks, b, car)
-
-
-def tabled_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
-    """Draw the chassis of a car whose suspensions are tables: drawings have no place for what those move.
-
-    Parameters
-    ----------
-    b, car, spins
-        As of `car_shapes`.
-    """
-    b.m.default_shapes = False
-    _cabin_shapes(Looks(b, car, spins, b.chassis.frame), b, car)
-
-
-def _cabin_shapes(looks: Looks, b: CarBuilder, car: CarContent) -> None:
-    """Occupants, and the frame or a shell."""
+    if linked:
+        steering_shapes(looks)
+        powertrain_shapes(looks)
     occupant_shapes(looks)
     tubes = isinstance(car.chassis.frame, TubesFrame)
     if tubes:

@@ -248,7 +248,10 @@ class Drive {
     if (names.length) this.side.append(this.gamepadPanel.element);
     this.banner = el("div.a3-banner", { data: "banner" });
     this.stage.element.append(this.banner);
-    if (this.isCar) this.stage.element.append(levers(names, want));
+    if (this.isCar) {
+      this.stage.element.append(levers(names, want));
+      this.root.classList.toggle("a3-touching", matchMedia("(pointer: coarse)").matches);
+    }
     this.root.append(this.stage.element, this.side);
   }
 

@@ -8,17 +8,19 @@ export class Notes {
   /** @param {HTMLElement} container @param {(sentence: string) => void} [listener] */
   constructor(container, listener) {
     this.listener = listener;
-    this.list = el("div", { style: "position:absolute;left:8px;bottom:8px;max-width:60%" });
-    this.legend = el("div", { style: "position:absolute;right:8px;bottom:8px;display:flex;flex-direction:column;gap:6px;align-items:flex-end" });
+    const column = "display:flex;flex-direction:column;gap:6px;align-items:flex-end";
+    this.list = el("div", { style: column });
+    this.legend = el("div", { style: column });
+    const corner = el("div", { style: `position:absolute;right:8px;bottom:8px;max-width:50%;${column}` }, this.list, this.legend);
     const style = "position:absolute;inset:0;pointer-events:none;overflow:hidden;font:12px/1.35 system-ui,sans-serif;color:#1d2328";
-    this.layer = el("div.ali3-notes", { style }, this.list, this.legend);
+    this.layer = el("div.ali3-notes", { style }, corner);
     container.append(this.layer);
   }
 
   /** @param {boolean} wanted whether sentences stand over the picture; they are said to the listener in any case */
   words(wanted) {
     this.worded = wanted;
-    this.list.style.display = wanted ? "" : "none";
+    this.list.style.display = wanted ? "flex" : "none";
   }
 
   /** Sentences that have been said. @returns {string[]} */
@@ -31,7 +33,7 @@ export class Notes {
     if (this.#said.has(sentence)) return;
     this.#said.add(sentence);
     this.listener?.(sentence);
-    const style = "background:#fffc;border-radius:3px;padding:1px 6px;margin-top:3px;width:fit-content";
+    const style = "background:#fffc;border-radius:3px;padding:1px 6px";
     if (this.list.childElementCount < 6) this.list.append(el("div", { style }, sentence));
   }
 

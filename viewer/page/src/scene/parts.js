@@ -125,12 +125,17 @@ export class Parts {
     for (const [name, carrier] of this.inner) carrier.visible = this.frames.pose(name).shown && !this.closed;
   }
 
-  /** Whether frames stand where those of the same names do that are drawn already. @param {string[]} names */
+  /** Whether frames and what bends on them stand where those of the same names do that are drawn already. @param {string[]} names */
   #covers(names) {
     const { over, size = 0 } = this.options;
     if (over === undefined || over.closed !== this.closed) return false;
-    const bends = (name) => this.flexible.some(({ frame }) => frame === name);
-    return names.every((name) => !bends(name) && apart(this.frames.pose(name), over.frames.pose(name), size / 4) < SAME * size);
+    const near = (name) => apart(this.frames.pose(name), over.frames.pose(name), size / 4) < SAME * size;
+    return names.every((name) => near(name) && bentApart(this.#nodes(name), over.#nodes(name)) < SAME * size);
+  }
+
+  /** Nodes of the flexible bodies on a frame as they are drawn, along its axes. @param {string} name */
+  #nodes(name) {
+    return this.flexible.filter(({ frame }) => frame === name).flatMap(({ bending }) => bending.displaced);
   }
 
   /** Puts everything in its place relative to the origin of the picture. @param {number[]} origin earth position */
@@ -189,4 +194,10 @@ function apart(one, other, reach) {
   const between = subtract(one.position, other.position);
   const turned = axes.map((axis) => length(subtract(rotate(one.rotation, axis), rotate(other.rotation, axis))));
   return length(between) + Math.max(...turned);
+}
+
+/** How far apart the nodes of two drawings of a frame's flexible bodies are, m. @param {number[][]} one @param {number[][]} other */
+function bentApart(one, other) {
+  if (one.length !== other.length) return Infinity;
+  return one.reduce((most, node, k) => Math.max(most, length(subtract(node, other[k]))), 0);
 }
