@@ -60,6 +60,22 @@ def at_hubs(time: float, now: Mapping[str, float]) -> Given:
     return given
 
 
+def wild(given: Callable[[float, Mapping[str, float]], Given]) -> Callable[[float, Mapping[str, float]], Given]:
+    """What is given, but after the start one of thirty values at ports is no number, or far beyond, by the time; a jump
+    of the road or of a hub's forces is left to tests of refused steps.
+    """
+
+    def at(time: float, now: Mapping[str, float]) -> Given:
+        random, values = np.random.default_rng(round(1e3 * time)), given(time, now)
+        for name in values:
+            if time > 0.0 and "." in name and random.random() < 1.0 / 30.0:
+                far = [] if "road" in name or "hub" in name else [1e6, -1e6]
+                values[name] = float(random.choice([math.nan, math.inf, -math.inf, *far]))
+        return values
+
+    return at
+
+
 def derivatives(fmu: Fmu, outputs: list[str], given: Given) -> NDArray[np.float64]:
     """Of the outputs by what is given, each times one, over the last step."""
     slave: Any = fmu._slave
@@ -99,8 +115,9 @@ def same(
     order = [three[0].index(n) for n in names]
     assert len(order) == len(three[0])
     assert rows.tobytes() == three[1][:, order].tobytes()
-    assert slopes.tobytes() == three[2][:, order].tobytes()
-    assert np.count_nonzero(slopes[0]) > 0.5 * len(names)
+    if steps >= 10:
+        assert slopes.tobytes() == three[2][:, order].tobytes()
+        assert np.count_nonzero(slopes[0]) > 0.5 * len(names)
     assert said == three[3]
     return names, rows
 
@@ -123,3 +140,4 @@ def test_a_car(tmp_path: Path, ports: str, given: Callable[[float, Mapping[str, 
     two, three = (build_fmu(system, car.name, tmp_path, [fmpy.platform], kind=kind) for kind in ("native", "fmi3"))
     names, rows = same((two, three), {"initial.speed": SPEED}, given, 70)
     assert np.ptp(rows[:, names.index(moved)]) > 0.05
+    assert np.isfinite(same((two, three), {"initial.speed": SPEED}, wild(given), 9)[1]).all()
