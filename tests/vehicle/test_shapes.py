@@ -190,7 +190,9 @@ def test_a_car_is_not_drawn_before_it_is_looked_at(monkeypatch: pytest.MonkeyPat
     drawn_cars: list[str] = []
     draws = shapes_module.car_shapes
     monkeypatch.setattr(
-        shapes_module, "car_shapes", lambda b, car, spins: drawn_cars.append(car.name) or draws(b, car, spins)
+        shapes_module,
+        "car_shapes",
+        lambda b, car, *rest, **more: drawn_cars.append(car.name) or draws(b, car, *rest, **more),
     )
     system = mbs.compile(load("prototype").model())
     assert drawn_cars == []

@@ -273,7 +273,7 @@ def test_a_view_draws_straight_between_outputs_and_flexible_parts_rigid(
     every = dict.fromkeys(whole.inputs, 1) | {drawn: 2, other: 6}
     folder = whole_drive(fmus["sledge"], tmp_path / "drive", None, every)
     scene = {"flexible": [{"amplitudes": [amplitude], "computed": "computed"}]}
-    monkeypatch.setattr("hosts.recordings.recorded_view.scene_of", lambda fmu, start: scene)
+    monkeypatch.setattr("hosts.recordings.recorded_view.scene_of", lambda fmu, start, world: scene)
     made: dict[str, Any] = {}
 
     def recording(scene: Any, t: Any, columns: Any, units: Any, name: str) -> SimpleNamespace:
