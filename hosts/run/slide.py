@@ -23,6 +23,7 @@ Draw: TypeAlias = Callable[[Axes], object]
 MOST_ROWS, MOST_PLOTS = 14, 3
 _SIZE = (13.333, 7.5)
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9.5, "axes.titlesize": 10.5, "legend.fontsize": 8}
+_SUBTITLE = 165  # characters that fit
 _CHARACTERS, _BETWEEN, _FITTING = 44, 3, 84  # of the first column at most, between columns, of a whole row
 
 
@@ -38,7 +39,7 @@ def write_slide(
     plots : sequence of callable
         At most `MOST_PLOTS`.
     """
-    plots = plots[:MOST_PLOTS]
+    plots, subtitle = plots[:MOST_PLOTS], textwrap.shorten(subtitle, _SUBTITLE, placeholder=" ...")
     with plt.rc_context(_STYLE):
         figure = plt.figure(figsize=_SIZE, layout="constrained")
         engine: Any = figure.get_layout_engine()

@@ -112,11 +112,12 @@ class Repeats:
             It does not end.
         """
         names = self.groups.get(FORCES, [])
-        apart = accuracy.differences(*self._finer, {FORCES: names})[0].get(FORCES, 0.0) if names else 0.0
+        first, second = self._finer
+        apart = accuracy.differences(first, second, {FORCES: names})[0].get(FORCES, 0.0) if names else 0.0
         if not unsure(known, apart):
             return known
         self.limit, finest = WRONG_ERROR, self.finer(parts)
-        return by_limit(finest, [self.run[0], *self._finer[1:]], names)
+        return by_limit(finest, [self.run[0], second, self._finer[-1]], names)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""

@@ -46,7 +46,7 @@ def plot_distribution(axes: Axes, data: StudyData, response: Response) -> None:
     else:
         _histogram(axes, response.values)
     for end in filter(math.isfinite, response.limits):
-        axes.axvline(end, color=BLACK, linewidth=2.0, label=f"limit: {end:.4g}")
+        axes.axvline(end, color=BLACK, linewidth=2.0, label=f"limit: {end:.6g}")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(
             loc="lower right", bbox_to_anchor=(1.0, 0.985), ncols=3, handlelength=1.4, columnspacing=1.0, fontsize=8
