@@ -53,12 +53,6 @@ def one_line(sentence: str, most: int = SENTENCE) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
 
 
-def reader_stops(error: Exception) -> str:
-    """Why a library does not read a file: what it raises on a damaged one is often no sentence."""
-    words = (str(error).strip() or repr(error)).splitlines()[0].rstrip(".!")
-    return f"it is damaged or of another format; its reader stops with '{one_line(words)}'."
-
-
 def place_words(path: Iterable[int | str]) -> str:
     """Keys and places from 0 in lists as a path, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
     text = ""

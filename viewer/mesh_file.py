@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.extras import missing_module
+from ali3.reader_stops import reader_stops
 from ali3.reading import check_file
-from ali3.words import reader_stops
 from viewer.errors import ViewerError
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ali3.extras import missing_module
+from ali3.reader_stops import reader_stops
 from ali3.reading import check_file
-from ali3.words import reader_stops
 from mbs.common.errors import ModelError
 
 LARGEST = 8_000_000_000
