@@ -52,7 +52,7 @@ class Car(Closing):
     car : str or Path
         A car of the package by its name, a folder with a file ``car.toml``, such a file, or an FMU of a car. What is
         none is built at the first use, in half a minute, and kept for the next.
-    ports : str, optional
+    ports : str or sequence of str, optional
         Inputs at which other programs take the place of its parts, as ``ali3 build --ports`` takes them.
     step : float
         Communication step, s.
@@ -78,7 +78,7 @@ class Car(Closing):
         self,
         car: str | Path = "prototype",
         *,
-        ports: str | None = None,
+        ports: str | Sequence[str] | None = None,
         step: float = 0.01,
         inputs: Sequence[str] | None = None,
         parameters: Mapping[str, Value] | None = None,
@@ -88,7 +88,8 @@ class Car(Closing):
         given = Path(car)
         if given.suffix.lower() == ".fmu" and ports is not None:
             raise HostError(f"Ports are chosen when an FMU is built; {given} is one.")
-        path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=ports)
+        names = ports if ports is None or isinstance(ports, str) else ",".join(map(str, ports))
+        path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=names)
         self.fmu = Fmu(path)
         self.step_length = float(step)
         self._used = self._started = self._closed = False

@@ -138,6 +138,7 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
         "no start yet": lambda: car.step([0.0, 0.0]),
         "no input 'pedal'": lambda: Car(rigid_fmu, inputs=("pedal",)),
         "Ports are chosen": lambda: Car(rigid_fmu, ports="brakes"),
+        "The ports are 'brakes,nowhere'": lambda: Car("prototype", ports=["brakes", "nowhere"]),
         "positive number": lambda: Car(rigid_fmu, step=0.0),
         "no parameter or input 'mass'": lambda: car.reset(mass=3.0),
     }
