@@ -116,7 +116,5 @@ def notes_of(recordings: Sequence[Recording]) -> list[str]:
     for recording in recordings:
         head = f"{recording.name}: " if len(recordings) > 1 else ""
         found += [head + note for note in recording.notes]
-        for item in recording.missing:
-            name = item["name"] if head else item["name"][:1].upper() + item["name"][1:]
-            found.append(f"{head}{name} is not drawn: {item['why'].rstrip('.')}.")
+        found += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
     return found

@@ -81,12 +81,12 @@ def _roads(
                     roads.append(_part(name, fmu))
                     if given and expected:
                         why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"
-                        missing.append({"name": f"the scenery of {expected}", "why": why})
+                        missing.append({"name": f"The scenery of {expected}", "why": why})
                 else:
                     roads += world["roads"]
                     scenery += world["scenery"]
             except HostError as error:
-                missing.append({"name": f"the road {name}", "why": str(error).rstrip(".")})
+                missing.append({"name": f"The road {name}", "why": str(error).rstrip(".")})
     return roads, missing, scenery
 
 

@@ -113,7 +113,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
         resources = {name.removeprefix(_ROOM): archive.read(name) for name in sorted(files)}
     scene = scene_of(path, {ROAD: str(road)})
     assert scene is not None
-    lost = next((item["why"] for item in scene["missing"] if item["name"] == f"the road {road}"), None)
+    lost = next((item["why"] for item in scene["missing"] if item["name"] == f"The road {road}"), None)
     if road and lost is not None:
         raise HostError(f"The road {road} cannot be used: {lost}.")
     own_road = Path(str(road)) if road and Path(str(road)).is_file() else None

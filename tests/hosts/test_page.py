@@ -151,7 +151,7 @@ def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path,
     assert sentence.startswith(f"The road {gone} is not drawn: its file is not there; that of a world is made again by")
     assert sentence.endswith(f"{remedy}.")
     assert recording.scene is not None
-    assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"the road {gone}")
+    assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"The road {gone}")
 
 
 def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Path) -> None:
