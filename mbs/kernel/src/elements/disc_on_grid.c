@@ -20,6 +20,7 @@ enum { MOST_BENDS = 80, LEAST_PARTS = 8, MOST_PARTS = 64, REFINEMENTS = 60 };
 
 typedef struct { /* the profile in the plane of a disc */
   const ali3_grid *grid;
+  ali3_cell *cell; /* the last one */
   const double *centre;
   double ahead[3], up[3]; /* unit, in the plane; ahead is level */
 } profile;
@@ -36,7 +37,7 @@ static nearby at(const profile *p, double s) {
   for (int pass = 0; pass < 3; pass++) { /* a leaning disc reaches the surface aside of where it is sought */
     x = p->centre[0] + s * p->ahead[0] + w * p->up[0];
     y = p->centre[1] + s * p->ahead[1] + w * p->up[1];
-    f = ali3_grid_at(p->grid, x, y);
+    f = ali3_grid_near(p->grid, p->cell, x, y);
     w = (f.height - p->centre[2]) / p->up[2];
     if (fabs(p->up[0]) + fabs(p->up[1]) < EXACT) break;
   }
@@ -107,8 +108,9 @@ static int bent(const profile *p, double radius) {
 static int tangent_planes(const ali3_grid *g, const double centre[3], const double axis[3], double radius,
                           ali3_contact *out) {
   double x = centre[0], y = centre[1];
+  ali3_cell cell = {0};
   for (int pass = 0; pass < 3; pass++) {
-    const ali3_surface under = ali3_grid_at(g, x, y);
+    const ali3_surface under = ali3_grid_near(g, &cell, x, y);
     const double q[3] = {x, y, under.height};
     const double reach = ali3_clamp(ali3_half_space(centre, axis, radius, q, under.normal, out), -radius, radius);
     out->friction = under.friction;
@@ -170,7 +172,8 @@ static int search(const profile *p, const double axis[3], double radius, ali3_co
 int ali3_disc_on_grid(const ali3_grid *g, const double centre[3], const double axis[3], double radius,
                       ali3_contact out[2]) {
   const double level = ali3_hypot(axis[0], axis[1]);
-  profile p = {.grid = g, .centre = centre};
+  ali3_cell cell = {0};
+  profile p = {.grid = g, .cell = &cell, .centre = centre};
   if (level > UPRIGHT) {
     p.ahead[0] = axis[1] / level, p.ahead[1] = -axis[0] / level;
     ali3_cross(p.ahead, axis, p.up);

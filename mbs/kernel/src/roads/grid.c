@@ -64,15 +64,11 @@ static double slope_of(const double z[5], double spacing, int *limited) {
   return slope;
 }
 
-typedef struct {
-  double z, x, y, xy; /* height, its differences per spacing, their twist */
-} corner;
-
 /* A point whose neighbours are all there; at the border slopes are one-sided and stay in the range anyway. */
-static corner corner_at(const ali3_grid *g, int i, int j, int *any) {
+static ali3_grid_point corner_at(const ali3_grid *g, int i, int j, int *any) {
   double line[5];
   int limited = 0;
-  corner c = {.z = height(g, i, j)};
+  ali3_grid_point c = {.z = height(g, i, j)};
   const int left = i > 0, right = i + 1 < g->nx, down = j > 0, up = j + 1 < g->ny;
   for (int k = -2; k <= 2; k++) line[k + 2] = height(g, within(i + k, g->nx), j);
   c.x = left && right ? slope_of(line, g->dx, &limited) : left ? line[2] - line[1] : line[3] - line[2];
@@ -96,30 +92,25 @@ static void hermite(double t, int outside, double w[2][2], double dw[2][2]) {
   dw[1][0] = outside ? 0.0 : s * (1.0 - 3.0 * t), dw[1][1] = outside ? 0.0 : t * (3.0 * t - 2.0);
 }
 
-/* The patch with limited slopes in place of z and slope; false where no slope of its corners is limited. */
-static int limited_patch(const ali3_grid *g, const double s[2], const int first[2], double *z, double slope[2]) {
-  corner c[2][2];
-  int any = 0;
-  for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 2; j++) c[i][j] = corner_at(g, first[0] + i, first[1] + j, &any);
-  if (!any) return 0;
+/* Height and slope of a patch whose slopes are limited. */
+static void limited_patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *z, double slope[2]) {
+  const int first[2] = {cell->i + 1, cell->j + 1};
   double wx[2][2], dx[2][2], wy[2][2], dy[2][2];
   hermite(ali3_clamp(s[0] - first[0], 0.0, 1.0), s[0] < 0.0 || s[0] > (double)(g->nx - 1), wx, dx);
   hermite(ali3_clamp(s[1] - first[1], 0.0, 1.0), s[1] < 0.0 || s[1] > (double)(g->ny - 1), wy, dy);
-  *z = slope[0] = slope[1] = 0.0;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
-      const double a = c[i][j].z * wy[0][j] + c[i][j].y * wy[1][j], b = c[i][j].x * wy[0][j] + c[i][j].xy * wy[1][j];
-      const double da = c[i][j].z * dy[0][j] + c[i][j].y * dy[1][j], db = c[i][j].x * dy[0][j] + c[i][j].xy * dy[1][j];
+      const ali3_grid_point c = cell->corner[i][j];
+      const double a = c.z * wy[0][j] + c.y * wy[1][j], b = c.x * wy[0][j] + c.xy * wy[1][j];
+      const double da = c.z * dy[0][j] + c.y * dy[1][j], db = c.x * dy[0][j] + c.xy * dy[1][j];
       *z += wx[0][i] * a + wx[1][i] * b;
       slope[0] += (dx[0][i] * a + dx[1][i] * b) / g->dx;
       slope[1] += (wx[0][i] * da + wx[1][i] * db) / g->dy;
     }
-  return 1;
 }
 
 /* Whether a second difference at a corner is large enough for a limit. */
-static int may_be_limited(const ali3_grid *g, double v[4][4]) {
+static int may_be_limited(const ali3_grid *g, const double v[4][4]) {
   for (int k = 1; k < 3; k++)
     for (int l = 1; l < 3; l++)
       if (fabs(v[k + 1][l] - 2.0 * v[k][l] + v[k - 1][l]) > 2.0 * MOST_SLOPE * g->dx ||
@@ -128,27 +119,47 @@ static int may_be_limited(const ali3_grid *g, double v[4][4]) {
   return 0;
 }
 
-ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y) {
-  double wx[4], dx[4], wy[4], dy[4], v[4][4], z = 0.0, slope[2] = {0.0, 0.0};
-  const double sx = ali3_clamp((x - g->x0) / g->dx, -1.0, (double)g->nx),
-               sy = ali3_clamp((y - g->y0) / g->dy, -1.0, (double)g->ny);
-  const int i0 = cubic(sx, g->nx, wx, dx), j0 = cubic(sy, g->ny, wy, dy);
+/* Values around the cell with the indices i, j before its first corner. */
+static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
+  if (cell->held && cell->i == i0 && cell->j == j0) return;
+  cell->held = 1, cell->limited = 0, cell->i = i0, cell->j = j0;
   for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) {
-      const double value = v[i][j] = height(g, within(i0 + i, g->nx), within(j0 + j, g->ny));
-      z += wx[i] * wy[j] * value;
-      slope[0] += dx[i] * wy[j] * value / g->dx;
-      slope[1] += wx[i] * dy[j] * value / g->dy;
-    }
-  if (may_be_limited(g, v)) limited_patch(g, (double[2]){sx, sy}, (int[2]){i0 + 1, j0 + 1}, &z, slope);
-  const double tx = ali3_clamp(sx - (i0 + 1), 0.0, 1.0), ty = ali3_clamp(sy - (j0 + 1), 0.0, 1.0);
-  double m[2][2];
+    for (int j = 0; j < 4; j++) cell->z[i][j] = height(g, within(i0 + i, g->nx), within(j0 + j, g->ny));
+  const int look = may_be_limited(g, (const double (*)[4])cell->z);
   for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 2; j++) m[i][j] = friction(g, i0 + 1 + i, j0 + 1 + j);
+    for (int j = 0; j < 2; j++) {
+      cell->friction[i][j] = friction(g, i0 + 1 + i, j0 + 1 + j);
+      if (look) cell->corner[i][j] = corner_at(g, i0 + 1 + i, j0 + 1 + j, &cell->limited);
+    }
+}
+
+ali3_surface ali3_grid_near(const ali3_grid *g, ali3_cell *cell, double x, double y) {
+  double wx[4], dx[4], wy[4], dy[4], z = 0.0, slope[2] = {0.0, 0.0};
+  const double s[2] = {ali3_clamp((x - g->x0) / g->dx, -1.0, (double)g->nx),
+                       ali3_clamp((y - g->y0) / g->dy, -1.0, (double)g->ny)};
+  const int i0 = cubic(s[0], g->nx, wx, dx), j0 = cubic(s[1], g->ny, wy, dy);
+  hold(g, cell, i0, j0);
+  if (cell->limited)
+    limited_patch(g, cell, s, &z, slope);
+  else
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) {
+        const double value = cell->z[i][j];
+        z += wx[i] * wy[j] * value;
+        slope[0] += dx[i] * wy[j] * value / g->dx;
+        slope[1] += wx[i] * dy[j] * value / g->dy;
+      }
+  const double tx = ali3_clamp(s[0] - (i0 + 1), 0.0, 1.0), ty = ali3_clamp(s[1] - (j0 + 1), 0.0, 1.0);
+  const double (*m)[2] = (const double (*)[2])cell->friction;
   const double mu = (1.0 - tx) * ((1.0 - ty) * m[0][0] + ty * m[0][1]) + tx * ((1.0 - ty) * m[1][0] + ty * m[1][1]);
   const double size = sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
   const ali3_surface found = {z, {-slope[0] / size, -slope[1] / size, 1.0 / size}, mu};
   return found;
+}
+
+ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y) {
+  ali3_cell cell = {0};
+  return ali3_grid_near(g, &cell, x, y);
 }
 
 double ali3_grid_chord(const ali3_grid *g, double x, double y) {
