@@ -35,7 +35,7 @@ def facing(scene: dict[str, Any], wheel: dict[str, Any]) -> list[tuple[str, NDAr
         parts.add(shape)
     own, carrier = wheel["frame"], scene["frames"][wheel["frame"]]["parent"]
     pose = parts.poses.of(own)
-    out = np.sign(scene["frames"][own]["at"][1])
+    out = np.sign(pose.position[0, 1])
     found = []
     for frame, _, meshes in parts.fixed:
         if frame not in (own, carrier):
