@@ -131,8 +131,9 @@ static int grid_clearance(const ali3_road *road, const double point[3], ali3_cle
   ali3_grid g;
   if (!grid_of(road, &g)) return 0;
   double x = point[0], y = point[1];
+  ali3_cell cell = {0};
   for (int pass = 0; pass < 3; pass++) {
-    const ali3_surface under = ali3_grid_at(&g, x, y);
+    const ali3_surface under = ali3_grid_near(&g, &cell, x, y);
     const double q[3] = {x, y, under.height};
     plane_clearance(under.normal, q, point, out);
     out->friction = under.friction;
