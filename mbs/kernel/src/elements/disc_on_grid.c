@@ -105,17 +105,15 @@ static int bent(const profile *p, double radius) {
   return 0;
 }
 
-static int tangent_planes(const ali3_grid *g, const double centre[3], const double axis[3], double radius,
-                          ali3_contact *out) {
-  double x = centre[0], y = centre[1];
-  ali3_cell cell = {0};
+static int tangent_planes(const profile *p, const double axis[3], double radius, ali3_contact *out) {
+  double x = p->centre[0], y = p->centre[1];
   for (int pass = 0; pass < 3; pass++) {
-    const ali3_surface under = ali3_grid_near(g, &cell, x, y);
+    const ali3_surface under = ali3_grid_near(p->grid, p->cell, x, y);
     const double q[3] = {x, y, under.height};
-    const double reach = ali3_clamp(ali3_half_space(centre, axis, radius, q, under.normal, out), -radius, radius);
+    const double reach = ali3_clamp(ali3_half_space(p->centre, axis, radius, q, under.normal, out), -radius, radius);
     out->friction = under.friction;
-    x = centre[0] + reach * out->down[0];
-    y = centre[1] + reach * out->down[1];
+    x = p->centre[0] + reach * out->down[0];
+    y = p->centre[1] + reach * out->down[1];
   }
   out->yielded = out->switching = 0.0;
   return 1;
@@ -180,5 +178,5 @@ int ali3_disc_on_grid(const ali3_grid *g, const double centre[3], const double a
     const int count = bent(&p, radius) ? search(&p, axis, radius, out) : 0;
     if (count > 0) return count;
   }
-  return tangent_planes(g, centre, axis, radius, out);
+  return tangent_planes(&p, axis, radius, out);
 }
