@@ -232,8 +232,9 @@ class CoupledFmus(Closing):
         getters = []
         for text in names:
             part, name = parted(text, fmus)
-            known = [n for n, v in fmus[part].variables.items() if v.type in ("Real", "Integer")]
-            if name not in known:
+            variables = fmus[part].variables
+            if name not in variables or variables[name].type not in ("Real", "Integer"):
+                known = [n for n, v in variables.items() if v.type in ("Real", "Integer")]
                 raise HostError(f"The part '{part}' has no number '{name}'{did_you_mean(name, known)}")
             getters.append(fmus[part].getter([name]))
         return lambda: np.array([get()[0] for get in getters])
