@@ -16,6 +16,7 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar, prototype_car
+from mbs.vehicle import load
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]
@@ -191,3 +192,19 @@ def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
         assert f"a step of {report.quick_step:.2g} s" in about[0]
         assert f"At {report.quick_time:.4g} s" in lines[0]
         assert report.quick_step < h
+
+
+@pytest.mark.parametrize(("mass", "told"), [(900.0, True), (225.0, False)])
+def test_a_vehicle_that_rests_on_its_body_at_the_start_is_told(
+    prototype_fmu: Path, host: HostMaker, mass: float, told: bool
+) -> None:
+    """What is told is what the wheels do not bear of the weight."""
+    driven = host(prototype_fmu).start({"payload.passenger.mass": mass})
+    lines = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
+    assert len(lines) == told
+    weight = 9.81 * (load("prototype").vehicle.mass + mass)
+    missing = weight - sum(driven.get(f"wheel_{w}.Fz") for w in ("FL", "FR", "RL", "RR"))
+    assert missing == pytest.approx(driven.get("chassis.ground_force"), abs=1e-3 * weight)
+    assert (missing > 0.05 * weight) is told
+    if told:
+        assert f"chassis.ground_force is {driven.get('chassis.ground_force'):.4g} N" in lines[0]
