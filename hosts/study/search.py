@@ -9,7 +9,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from scipy.optimize import brentq, minimize_scalar
 
 TOLERANCE = 1e-3
@@ -224,9 +223,9 @@ class _Search:
             return bool(np.isfinite(distances).all())
         if min(abs(first - middle), abs(last - middle)) <= self._tolerance or (first - middle) * (middle - last) < 0.0:
             return False
-        parabola = Polynomial.fit(places, distances, 2)
-        inside = [u.real for u in parabola.deriv().roots() if places[0] < u.real < places[2]]
-        return not any(parabola(u) < 0.5 * min(distances) for u in inside)
+        a, b, c = (float(x) for x in np.polyfit(places, distances, 2))
+        u = -0.5 * b / a if a > 0.0 else places[0]
+        return not (places[0] < u < places[2] and c + u * (b + u * a) < 0.5 * min(distances))
 
     def _to_the_extremum(self, first: float, last: float) -> None:
         sign = math.copysign(1.0, self._at(first))
