@@ -20,7 +20,7 @@ from mbs.vehicle import load
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]
-OK, WARNING = 0, 1
+OK, WARNING, ERROR = 0, 1, 3
 TORQUE = 4.0
 EXACT = 758.6  # rad after 2 s, by the reduction to one freedom
 NAMES = ("solver.energy_error", "solver.energy_balance", "crank.angle")
@@ -208,3 +208,14 @@ def test_a_vehicle_that_rests_on_its_body_at_the_start_is_told(
     assert (missing > 0.05 * weight) is told
     if told:
         assert f"chassis.ground_force is {driven.get('chassis.ground_force'):.4g} N" in lines[0]
+
+
+def test_an_inertia_that_no_body_has_is_refused_by_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+    """Not by that of the payload, which is farther from its start value in parts of its range."""
+    driven = host(prototype_fmu)
+    for name, value in (("payload.luggage.mass", 200.0), ("chassis.inertia.x", 900.0)):
+        assert driven.set(name, value) == OK
+    driven.slave.setupExperiment(startTime=0.0)
+    driven.slave.enterInitializationMode()
+    assert driven.call("exitInitializationMode") == ERROR
+    assert "'chassis.inertia.x' is 900 kg.m2, farthest from its start value 77.9;" in driven.messages[-1]
