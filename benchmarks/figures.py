@@ -14,7 +14,10 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
+from benchmarks import handling
 from benchmarks.car import accuracy, edge_answers, road_faces, tabled_cars, trust, tyre_formulas
+from benchmarks.car.frame_stiffness import stiffness
+from benchmarks.car.measures import measure
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
 from benchmarks.paper import double_four_bar, flexible_tables, puma
@@ -27,6 +30,9 @@ from fmu_src.variables.variables import variable_table
 from mbs.scenes import double_four_bar as four_bar_scene
 from mbs.scenes import prototype_car
 from mbs.scenes import puma as puma_scene
+from mbs.vehicle import load
+from mbs.vehicle.kinematics.car_kinematics import kinematics
+from mbs.vehicle.kinematics.table import TITLED, rows
 
 SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/stability.md"
 INSTRUCTIONS = DOCS.parent / "benchmarks" / "data" / "instructions.json"
@@ -89,6 +95,28 @@ def car() -> list[Again]:
     return [
         Again(SPEED, car_blocks(rows)["car"], "car", keys, HELD),
         Again("docs/cars.md", error_table(hatchback), "hatchback", keys),
+    ]
+
+
+def handled() -> list[Again]:
+    """Ride, understeer and performance of two cars."""
+    measured = {name: measure(load(name)) for name in ("hatchback", "prototype")}
+    return [Again("docs/cars.md", handling.measure_table(measured), "handling", ("measure",))]
+
+
+def drawn() -> list[Again]:
+    """Linkages of the hatchback as drawn, and frames of two cars."""
+    titles = ("bump steer", "roll centre height", "motion ratio of the spring", "wheel rate")
+    found = {title: (front, rear) for title, front, rear, *_ in rows(kinematics(load("hatchback"), (-0.01, 0.01), 3))}
+    said = [f"| {title} | {' | '.join(found[title])} |" for title in (*titles, TITLED["roll_wheel_rate"][1])]
+    said.append(f"straight ahead, {found['steering ratio'][0]} for the hatchback")
+    frames = [stiffness(load(name)) for name in ("hatchback", "prototype")]
+    torsion = " | ".join(f"{f.torsion / 1e3:.3g}" for f in frames)
+    hertz = " | ".join(", ".join(f"{x:.1f}" for x in f.frequencies) for f in frames)
+    return [
+        *(Again("docs/kinematics.md", sentence) for sentence in said),
+        Again("docs/cars.md", f"| torsion, kN m/deg | {torsion} |"),
+        Again("docs/cars.md", f"| first frequencies, free, with all masses, Hz | {hertz} |"),
     ]
 
 
@@ -157,6 +185,8 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "honesty": honest_crank,
     "trust": trusted,
     "car": car,
+    "handling": handled,
+    "drawn": drawn,
     "tables": tabled,
     "flexible": flexible,
     "roads and tyres": roads_and_tyres,

@@ -27,7 +27,6 @@ PEDALS = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 APPLY = 0.4  # s, in which the pedal goes down
 BODY_MODES = 5.0  # Hz: those of the body are slower, those of the wheels faster
 HOP_MODES = 25.0  # Hz: those of the wheels are slower, those of the tyres' carcasses have friction
-ROLL_FREE = 1e-3  # roll in a mode without it
 
 
 @dataclass(frozen=True)
@@ -103,12 +102,12 @@ def _modes(car: Car) -> dict[str, float]:
     system = compile(car.model(PlaneRoad(friction=0.0)))
     model = linearise(Simulation(system, parameters=_neutral(system)), side=1)  # an engine drags forwards only
     roll = model.coordinates.index("chassis.bz")
-    modes = model.oscillating_modes()
-    level = [m for m in modes if abs(m.shape[roll]) < ROLL_FREE]
-    bounce, pitch = [m for m in level if m.frequency_hz < BODY_MODES]
-    hop = [m for m in level if BODY_MODES < m.frequency_hz < HOP_MODES]
+    # In order of their roll: where the mass is aside, no motion is without.
+    modes = sorted(model.oscillating_modes(), key=lambda m: abs(m.shape[roll]))
+    *level, rolling = [m for m in modes if m.frequency_hz < BODY_MODES]
+    bounce, pitch = sorted(level, key=lambda m: m.frequency_hz)
+    hop = [m for m in modes if BODY_MODES < m.frequency_hz < HOP_MODES][:2]
     front, rear = sorted(hop, key=lambda m: -_front_share(model, m))
-    (rolling,) = [m for m in modes if abs(m.shape[roll]) >= ROLL_FREE and m.frequency_hz < BODY_MODES]
     found = {"roll_frequency": rolling.frequency_hz}
     for name, mode in (("bounce", bounce), ("pitch", pitch)):
         found |= {f"{name}_frequency": mode.frequency_hz, f"{name}_damping": mode.damping_ratio}

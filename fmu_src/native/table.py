@@ -26,6 +26,8 @@ _SOURCES = {
 
 ROLL = "chassis.roll"
 """Output that is more than a quarter turn when a vehicle lies upside down."""
+GROUND = "chassis.ground_force"
+"""Output that is not 0 at the start of a vehicle that does not stand on its wheels alone."""
 
 
 def c_table(
@@ -63,7 +65,9 @@ def c_table(
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
     known = sum(v.causality in ("input", "parameter") for v in table)
-    roll = next((k for k, v in enumerate(table) if (v.ours or v.name) == ROLL), len(table))
+    roll, ground = (
+        next((k for k, v in enumerate(table) if (v.ours or v.name) == name), len(table)) for name in (ROLL, GROUND)
+    )
     return (
         "/* Generated with the FMU from its table of variables. */\n"
         '#include <math.h>\n\n#include "slave.h"\n\n'
@@ -72,7 +76,7 @@ def c_table(
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {known},\n    row, first_row, element, first_element, {len(names['row'])}, follower,\n"
-        f"    texts, {len(texts)}, {roll},\n}};\n"
+        f"    texts, {len(texts)}, {roll}, {ground},\n}};\n"
     )
 
 

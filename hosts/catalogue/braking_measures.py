@@ -132,8 +132,9 @@ def _wheels(
     short = "" if moving.any() else NOT_BRAKED
     measures = []
     for axle, wheels in (("front", [0, 1]), ("rear", [2, 3])):
-        value = math.nan if slip is None or short else float(-slip[moving][:, wheels].min())
-        text = f"largest slip of a {axle} wheel above 10 % of the initial speed, 1: locked"
+        # A locked wheel turns back with its carrier as the car pitches, which its slip counts.
+        value = math.nan if slip is None or short else min(float(-slip[moving][:, wheels].min()), 1.0)
+        text = f"largest slip of a {axle} wheel against its carrier above 10 % of the initial speed, 1: locked"
         measures.append(
             Measure(f"slip.{axle}", value, "1", text, note=short or ("" if slip is not None else unknown["slip"]))
         )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy import signal as sp
 from scipy.optimize import least_squares
 
-from hosts.compare.correlated import covariance, likeness
+from hosts.compare.correlated import covariance
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
 from hosts.compare.log import Signal
@@ -153,9 +153,7 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
         rows.append(slice(first, first + len(s.time)))
         first += len(s.time)
     jacobian = np.asarray(found.jac)
-    moved = np.linalg.pinv(jacobian) * found.fun
-    alike = [likeness([s.time for s, _ in pairs], [part[r] for r in rows]) for part in moved]
-    errors = 1.96 * np.sqrt(alike * np.diag(covariance(jacobian, found.fun, rows)[0]))
+    errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, found.fun, rows, [s.time for s, _ in pairs])[0]))
     left = float(np.mean(found.fun**2))
     correlation = math.sqrt(max(0.0, 1.0 - left))
     if not drift:

@@ -89,9 +89,12 @@ def likeness(times: Sequence[NDArray[np.float64]], parts: Sequence[NDArray[np.fl
 
 
 def covariance(
-    jacobian: NDArray[np.float64], residual: NDArray[np.float64], blocks: Sequence[slice]
+    jacobian: NDArray[np.float64],
+    residual: NDArray[np.float64],
+    blocks: Sequence[slice],
+    times: Sequence[NDArray[np.float64]],
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Covariance of parameters.
+    """Covariance of parameters; that of independent signals, each parameter's raised by its `likeness`.
 
     Parameters
     ----------
@@ -99,7 +102,9 @@ def covariance(
         Of the residuals at the solution.
     residual : ndarray of shape (n,)
     blocks : sequence of slice
-        The rows of each signal, equally spaced in time; signals are taken as independent of each other.
+        The rows of each signal, equally spaced in time.
+    times : sequence of ndarray of shape (n,)
+        Of the rows of each signal, s.
 
     Returns
     -------
@@ -121,6 +126,9 @@ def covariance(
         c = autocovariance(r) * (n / max(n - p, 1))
         middle += part.T @ matmul_toeplitz(c, part)
     found = inverse @ middle @ inverse.T / np.outer(scale, scale)
+    moved = inverse @ u[:, kept].T * residual
+    alike = np.sqrt([likeness(times, [part[rows] for rows in blocks]) for part in moved])
+    found *= np.outer(alike, alike)
     found[lost, :], found[:, lost] = 0.0, 0.0
     found[lost, lost] = math.inf
     return found, lost

@@ -178,7 +178,7 @@ def _judged(
     parts: Parts | None,
 ) -> Fit:
     blocks = residuals.blocks
-    spread, lost = covariance(jacobian, r, blocks)
+    spread, lost = covariance(jacobian, r, blocks, [s.time for s in residuals.outputs.values()])
     effective = sum(effective_samples(r[b]) for b in blocks)
     freedom = max(effective - len(p), 1.0)
     errors = np.sqrt(np.diag(spread))

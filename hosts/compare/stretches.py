@@ -13,6 +13,7 @@ from hosts.compare.log import Signal
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 
+PEDALS = ("throttle", "brake")  # by which a driver holds a measured speed
 GAP = 1.0  # s between two stretches where they stand one after the other
 Spans = tuple[tuple[float, float], ...]
 

@@ -21,7 +21,7 @@ from hosts.compare.replay import inputs_of
 from hosts.compare.road_wheels import ANGLES, mean_angle, steering_for
 from hosts.compare.start_values import measured_start, of_origin, reference_point
 from hosts.compare.starting_pedal import starting_pedals
-from hosts.compare.stretches import GAP, Spans, Stretch, begins, in_spans, one_after_the_other, spans
+from hosts.compare.stretches import GAP, PEDALS, Spans, Stretch, begins, in_spans, one_after_the_other, spans
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_jumps import missed_jumps
@@ -34,7 +34,6 @@ from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable
 
-PEDALS = ("throttle", "brake")
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
 _DEMAND = "steering_wheel_angle_demand"
 _FREQUENCY = "vehicle.steering_frequency"

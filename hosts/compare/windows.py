@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.log import Signal
-from hosts.compare.stretches import Stretch
+from hosts.compare.stretches import PEDALS, Stretch
 from hosts.driving.result import Result
 
+_FULL = 0.999  # of a pedal
 _LEAST = 20  # samples of a bin that is shown
 _BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral acceleration": ("m/s2", 2.0)}
 
@@ -121,7 +122,9 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
 
 
 def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
-    """How well a driver has held the speed, and by which forces, in a sentence; none where no driver did."""
+    """How well a driver has held the speed, how much of the time he could not, and by which forces, in a sentence; none
+    where no driver did.
+    """
     held = [(s.place + s.speed.time, s.speed.values) for s in stretches if s.speed is not None]
     if not held or "speed" not in result:
         return []
@@ -130,6 +133,11 @@ def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
     text = (
         f"The driver held the speed within {np.sqrt(np.mean(error**2)):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
     )
+    pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)
+    full = np.interp(time, result.time, pedals) > _FULL
+    if full.any() and not full.all():
+        left = float(np.sqrt(np.mean(error[~full] ** 2)))
+        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {left:.2g} m/s rms elsewhere"
     forces = [_axle(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]

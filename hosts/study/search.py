@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 TOLERANCE = 1e-3
@@ -95,8 +96,9 @@ def seek(
 ) -> Found:
     """Seek a value of a parameter.
 
-    The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else the
-    extremum nearest to it is sought by Brent's minimisation, and its method again if a run is beyond the value.
+    The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else a run in
+    the middle: unless the three show that the value is not met, the extremum nearest to it is sought by Brent's
+    minimisation, and his method again if a run is beyond the value.
 
     Parameters
     ----------
@@ -181,7 +183,10 @@ class _Search:
         first, last = (self._inward(end) for end in (0.0, 1.0))
         if self._wanted == 0.0:
             self._tolerance = TOLERANCE * abs(self._at(last) - self._at(first))
-        if not self._brackets():
+        middle = 0.5 * (first + last)
+        if not self._brackets() and not self._at(middle) * self._at(first) < 0.0:
+            if self._is_plain(first, middle, last):
+                return
             self._to_the_extremum(first, last)
         tried: set[tuple[float, float]] = set()
         while brackets := [b for b in self._brackets() if b not in tried and b[1] - b[0] > _CLOSEST]:
@@ -208,6 +213,19 @@ class _Search:
 
     def _failed(self, bracket: tuple[float, float]) -> float:
         return next(u for u, run in self._runs.items() if bracket[0] < u < bracket[1] and math.isnan(run.y))
+
+    def _is_plain(self, *places: float) -> bool:
+        """Whether three places show that the value is not met: the measure does not change, or goes one way and a
+        parabola through them leaves more than half of what is missing.
+        """
+        first, middle, last = distances = [abs(self._at(u)) for u in places]
+        if not np.isfinite(distances).all() or np.ptp(distances) <= self._tolerance:
+            return bool(np.isfinite(distances).all())
+        if min(abs(first - middle), abs(last - middle)) <= self._tolerance or (first - middle) * (middle - last) < 0.0:
+            return False
+        a, b, c = (float(x) for x in np.polyfit(places, distances, 2))
+        u = -0.5 * b / a if a > 0.0 else places[0]
+        return not (places[0] < u < places[2] and c + u * (b + u * a) < 0.5 * min(distances))
 
     def _to_the_extremum(self, first: float, last: float) -> None:
         sign = math.copysign(1.0, self._at(first))

@@ -294,7 +294,10 @@ class _Search:
         at_end = best.x in (self.parameter.low, self.parameter.high)
         wider = at_end and form != "does not change"
         remedy = f"a wider range, --between{self._allowed()}" if wider else "another parameter (--by)"
-        lines.append(f"The measure {form} with it and has no crossing in the range; try {remedy}.")
+        lines.append(
+            f"In {len(ys)} runs from end to end the measure {form} with it and does not reach what is wanted; "
+            f"try {remedy}."
+        )
         return lines
 
     def _around(self, found: Found) -> tuple[Run, Run]:

@@ -16,10 +16,11 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar, prototype_car
+from mbs.vehicle import load
 
 SCENES = Path(__file__).parent / "scenes.py"
 HostMaker = Callable[..., Any]
-OK, WARNING = 0, 1
+OK, WARNING, ERROR = 0, 1, 3
 TORQUE = 4.0
 EXACT = 758.6  # rad after 2 s, by the reduction to one freedom
 NAMES = ("solver.energy_error", "solver.energy_balance", "crank.angle")
@@ -191,3 +192,30 @@ def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
         assert f"a step of {report.quick_step:.2g} s" in about[0]
         assert f"At {report.quick_time:.4g} s" in lines[0]
         assert report.quick_step < h
+
+
+@pytest.mark.parametrize(("mass", "told"), [(900.0, True), (225.0, False)])
+def test_a_vehicle_that_rests_on_its_body_at_the_start_is_told(
+    prototype_fmu: Path, host: HostMaker, mass: float, told: bool
+) -> None:
+    """What is told is what the wheels do not bear of the weight."""
+    driven = host(prototype_fmu).start({"payload.passenger.mass": mass})
+    lines = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
+    assert len(lines) == told
+    weight = 9.81 * (load("prototype").vehicle.mass + mass)
+    missing = weight - sum(driven.get(f"wheel_{w}.Fz") for w in ("FL", "FR", "RL", "RR"))
+    assert missing == pytest.approx(driven.get("chassis.ground_force"), abs=1e-3 * weight)
+    assert (missing > 0.05 * weight) is told
+    if told:
+        assert f"chassis.ground_force is {driven.get('chassis.ground_force'):.4g} N" in lines[0]
+
+
+def test_an_inertia_that_no_body_has_is_refused_by_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+    """Not by that of the payload, which is farther from its start value in parts of its range."""
+    driven = host(prototype_fmu)
+    for name, value in (("payload.luggage.mass", 200.0), ("chassis.inertia.x", 900.0)):
+        assert driven.set(name, value) == OK
+    driven.slave.setupExperiment(startTime=0.0)
+    driven.slave.enterInitializationMode()
+    assert driven.call("exitInitializationMode") == ERROR
+    assert "'chassis.inertia.x' is 900 kg.m2, farthest from its start value 77.9;" in driven.messages[-1]

@@ -48,15 +48,15 @@ static const char *refused(const slave *s, char *text, size_t size) {
   return text;
 }
 
-/* The parameter that was moved by most of its range. */
-static const char *most_changed(const slave *s, char *text, size_t size) {
+/* The parameter that was moved by most of its range; of those in `unit`, if there is one. */
+static const char *most_changed(const slave *s, const char *unit, char *text, size_t size) {
   const slave_table *t = &slave_the_table;
   double most = 0.0;
   text[0] = 0;
   for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
     const double share = fabs(s->value[i] - v->start) / (v->max - v->min);
-    if (v->source != SLAVE_PARAMETER || !(share > most)) continue;
+    if (v->source != SLAVE_PARAMETER || !(share > most) || (unit != NULL && strcmp(v->unit, unit) != 0)) continue;
     most = share;
     snprintf(text, size, " '%.64s' is %g%s, farthest from its start value %g; set it nearer to that.", v->name,
              s->value[i], v->unit, v->start);
@@ -67,7 +67,8 @@ static const char *most_changed(const slave *s, char *text, size_t size) {
 /* What is wrong with a start, in numbers. */
 static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
   if (status == ALI3_TOO_FAR) return farthest(s, text, size);
-  if (status == ALI3_NO_EQUILIBRIUM) return most_changed(s, text, size);
+  if (status == ALI3_NO_EQUILIBRIUM) return most_changed(s, NULL, text, size);
+  if (status == ALI3_BAD_INERTIA) return most_changed(s, " kg.m2", text, size);
   if (status == ALI3_ROAD_LOST) snprintf(text, size, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
   if (status == ALI3_ROAD_LOST) return text;
   return status == ALI3_START_REFUSED ? refused(s, text, size) : slave_worst_row(s, text, size);

@@ -136,6 +136,7 @@ slave_status slave_exit(slave *s) {
   if (!s->calls.initialised && !slave_initialise(s)) return SLAVE_ERROR;
   s->calls.phase = SLAVE_STEPPING;
   slave_texts_remark(s);
+  slave_watch_start(s);
   return slave_say(s, SLAVE_OK, "Initialised at %g s.", s->calls.start_time);
 }
 

@@ -66,6 +66,7 @@ typedef struct {
   size_t n_texts;
   size_t
       roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
+  size_t ground; /* output that is not 0 at the start of a vehicle that does not stand on its wheels alone; the same */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -270,6 +271,7 @@ slave_status slave_watch(slave *s);
 bool slave_event_told(const ali3_report *r);
 slave_status slave_say_event(slave *s, const ali3_report *r);
 void slave_watch_outputs(slave *s);
+void slave_watch_start(slave *s);
 void slave_watch_ports(slave *s);
 
 /* wheel_answers.c: normals that are none hold the last ones; answers that jump or are far from a wheel, and steps that

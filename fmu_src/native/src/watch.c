@@ -111,6 +111,19 @@ void slave_watch_outputs(slave *s) {
       ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }
 
+/* A vehicle that is too heavy for its springs, or stands on uneven ground. */
+void slave_watch_start(slave *s) {
+  const slave_table *t = &slave_the_table;
+  if (t->ground >= t->n_variables || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return;
+  const slave_variable *v = &t->variable[t->ground];
+  const double force = v->scale * s->sensors[v->index];
+  if (force > 0.0)
+    slave_say(s, SLAVE_WARNING,
+              "At the start the vehicle rests on its body: %s is %.4g%s, which its wheels do not bear. Set masses, "
+              "springs and tyres, or the place on the road, so that it is 0.",
+              v->name, force, v->unit);
+}
+
 /* After the first step: ports that nobody has set. The step is a good one all the same. */
 void slave_watch_ports(slave *s) {
   const slave_table *t = &slave_the_table;

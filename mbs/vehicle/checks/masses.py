@@ -14,6 +14,7 @@ from mbs.vehicle.checks.places import parts_of
 MASS_TOLERANCE = 0.005  # of the car's mass
 REFERENCE_TOLERANCE = 0.1  # m, between the reference point and the centre of mass that it is
 SHARE = 0.15  # least share of the weight on an axle
+LOW = 0.1  # of the track: least height of the centre of mass
 ASIDE = 0.1  # of the track: most that the centre of mass is off the middle
 PART_RADII = 0.01, 0.6  # m: radii of gyration of parts of a suspension
 SMALL_PRODUCT = 1e-4  # of the largest moment
@@ -67,7 +68,7 @@ def _sum(car: CarContent) -> Iterator[str]:
     if abs(total - given) > MASS_TOLERANCE * given:
         yield f"{car.vehicle.key('mass')} is {given:g} kg, but the masses of all parts add up to {total:g} kg."
         return
-    centre, loaded = _centre(car, payloads=False), _centre(car, payloads=True)
+    centre, loaded = centre_of(car, payloads=False), centre_of(car, payloads=True)
     off = math.dist(centre, car.vehicle.reference_point)
     if min(off, math.dist(loaded, car.vehicle.reference_point)) > REFERENCE_TOLERANCE:
         yield (
@@ -75,25 +76,31 @@ def _sum(car: CarContent) -> Iterator[str]:
             f"centre of mass of all parts, {[round(c, 4) for c in centre]} m, which it is."
         )
     share = 1.0 + centre[0] / max(car.wheelbase, 1e-3)
-    if not SHARE <= share <= 1.0 - SHARE:
+    along, aside, high = centre_ranges(car)
+    if not along[0] <= centre[0] <= along[1]:
         yield (
             f"{car.chassis.key('com')} leaves {share:.0%} of the weight to the front axle; it must be between "
             f"{SHARE:.0%} and {1.0 - SHARE:.0%}."
         )
-    track = min(car.front.track, car.rear.track)
-    if abs(centre[1]) > ASIDE * track:
+    if not aside[0] <= centre[1] <= aside[1]:
         yield (
             f"{car.chassis.key('com')} puts the centre of mass of the car {abs(centre[1]):.3g} m aside; it must be "
-            f"less than {ASIDE * track:.3g} m."
+            f"less than {aside[1]:.3g} m."
         )
-    if not 0.1 * track <= centre[2] <= track:
+    if not high[0] <= centre[2] <= high[1]:
         yield (
             f"{car.chassis.key('com')} puts the centre of mass of the car at a height of {centre[2]:.3g} m; with a "
-            f"track of {track:g} m it must be between {0.1 * track:.3g} and {track:g} m."
+            f"track of {high[1]:g} m it must be between {high[0]:.3g} and {high[1]:g} m."
         )
 
 
-def _centre(car: CarContent, payloads: bool) -> list[float]:
+def centre_ranges(car: CarContent) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]:
+    """Between which x, y and z the centre of mass of a car lies, m."""
+    base, track = max(car.wheelbase, 1e-3), min(car.front.track, car.rear.track)
+    return (base * (SHARE - 1.0), -base * SHARE), (-ASIDE * track, ASIDE * track), (LOW * track, track)
+
+
+def centre_of(car: CarContent, payloads: bool) -> list[float]:
     """Centre of mass, m."""
     weighed = weighed_points(car, payloads)
     total = sum(mass for mass, _ in weighed)

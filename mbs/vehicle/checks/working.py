@@ -10,6 +10,7 @@ import numpy as np
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.masses import centre_of, centre_ranges, weighed_points
 from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
@@ -28,7 +29,8 @@ Ranges = dict[str, tuple[float, float]]
 
 
 def working_ranges(car: CarContent) -> Ranges:
-    """Least and largest value by key path: of tyres, springs and dampers, brakes, drive, air and of what a car carries.
+    """Least and largest value by key path: of tyres, springs and dampers, brakes, drive, air, and of masses and where
+    they are.
 
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
     unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
@@ -52,12 +54,24 @@ def working_ranges(car: CarContent) -> Ranges:
         weight, more = (sum(part) for part in zip(*loads.values(), strict=True))
         torque = weight * sum(radii) / 2.0  # of all wheels together that brakes or drives with 1 g
         _put(found, car.brakes, "torque", *(0.5 * part * torque for part in BRAKED))  # that of one side
-        _put(found, car.drive, "max_torque", *(part * torque / car.drive.torque_ratio for part in DRIVEN))
+        shares = [part * torque / (car.drive.torque_ratio * car.drive.max_torque) for part in DRIVEN]
+        for name in {"max_torque", "ratio", "ratio_factor"} & set(type(car.drive).model_fields):
+            _put(found, car.drive, name, *(getattr(car.drive, name) * share for share in shares))
         _of_air(found, car.aerodynamics, loads)
         _put(found, car.chassis, "mass", 0.0, car.chassis.mass + more / GRAVITY)
         for payload in car.payload.values():
             _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
+    _of_mass_centre(found, car)
     return found
+
+
+def _of_mass_centre(found: Ranges, car: CarContent) -> None:
+    """Of the centre of mass of the chassis, so that that of the car is where a file may have it."""
+    lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
+    centre, spans = centre_of(car, payloads=False), centre_ranges(car)
+    for (path, value), now, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
+        low, high = (value + (end - now) / lever for end in span)
+        found[path] = min(low, value), max(high, value)
 
 
 def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:

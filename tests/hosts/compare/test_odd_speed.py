@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hosts.compare.log import Signal
 from hosts.compare.plausibility import odd_scale, odd_speed
+from hosts.compare.stretches import Stretch
+from hosts.compare.windows import held_words
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 
 
 @pytest.mark.parametrize(("factor", "told"), [(1.0, False), (3.6, True), (2.0, False), (1.0 / 3.6, False)])
@@ -28,3 +34,19 @@ def test_a_speed_that_falls_where_the_simulated_rises_has_no_other_sign(turned: 
     t = np.arange(0.0, 6.0, 0.01)
     measured = Signal("speed", "v", "m/s", t, -15.0 - t if turned else 15.0 - t)
     assert ("factor = -1.0" in odd_scale(measured, lambda when: 15.0 + when)) == turned
+
+
+def test_what_a_driver_could_not_hold_is_told_apart() -> None:
+    """0.3 m/s off for the quarter of the time with full throttle, 0.1 m/s elsewhere."""
+    t = np.linspace(0.0, 4.0, 401)
+    full = t >= 3.0
+    values = np.column_stack((20.0 - np.where(full, 0.3, 0.1), np.where(full, 1.0, 0.4), 0.0 * t))
+    result = Result(["speed", "throttle", "brake"], {}, t, values, 1.0, 4.0, 0, [])
+    speed = Signal("speed", "v", "m/s", t, 20.0 + 0.0 * t)
+    stretch = Stretch(Manoeuvre("log", t, {}, 4.0, {}), speed)
+    (words,) = held_words(result, [stretch])
+    assert (
+        "within 0.17 m/s rms (-0.2 on the mean), a pedal at its end for 25 % of the time and 0.1 m/s rms else" in words
+    )
+    (words,) = held_words(replace(result, values=values * (1.0, 0.5, 1.0)), [stretch])
+    assert words == "The driver held the speed within 0.17 m/s rms (-0.2 on the mean)."

@@ -72,6 +72,34 @@ def test_a_value_that_is_not_reached_gives_the_nearest() -> None:
     assert not end.met
 
 
+@pytest.mark.parametrize(
+    "law",
+    [
+        lambda x: x,
+        lambda x: -(x**2),
+        lambda x: 1.0,
+        lambda x: 2.0 - 1.0 / (1.0 + x),
+        lambda x: 0.1 * x + 1e-4 * math.sin(9.0 * x),
+    ],
+)
+def test_two_ends_and_the_middle_show_that_a_value_is_not_reached(law: Callable[[float], float]) -> None:
+    found = sought(law, 5.0, 0.0, 4.0)
+    assert len(found.runs) == 3
+    assert (found.met, found.crossed) == (False, False)
+    assert found.best is not None
+    assert abs(found.best.y - 5.0) == min(abs(law(x) - 5.0) for x in (0.0, 4.0))
+
+
+def test_an_extremum_that_no_line_through_the_ends_shows_is_sought() -> None:
+    """Beyond the value between ends that are alike, in the middle or beside it; and short of it by a little."""
+    for top in (1.7, 2.0, 3.1):
+        found = sought(lambda x, top=top: 5.3 - (x - top) ** 2, 5.0, 0.0, 4.0)
+        assert found.met
+    short = sought(lambda x: 4.9 - (x - 1.4) ** 2, 5.0, 0.0, 4.0)
+    assert short.best is not None
+    assert short.best.x == pytest.approx(1.4, abs=0.1)
+
+
 def test_a_jump_is_not_taken_for_a_solution() -> None:
     found = sought(lambda x: -1.0 if x < math.pi / 4 else 3.0, 1.0, 0.0, 1.0)
     assert (found.met, found.crossed) == (False, True)
