@@ -207,9 +207,10 @@ def differences(
     sensors: dict[str, float] = {}
     ranges: dict[str, float] = {}
     for unit, names in groups.items():
-        rows = instants(len(coarse[names[0]]))
+        forces = unit == "N"
+        rows = instants(len(coarse[names[0]])) if forces else slice(None)
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
-        if unit == "N":
+        if forces:
             gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
         size = extent(unit, [fine[name] for name in names])
         if extents is not None:
