@@ -15,7 +15,7 @@ from mbs.results.accuracy import WARNED_ERROR, WRONG_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
-from mbs.results.two_repeats import by_limit, by_two_repeats, unsure
+from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.missed_peak import FINEST, SEEN_BY
 from mbs.system.system import System
@@ -204,7 +204,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.extents is None and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups):
+        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, glance)
             if screened is not None and apart <= glance.difference:
@@ -214,9 +214,10 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     parts = max(accuracy.divisor(report.steps, report.halvings), finest)
     try:
         known = repeats.finer(parts)
-        if not repeats.twin and accuracy.NEAR_LIMIT[0] < (known.error or 0.0) < accuracy.NEAR_LIMIT[1]:
-            ratio = parts / (1.0 + known.halvings_per_step)
-            known = repeats.decided(by_two_repeats(known, repeats.finer(2 * parts), ratio), 4 * parts)
+        least, most = accuracy.NEAR_LIMIT
+        least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
+        if not repeats.twin and least < (known.error or 0.0) < most:
+            known = repeats.decided(repeats.finer(2 * parts), 4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
