@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from mbs.results.accuracy import WRONG_ERROR, Accuracy, differences
 
 Array = NDArray[np.float64]
-FORCES = "N"
-
 EVENT_ORDER = 1.5  # behind abrupt events: between that of the event's time, one, and that of the method
 
 
@@ -31,7 +29,12 @@ def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
     return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
 
 
-def by_limit(known: Accuracy, tables: Sequence[Mapping[str, Array]], groups: Mapping[str, Sequence[str]]) -> Accuracy:
+def by_limit(
+    known: Accuracy,
+    tables: Sequence[Mapping[str, Array]],
+    groups: Mapping[str, Sequence[str]],
+    extents: dict[str, float] | None = None,
+) -> Accuracy:
     """The error against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
 
     Parameters
@@ -42,10 +45,12 @@ def by_limit(known: Accuracy, tables: Sequence[Mapping[str, Array]], groups: Map
         The run, and the last two repeats, of which the last has half the step, at the same samples.
     groups : mapping of str to sequence of str
         Names of what is compared, by unit.
+    extents : dict of str to float, optional
+        What moved before, by unit.
     """
     run, coarse, fine = tables
     more = 1.0 / (2.0**EVENT_ORDER - 1.0)
     names = [name for unit in groups for name in groups[unit]]
     limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
-    units, sensors, _ = differences(run, limit, groups)
+    units, sensors, _ = differences(run, limit, groups, extents)
     return replace(known, order=EVENT_ORDER, units=units, sensors=sensors)

@@ -123,10 +123,10 @@ class Repeats:
             It does not end.
         """
         run, first, second = map(self._table, (self.run, *self._finer))
-        if not unsure(known, accuracy.differences(first, second, self.groups)[0]):
+        if not unsure(known, accuracy.differences(first, second, self.groups, self.extents)[0]):
             return known
         self.limit, finest = WRONG_ERROR, self.finer(parts)
-        return by_limit(finest, [run, second, self._table(self._finer[-1])], self.groups)
+        return by_limit(finest, [run, second, self._table(self._finer[-1])], self.groups, self.extents)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
