@@ -22,7 +22,7 @@ from mbs.system.system import System
 Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
-WARNED_ERROR = 0.99 * WRONG_ERROR  # estimates at the limit are themselves off by about a hundredth
+WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth

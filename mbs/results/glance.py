@@ -22,7 +22,7 @@ class Glance:
     """Largest one, of the range, with which the run is right."""
 
 
-QUICK = (Glance(8, 1, 0.15), Glance(2, 1, 0.03))
+QUICK = (Glance(8, 1, 0.1), Glance(2, 1, 0.03))
 """Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps

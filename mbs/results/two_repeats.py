@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.results.accuracy import WRONG_ERROR, Accuracy, differences
+from mbs.results.accuracy import WARNED_ERROR, Accuracy, differences
 
 Array = NDArray[np.float64]
 EVENT_ORDER = 1.5  # behind abrupt events: between that of the event's time, one, and that of the method
@@ -24,7 +24,7 @@ def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
     apart : mapping of str to float
         What both differ by over the range, per unit: by order one the error of the finer one.
     """
-    above = {unit: error - WRONG_ERROR for unit, error in known.units.items()}
+    above = {unit: error - WARNED_ERROR for unit, error in known.units.items()}
     surely_wrong = any(more >= apart[unit] for unit, more in above.items())
     return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import WARNED_ERROR, WRONG_ERROR, Accuracy
+from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -55,8 +55,6 @@ class Repeats:
         Of the repeats, in first runs.
     tried : float
         Step of the last repeat, s.
-    limit : float
-        Of estimates, above which a result is wrong.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
@@ -76,7 +74,7 @@ class Repeats:
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
-        self.limit, self._finer = WARNED_ERROR, list[Run]()
+        self._finer = list[Run]()
         if self.run[1]:
             angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
             self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
@@ -125,8 +123,7 @@ class Repeats:
         run, first, second = map(self._table, (self.run, *self._finer))
         if not unsure(known, accuracy.differences(first, second, self.groups, self.extents)[0]):
             return known
-        self.limit, finest = WRONG_ERROR, self.finer(parts)
-        return by_limit(finest, [run, second, self._table(self._finer[-1])], self.groups, self.extents)
+        return by_limit(self.finer(parts), [run, second, self._table(self._finer[-1])], self.groups, self.extents)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
@@ -224,7 +221,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
             text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
         return replace(known, repeat_cost=repeats.cost, message=text)
     branch = run[0].branch_change if repeats.left_alone else ""
-    if known.error is None or known.error <= repeats.limit:
+    if known.error is None or known.error <= WARNED_ERROR:
         return replace(known, branch=branch)
     said = [repeats.text(known)]
     if accuracy.balance_says(report, method, driven):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.results.accuracy import WRONG_ERROR, Accuracy
+from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.two_repeats import EVENT_ORDER, by_limit, unsure
 
 T = np.linspace(0.0, 1.0, 101)
@@ -35,7 +35,7 @@ def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
 
 @pytest.mark.parametrize("told", [0.017, 0.045, 0.055, 0.09])
 def test_a_verdict_is_open_where_the_repeats_differ_by_more_than_it_is_clear(told: float) -> None:
-    clear = abs(told - WRONG_ERROR)
+    clear = abs(told - WARNED_ERROR)
     assert unsure(by(N=told, m=0.001), {"N": 1.01 * clear, "m": 0.0})
     assert not unsure(by(N=told, m=0.001), {"N": 0.99 * clear, "m": 0.0})
-    assert unsure(by(N=told, m=0.04), {"N": 0.99 * clear, "m": 0.02}) == (told < WRONG_ERROR)
+    assert unsure(by(N=told, m=0.04), {"N": 0.99 * clear, "m": 0.02}) == (told < WARNED_ERROR)
