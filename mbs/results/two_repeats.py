@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from mbs.results.accuracy import WARNED_ERROR, Accuracy, differences
 
 Array = NDArray[np.float64]
-EVENT_ORDER = 1.5  # behind abrupt events: between that of the event's time, one, and that of the method
 
 
 def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
@@ -35,7 +34,7 @@ def by_limit(
     groups: Mapping[str, Sequence[str]],
     extents: dict[str, float] | None = None,
 ) -> Accuracy:
-    """The error against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
+    """The error against what repeats tend to, by Richardson's extrapolation with the order of the method.
 
     Parameters
     ----------
@@ -49,8 +48,8 @@ def by_limit(
         What moved before, by unit.
     """
     run, coarse, fine = tables
-    more = 1.0 / (2.0**EVENT_ORDER - 1.0)
+    more = 1.0 / (2.0 ** (known.order or 1.0) - 1.0)
     names = [name for unit in groups for name in groups[unit]]
     limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
     units, sensors, _ = differences(run, limit, groups, extents)
-    return replace(known, order=EVENT_ORDER, units=units, sensors=sensors)
+    return replace(known, units=units, sensors=sensors)
