@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mbs.results.accuracy import WARNED_ERROR, Accuracy, differences
 
 Array = NDArray[np.float64]
+EVENT_ORDER = 1.75  # behind abrupt events: between that of the event's time, one, and that of the method, nearer to it
 
 
 def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
@@ -34,7 +35,7 @@ def by_limit(
     groups: Mapping[str, Sequence[str]],
     extents: dict[str, float] | None = None,
 ) -> Accuracy:
-    """The error against what repeats tend to, by Richardson's extrapolation with the order of the method.
+    """The error against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def by_limit(
         What moved before, by unit.
     """
     run, coarse, fine = tables
-    more = 1.0 / (2.0 ** (known.order or 1.0) - 1.0)
+    more = 1.0 / (2.0**EVENT_ORDER - 1.0)
     names = [name for unit in groups for name in groups[unit]]
     limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
     units, sensors, _ = differences(run, limit, groups, extents)

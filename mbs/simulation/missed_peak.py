@@ -11,6 +11,7 @@ from mbs.settings.input_signals import Signal
 
 LEAST = 0.1  # of the range of the table: a smaller peak is noise of a record
 SEEN_BY = 6.0  # steps within a peak: by fewer its impulse is off by more than 3 %
+FEWEST_SEEN_BY = 2.0  # by fewer it may not be seen at all
 FINEST = 64  # times finer than the run, at most, is a repeat that shall see it
 
 

@@ -17,7 +17,7 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
-from mbs.simulation.missed_peak import FINEST, SEEN_BY
+from mbs.simulation.missed_peak import FEWEST_SEEN_BY, FINEST, SEEN_BY
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
@@ -190,8 +190,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
-    finest = math.ceil(SEEN_BY * h / repeats.peak)
-    if finest > FINEST:
+    finest = min(FINEST, math.ceil(SEEN_BY * h / repeats.peak))
+    if FEWEST_SEEN_BY * h > FINEST * repeats.peak:
         return replace(
             known,
             message=f"An input has a peak of {repeats.peak:.2g} s between two steps of {h:g} s, which do not see it; "
