@@ -20,7 +20,7 @@ from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
-from mbs.simulation.missed_peak import missed_peak
+from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
@@ -86,8 +86,8 @@ def judged_run(
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             if checked:
-                peak = missed_peak(inputs, t0, t_end, h)
-                repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents, twin, peak)
+                missed = missed_peak(inputs, t0, t_end, h), jumps_within_steps(inputs, t0, t_end, h)
+                repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents, twin, *missed)
                 found = repeat.check(repeats, always=estimate_error is True)
     except SimulationError as error:
         if error.trajectory is not None:

@@ -44,7 +44,7 @@ from mbs.simulation.fixed_steps import Told, judged_run
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
-from mbs.simulation.missed_peak import missed_peak
+from mbs.simulation.missed_inputs import missed_peak
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal

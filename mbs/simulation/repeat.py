@@ -17,7 +17,7 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
-from mbs.simulation.missed_peak import FEWEST_SEEN_BY, FINEST, SEEN_BY
+from mbs.simulation.missed_inputs import FEWEST_SEEN_BY, FINEST, JUMP_PARTS, SEEN_BY
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
@@ -48,6 +48,8 @@ class Repeats:
         Whether a repeat goes on from the one of a run before, so that there is a single one.
     peak : float
         Duration of the shortest peak of an input that the first run does not see, s.
+    jumps : bool
+        Whether an input jumps within a step.
 
     Attributes
     ----------
@@ -70,6 +72,7 @@ class Repeats:
     extents: dict[str, float] | None = None
     twin: bool = False
     peak: float = math.inf
+    jumps: bool = False
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
@@ -208,7 +211,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
                 return screened
             if screened is not None and apart > HOPELESS:
                 break
-    parts = max(accuracy.divisor(report.steps, report.halvings), finest)
+    parts = max(accuracy.divisor(report.steps, report.halvings), finest, JUMP_PARTS if repeats.jumps else 0)
     try:
         known = repeats.finer(parts)
         least, most = accuracy.NEAR_LIMIT

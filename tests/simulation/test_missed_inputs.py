@@ -11,7 +11,7 @@ import pytest
 import mbs
 from benchmarks.methods import random_mechanisms
 from mbs.results.glance import QUICK, TWICE, glances
-from mbs.simulation.missed_peak import missed_peak
+from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 
 H, SPAN = 0.02, 1.0
 Table = tuple[np.ndarray, np.ndarray]
@@ -55,6 +55,26 @@ def sledge(stiffness: float = 0.0) -> mbs.System:
 )
 def test_a_peak_that_no_end_of_a_step_shows(table: Table, lasting: float) -> None:
     assert missed_peak({"push": table, "other": 3.0}, 0.0, SPAN, H) == pytest.approx(lasting)
+
+
+@pytest.mark.parametrize(
+    ("begin", "lasting", "within"),
+    [(0.305, 0.0, True), (0.305, 0.001, True), (0.3, 0.0, False), (0.305, 0.1, False), (1.305, 0.0, False)],
+)
+def test_a_jump_within_a_step(begin: float, lasting: float, within: bool) -> None:
+    table = np.array([0.0, begin, begin + lasting, 9.0]), np.array([0.0, 0.0, 5.0, 5.0])
+    assert jumps_within_steps({"push": table}, 0.0, SPAN, H) == within
+
+
+def test_jumps_that_a_run_and_half_its_step_miss_alike_are_told() -> None:
+    """A push of 2.4 steps that begins 0.05 of a step after the end of one: steps, and halves of them, count 2 of it."""
+    t, x = H * np.array([0.0, 5.05, 5.05, 7.45, 7.45, 500.0]), 50.0 * np.array([0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
+    inputs = {"push": (t, x)}
+    with pytest.warns(mbs.AccuracyWarning, match="off by about (1[67]) % of the largest range"):
+        run = mbs.simulate(sledge(), SPAN, H, inputs, progress=False)
+    half = mbs.simulate(sledge(), SPAN, 0.5 * H, inputs, every=2, progress=False, estimate_error=False)
+    assert np.abs(run["x"] - half["x"]).max() < 0.01 * np.ptp(run["x"])
+    assert run["x"][-1] - 1.0 == pytest.approx(50.0 / 2.0 * 2.0 * H * (SPAN - 6.25 * H), rel=0.01)
 
 
 def by_many(system: mbs.System, inputs: dict[str, Table]) -> mbs.Trajectory:
