@@ -123,11 +123,12 @@ def test_a_run_by_hand_is_judged_as_by_simulate() -> None:
     _, drawing = random_mechanisms.drawing(rng)
     system = mbs.compile(random_mechanisms.model_of(drawing))
     h = drawing.span / 150
-    for run in (
+    runs: list[Callable[[], mbs.Trajectory]] = [
         lambda: mbs.simulate(system, drawing.span, h, every=3, progress=False),
         lambda: mbs.simulate(system, drawing.span, h, every=3, progress=False, estimate_error=True),
         lambda: mbs.Simulation(system).run(drawing.span, h, every=3, progress=False),
-    ):
+    ]
+    for run in runs:
         with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.[6-9] % .* steps of 0\.0011"):
             run()
 
