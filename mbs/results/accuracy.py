@@ -22,11 +22,12 @@ from mbs.system.system import System
 Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
-WARNED_ERROR = 0.99 * WRONG_ERROR  # estimates at the limit are themselves off by about a hundredth
+WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
+LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -207,9 +208,10 @@ def differences(
     sensors: dict[str, float] = {}
     ranges: dict[str, float] = {}
     for unit, names in groups.items():
-        rows = instants(len(coarse[names[0]]))
+        forces = unit == "N"
+        rows = instants(len(coarse[names[0]])) if forces else slice(None)
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
-        if unit == "N":
+        if forces:
             gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
         size = extent(unit, [fine[name] for name in names])
         if extents is not None:

@@ -22,15 +22,18 @@ class Glance:
     """Largest one, of the range, with which the run is right."""
 
 
-QUICK = (Glance(8, 1, 0.15), Glance(2, 1, 0.03))
+QUICK = (Glance(8, 1, 0.1), Glance(2, 1, 0.03))
 """Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
 
-def glances(settings: Settings, groups: Mapping[str, Sequence[str]]) -> tuple[Glance, ...]:
-    """The coarser runs that are tried in turn; forces of contacts are missed by too long steps."""
-    return QUICK if settings.method in LIMITED and not settings.step_iterations and "N" not in groups else TWICE
+def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: bool) -> tuple[Glance, ...]:
+    """The coarser runs that are tried in turn; forces of contacts, and elements with `states` that stick and slide, are
+    missed by too long steps.
+    """
+    smooth = "N" not in groups and not states
+    return QUICK if settings.method in LIMITED and not settings.step_iterations and smooth else TWICE
 
 
 def difference_from(known: Accuracy, method: str, glance: Glance) -> float:

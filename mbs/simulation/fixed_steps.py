@@ -20,6 +20,7 @@ from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
+from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
@@ -37,11 +38,12 @@ def fixed_step_run(
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | None,
     extents: dict[str, float] | None = None,
+    twin: bool = False,
 ) -> Trajectory:
-    """A run in steps of h, with repeats where its accuracy asks for them, or at most one (see `repeat.check`)."""
+    """A run in steps of h, with repeats where its accuracy asks for them, see `repeat.check`."""
     told: Told = []
     try:
-        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, extents)
+        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, extents, twin)
     finally:
         for category, text in told:
             warnings.warn(text, category, stacklevel=4)
@@ -59,6 +61,7 @@ def judged_run(
     estimate_error: bool | None,
     told: Told,
     extents: dict[str, float] | None = None,
+    twin: bool = False,
 ) -> Trajectory:
     """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
     made: list[SteppedSystem] = []
@@ -83,7 +86,8 @@ def judged_run(
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             if checked:
-                repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents)
+                missed = missed_peak(inputs, t0, t_end, h), jumps_within_steps(inputs, t0, t_end, h)
+                repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents, twin, *missed)
                 found = repeat.check(repeats, always=estimate_error is True)
     except SimulationError as error:
         if error.trajectory is not None:

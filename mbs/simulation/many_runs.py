@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 import time
@@ -43,6 +44,7 @@ from mbs.simulation.fixed_steps import Told, judged_run
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
+from mbs.simulation.missed_inputs import missed_peak
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
@@ -169,10 +171,10 @@ class _Run:
         """By the repeats of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
         told = list(self.told_at_start)
         report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
-        if accuracy.doubt(report, report.steps, report.halvings, method) or accuracy.balance_decides(
-            report, method, driven
-        ):
-            end = self.t0 + self.steps * self.h
+        end = self.t0 + self.steps * self.h
+        missed = missed_peak(self.variant.inputs, self.t0, end, self.h) < math.inf
+        doubt = accuracy.doubt(report, report.steps, report.halvings, method)
+        if missed or doubt or accuracy.balance_decides(report, method, driven):
             judged = judged_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None, told
             )

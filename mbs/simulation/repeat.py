@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import WARNED_ERROR, WRONG_ERROR, Accuracy
+from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
-from mbs.results.two_repeats import FORCES, by_limit, by_two_repeats, unsure
+from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
+from mbs.simulation.missed_inputs import FEWEST_SEEN_BY, FINEST, JUMP_PARTS, SEEN_BY
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
@@ -43,6 +44,12 @@ class Repeats:
         Takes the progress of all runs, from 0 to 1.
     extents : dict of str to float, optional
         What moved in the runs before this one, by unit.
+    twin : bool
+        Whether a repeat goes on from the one of a run before, so that there is a single one.
+    peak : float
+        Duration of the shortest peak of an input that the first run does not see, s.
+    jumps : bool
+        Whether an input jumps within a step.
 
     Attributes
     ----------
@@ -50,8 +57,6 @@ class Repeats:
         Of the repeats, in first runs.
     tried : float
         Step of the last repeat, s.
-    limit : float
-        Of estimates, above which a result is wrong.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
@@ -65,11 +70,18 @@ class Repeats:
     every: int
     update: Callable[[float], None]
     extents: dict[str, float] | None = None
+    twin: bool = False
+    peak: float = math.inf
+    jumps: bool = False
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
-        self.limit, self._finer = WARNED_ERROR, list[Trajectory]()
+        self._finer = list[Run]()
+        if self.run[1]:
+            angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
+            self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
+            self.groups = {accuracy.COORDINATES: list(self._columns)}
 
     def coarser(self, glance: Glance) -> Accuracy | None:
         """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere."""
@@ -98,26 +110,23 @@ class Repeats:
             It does not end.
         """
         again = self._again(self.h / parts, self.every * parts, float(parts))
-        self._finer.append(again[0])
+        self._finer.append(again)
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
-        """After two finer runs: where what they differ by may change the verdict on forces, by a third one.
+        """After two finer runs: where what they differ by may change the verdict, by a third one.
 
         Raises
         ------
         SimulationError
             It does not end.
         """
-        names = self.groups.get(FORCES, [])
-        first, second = self._finer
-        apart = accuracy.differences(first, second, {FORCES: names})[0].get(FORCES, 0.0) if names else 0.0
-        if not unsure(known, apart):
+        run, first, second = map(self._table, (self.run, *self._finer))
+        if not unsure(known, accuracy.differences(first, second, self.groups, self.extents)[0]):
             return known
-        self.limit, finest = WRONG_ERROR, self.finer(parts)
-        return by_limit(finest, [self.run[0], second, self._finer[-1]], names)
+        return by_limit(self.finer(parts), [run, second, self._table(self._finer[-1])], self.groups, self.extents)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
@@ -133,25 +142,25 @@ class Repeats:
 
         return self.march(h, every, update, bool(self.run[1]), iterations)
 
+    def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
+        """What is compared of a run, by name."""
+        if not run[1]:
+            return run[0]
+        q = np.array(run[1])
+        return {name: q[:, i] for name, i in self._columns.items()}
+
     def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
-        (run, seen), (again, seen_again) = first, other
+        run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
         assert run.accuracy is not None
-        assert run.report is not None
-        assert again.report is not None
-        if seen:
-            angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
-            names = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
-            self.groups = {accuracy.COORDINATES: list(names)}
-            tables = [{n: np.array(s)[:, i] for n, i in names.items()} for s in (seen, seen_again)]
-            units, sensors, ranges = accuracy.differences(tables[0], tables[1], self.groups, self.extents)
-        else:
-            units, sensors, ranges = accuracy.differences(run, again, self.groups, self.extents)
-        self._ranges = ranges
-        reports = (run.report, again.report) if ratio > 1.0 else (again.report, run.report)
+        assert coarse[0].report is not None
+        assert fine[0].report is not None
+        tables = self._table(coarse), self._table(fine)
+        units, sensors, self._ranges = accuracy.differences(*tables, self.groups, self.extents)
         order = float(METHOD_TABLE[run.settings.method].order)
         if ratio < FAR_FINER:  # else the other is so much nearer that the order hardly counts
+            reports = coarse[0].report, fine[0].report
             order = accuracy.measured_order(run.settings.method, *reports, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
@@ -169,8 +178,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
 
     A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
     repeated with half the step, and where that leaves the verdict near its limit, with a quarter; where these two
-    differ so much that the verdict on forces may change, with an eighth. With `Repeats.extents` only half the step is
-    tried.
+    differ so much that the verdict may change, with an eighth. With `Repeats.extents` no longer steps are tried, with
+    `Repeats.twin` half the step alone.
 
     Parameters
     ----------
@@ -182,37 +191,40 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if report is None or known is None or run[0].settings is None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
-    once = repeats.extents is not None
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method)
-    if len(run[0].t) < 2 or not (always or doubt):
+    finest = min(FINEST, math.ceil(SEEN_BY * h / repeats.peak))
+    if FEWEST_SEEN_BY * h > FINEST * repeats.peak:
+        return replace(
+            known,
+            message=f"An input has a peak of {repeats.peak:.2g} s between two steps of {h:g} s, which do not see it; "
+            "simulate(..., tolerance=1e-3) in place of a step goes from point to point of tables.",
+        )
+    doubt = accuracy.REPEAT if finest else accuracy.doubt(report, report.steps, report.halvings, method)
+    if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
-    if not (always or once) and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups):
+    if not always and repeats.extents is None and doubt == accuracy.SCREEN:
+        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, glance)
             if screened is not None and apart <= glance.difference:
                 return screened
             if screened is not None and apart > HOPELESS:
                 break
-    parts = accuracy.divisor(report.steps, report.halvings)
+    parts = max(accuracy.divisor(report.steps, report.halvings), finest, JUMP_PARTS if repeats.jumps else 0)
     try:
         known = repeats.finer(parts)
-        if (
-            not (always or once)
-            and known.error is not None
-            and accuracy.NEAR_LIMIT[0] < known.error < accuracy.NEAR_LIMIT[1]
-        ):
-            ratio = parts / (1.0 + known.halvings_per_step)
-            known = repeats.decided(by_two_repeats(known, repeats.finer(2 * parts), ratio), 4 * parts)
+        least, most = accuracy.NEAR_LIMIT
+        least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
+        if not repeats.twin and least < (known.error or 0.0) < most:
+            known = repeats.decided(repeats.finer(2 * parts), 4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
             text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
         return replace(known, repeat_cost=repeats.cost, message=text)
     branch = run[0].branch_change if repeats.left_alone else ""
-    if known.error is None or known.error <= repeats.limit:
+    if known.error is None or known.error <= WARNED_ERROR:
         return replace(known, branch=branch)
     said = [repeats.text(known)]
     if accuracy.balance_says(report, method, driven):

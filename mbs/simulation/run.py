@@ -111,7 +111,7 @@ def simulate(
     -----
     AccuracyWarning
         When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
-        lengths, angles or forces of elements are off by more than 4.95 % of the largest range in their unit; with a
+        lengths, angles or forces of elements are off by more than 4.9 % of the largest range in their unit; with a
         tolerance, when the error is guessed to be more than three times that.
     BendingWarning
         When a flexible body bends more within its floating frame than its modes hold for.

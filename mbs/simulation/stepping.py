@@ -430,9 +430,9 @@ class Simulation(SteppedSystem):
             return self._twin
 
         def equal_steps() -> Trajectory:
-            asked = (estimate_error or given is not None or None) if checked else False
+            asked, twin = estimate_error if checked else False, given is not None
             return fixed_step_run(
-                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._extents
+                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._extents, twin
             )
 
         trajectory = equal_steps()

@@ -97,7 +97,7 @@ def test_where_two_repeats_leave_a_verdict_on_forces_open_a_third_decides(seed, 
     """
     run, error = told_and_true(seed, number, h)
     assert run.accuracy.repeated_with == pytest.approx(h / 8.0)
-    assert run.accuracy.error == pytest.approx(error, rel=0.1)
+    assert run.accuracy.error == pytest.approx(error, rel=0.14)
 
 
 def test_a_run_with_divided_steps_is_not_plainly_smooth():
