@@ -207,7 +207,7 @@ def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
 @pytest.mark.parametrize(
     ("inputs", "words"),
     [
-        ("steering", "The names are the text 'steering'; they must be a list or tuple of names."),
+        ("steering", "The names are 'steering'; they must be a list or tuple of texts."),
         (("stering",), "no input 'stering'; did you mean 'steering'?"),
         (("steering", "throttle", "steering"), "'steering' is named 2 times"),
     ],
