@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.car.road_port_steps import FRICTION, LENGTH, height
+from benchmarks.car.road_port_steps import FRICTION, height
 from benchmarks.shared.instructions import instructions
 from benchmarks.shared.pages import Row
 from hosts.fmu.built_fmu import fmu_of_car
