@@ -14,7 +14,7 @@ from hosts.common.errors import HostError
 def is_finite(value: Any) -> bool:
     """Whether it is a finite real number of Python or NumPy; text and truth values are none."""
     try:
-        return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(float(value))
+        return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(float(value))
     except OverflowError:
         return False
 
