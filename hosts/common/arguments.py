@@ -19,11 +19,11 @@ def is_finite(value: Any) -> bool:
         return False
 
 
-def positive(value: object, what: str, unit: str) -> float:
+def positive(value: Any, what: str, unit: str) -> float:
     """A positive number, else a `HostError` with `what` as its subject."""
-    if not is_finite(value) or value <= 0.0:  # type: ignore[operator]
+    if not is_finite(value) or value <= 0.0:
         raise HostError(f"{what} is {brief(value)}; it must be a positive number, in {unit}.")
-    return float(value)  # type: ignore[arg-type]
+    return float(value)
 
 
 def mapping(value: object, what: str) -> Mapping[str, Any]:
