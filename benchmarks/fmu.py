@@ -1,7 +1,7 @@
 """What an FMU costs: ``python -m benchmarks.fmu [--json FILE]``; the native one against PythonFMU, from C and FMPy.
 
-With ``--road-ports`` what the answers of another program at the four road ports of the prototype add to a step, in
-instructions: through FMPy with the answers computed in Python, and in the step of the slave alone.
+With ``--road-ports`` what the answers of another program at the four road ports of the prototype add to a step through
+FMPy, in instructions, with the answers computed in Python.
 """
 
 from __future__ import annotations

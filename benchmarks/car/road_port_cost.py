@@ -17,19 +17,11 @@ from mbs.elements import GridRoad
 from mbs.roads import write_road
 
 ROADS = {"level": 0.0, "waves of 30 mm, 2 m long": 0.015}  # m, amplitude
-COLUMNS = {
-    "road": "",
-    "own road": ",d",
-    "four answers": ",d",
-    "ratio": ".2f",
-    "slave, own road": ",d",
-    "slave, four answers": ",d",
-    "slave, ratio": ".2f",
-}
+COLUMNS = {"road": "", "own road": ",d", "four answers": ",d", "ratio": ".2f"}
 
 
 def measure(car: str, steps: int, folder: Path) -> list[Row]:
-    """Instructions a step of 2 ms on each of `ROADS`: of the whole loop through FMPy, and in the step of the slave.
+    """Instructions a step of 2 ms through FMPy on each of `ROADS`: a loop of outputs, answers, inputs, step.
 
     Parameters
     ----------
@@ -52,22 +44,19 @@ def measure(car: str, steps: int, folder: Path) -> list[Row]:
         x = np.arange(-10.0, 40.0, 0.02)
         heights = np.repeat([[height(float(each), amplitude)] for each in x], 2, axis=1)
         write_road(GridRoad((-10.0, -5.0), (0.02, 10.0), heights, FRICTION), file)
-        row: dict[str, object] = {"road": name}
-        for part, function in (("", ""), ("slave, ", "fmi2DoStep")):
-            counts = [_a_step(place, road, steps, function) for place, road in ((own, file), (ported, amplitude))]
-            row |= dict(zip((f"{part}own road", f"{part}four answers"), counts, strict=True))
-            row[f"{part}ratio"] = counts[1] / counts[0]
-        rows.append(row)
+        counts = [_a_step(place, road, steps) for place, road in ((own, file), (ported, amplitude))]
+        row = {"own road": counts[0], "four answers": counts[1], "ratio": counts[1] / counts[0]}
+        rows.append({"road": name} | row)
     return rows
 
 
-def _a_step(place: Path, road: Path | float, steps: int, function: str) -> int:
+def _a_step(place: Path, road: Path | float, steps: int) -> int:
     """Instructions of a step, by those of twice as many steps less those of the first."""
     counts = []
     for many in (steps, 2 * steps):
         os.environ["PYTHONHASHSEED"] = "0"  # else the dictionaries of Python are others each time
         command = [sys.executable, "-m", "benchmarks.car.road_port_steps", str(place), str(road), str(many)]
-        found = instructions(command, function)
+        found = instructions(command)
         if found is None:
             raise RuntimeError("Instructions are counted by valgrind, which is not installed.")
         counts.append(found)
