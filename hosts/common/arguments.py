@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
-from numbers import Real
 from typing import Any
 
 from ali3.words import brief
 from hosts.common.errors import HostError
-
-
-def is_finite(value: Any) -> bool:
-    """Whether it is a finite real number of Python or NumPy; text and truth values are none."""
-    try:
-        return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(float(value))
-    except OverflowError:
-        return False
+from hosts.common.numbers import is_finite
 
 
 def positive(value: Any, what: str, unit: str) -> float:

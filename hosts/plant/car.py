@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ali3.near_names import did_you_mean
 from ali3.words import brief, value_words
-from hosts.common.arguments import is_finite, mapping, positive, texts
+from hosts.common.arguments import mapping, positive, texts
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import Value, is_finite
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu
 

@@ -11,8 +11,9 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from ali3.words import brief
-from hosts.common.arguments import is_finite, mapping
+from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
 from hosts.common.wheels import WHEELS
 from hosts.driving.courses import course_of
 from hosts.fmu.fmu import StepRefusedError

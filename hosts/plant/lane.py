@@ -7,8 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from ali3.words import brief
-from hosts.common.arguments import is_finite, positive
+from hosts.common.arguments import positive
 from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
 from hosts.driving.course import Course
 
 SPACING = 0.5  # m between points of the centre line that the nearest one is looked for among

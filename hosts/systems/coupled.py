@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from ali3.near_names import did_you_mean
 from ali3.words import brief
-from hosts.common.arguments import is_finite, positive, texts
+from hosts.common.arguments import positive, texts
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import Value, is_finite
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.systems.wires import Wire, fmus_of, parted, starts_of, wires_of
 
