@@ -16,7 +16,7 @@ from hosts.fmu.fmu import unpack
 from mbs.elements import GridRoad
 from mbs.roads import write_road
 
-ROADS = {"level": 0.0, "waves of 30 mm, 2 m long": 0.015}  # m, amplitude
+ROADS = {"level": 0.0, "waves of 30 mm, 2 m long": 0.015}  # m, amplitude; of its own a plane and a file
 COLUMNS = {"road": "", "own road": ",d", "four answers": ",d", "ratio": ".2f"}
 
 
@@ -40,17 +40,18 @@ def measure(car: str, steps: int, folder: Path) -> list[Row]:
         unpack(fmu_of_car(car, lambda line: print(line, file=sys.stderr), ports=ports), place)
     rows: list[Row] = []
     for name, amplitude in ROADS.items():
-        file = folder / f"{amplitude}.road"
-        x = np.arange(-10.0, 40.0, 0.02)
-        heights = np.repeat([[height(float(each), amplitude)] for each in x], 2, axis=1)
-        write_road(GridRoad((-10.0, -5.0), (0.02, 10.0), heights, FRICTION), file)
+        file = folder / "waves.road" if amplitude else ""
+        if file:
+            x = np.arange(-10.0, 40.0, 0.02)
+            heights = np.repeat([[height(float(each), amplitude)] for each in x], 2, axis=1)
+            write_road(GridRoad((-10.0, -5.0), (0.02, 10.0), heights, FRICTION), file)
         counts = [_a_step(place, road, steps) for place, road in ((own, file), (ported, amplitude))]
         row = {"own road": counts[0], "four answers": counts[1], "ratio": counts[1] / counts[0]}
         rows.append({"road": name} | row)
     return rows
 
 
-def _a_step(place: Path, road: Path | float, steps: int) -> int:
+def _a_step(place: Path, road: Path | str | float, steps: int) -> int:
     """Instructions of a step, by those of twice as many steps less those of the first."""
     counts = []
     for many in (steps, 2 * steps):

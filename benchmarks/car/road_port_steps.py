@@ -46,7 +46,7 @@ def main(folder: str, road: str, steps: str) -> None:
     asked = [reference[f"wheel_{w}.contact_{c}"] for w in WHEELS for c in "xy"]
     inputs, amplitude = [reference["steering"], reference["throttle"]], None
     if "road.file" in reference:
-        car.setString([reference["road.file"]], [road])
+        car.setString([reference["road.file"]], [road])  # without a name the plane
     else:
         amplitude = float(road)
         inputs += [reference[f"wheel_{w}.road_{name}"] for w in WHEELS for name in ANSWER]
