@@ -1,4 +1,8 @@
-"""What an FMU costs: ``python -m benchmarks.fmu [--json FILE]``; the native one against PythonFMU, from C and FMPy."""
+"""What an FMU costs: ``python -m benchmarks.fmu [--json FILE]``; the native one against PythonFMU, from C and FMPy.
+
+With ``--road-ports`` what the answers of another program at the four road ports of the prototype add to a step through
+FMPy, in instructions, with the answers computed in Python.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +14,7 @@ from pathlib import Path
 import fmpy
 
 from ali3.running import run_command
+from benchmarks.car import road_port_cost, road_port_steps
 from benchmarks.car.fmu_calls import QUANTITIES, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
@@ -27,9 +32,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--steps", type=int, default=1000, metavar="N", help="calls per timed run; default: 1000")
     parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per figure; default: 5")
     parser.add_argument("--instances", type=int, default=1000, metavar="N", help="at once; default: 1000")
+    parser.add_argument("--road-ports", action="store_true", help="instructions of steps with four road ports")
     options = parser.parse_args(arguments)
     if min(options.steps, options.repeats, options.instances) < 1 or options.repeats > 64:
         parser.error("numbers of steps, repeats and instances are positive, repeats at most 64")
+    if options.road_ports:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            found = road_port_cost.measure("prototype", min(options.steps, 40), Path(folder))
+        print_table(found, road_port_cost.COLUMNS)
+        save_rows(options.json, describe("road_ports", step_s=road_port_steps.STEP), found)
+        return 0
     rows = []
     name, system = load_scene(options.scene)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
@@ -69,4 +81,4 @@ def _value(rows: Sequence[dict[str, str | float | None]], quantity: str, kind: s
 
 
 if __name__ == "__main__":
-    sys.exit(run_command(main))
+    sys.exit(run_command(main, (RuntimeError,)))

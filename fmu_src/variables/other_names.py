@@ -54,8 +54,9 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     """
     place = {v.name: k for k, v in enumerate(table)}
     values = {v.name: v for v in table if v.source == "constant"}
-    # an answer far from its wheel is told by values of both
-    bound = {k for v in table for k in (v.other, v.index if v.source == "ahead" else -1)}
+    # watches of answers compare triples of values with those of the System and of the wheel
+    bound = {v.index for v in table if v.source == "ahead"} | {v.other for v in table if v.source == "ahead"}
+    bound |= {k + j for at, v in enumerate(table) if v.role for k in (at, v.other) if k >= 0 for j in range(3)}
     made, left_out = list(table), {}
     for ours, entry in content.entries.items():
         if ours not in place:
@@ -65,7 +66,7 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
             continue
         k = place[ours]
         theirs = _theirs(table[k], entry, content, values)
-        if isinstance(theirs, Variable) and theirs.scale != 1.0 and (k in bound or theirs.role):
+        if isinstance(theirs, Variable) and theirs.scale != 1.0 and k in bound:
             theirs = f"it is of a port, which works in {table[k].unit}"
         if isinstance(theirs, str):
             left_out[ours] = theirs

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
+from numbers import Real
+from typing import Any, TypeAlias
 
 from ali3.decimal_number import parse_number
 
@@ -19,6 +20,14 @@ def parse_value(text: str) -> Value:
     if len(word) >= 2 and word[0] == word[-1] and word[0] in "\"'":
         return word[1:-1]
     return word == "true" if word in ("true", "false") else parse_number(word)
+
+
+def is_finite(value: Any) -> bool:
+    """Whether it is a finite real number of Python or NumPy; text and truth values are none."""
+    try:
+        return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(float(value))
+    except OverflowError:
+        return False
 
 
 def or_null(value: float) -> float | None:

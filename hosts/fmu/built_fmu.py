@@ -16,6 +16,7 @@ from ali3.files import reason
 from ali3.folders import forget_oldest, whole_folder
 from ali3.locks import locked
 from ali3.reading import read_toml
+from ali3.words import brief
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE
@@ -108,8 +109,12 @@ def car_digest(car: str) -> str:
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)
-    file = path / CAR_FILE if path.is_dir() else path
-    if not file.is_file():
+    try:
+        file = path / CAR_FILE if path.is_dir() else path
+        is_file = file.is_file()
+    except OSError as error:  # a name that is too long for one
+        raise HostError(f"The car {brief(car)} cannot be read: {reason(error)}.") from None
+    if not is_file:
         digest.update(f"name {car}".encode())
         return digest.hexdigest()[:32]
     files = {f for f in file.parent.rglob("*") if f.is_file()} | set(_named_files(file))

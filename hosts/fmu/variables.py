@@ -12,9 +12,9 @@ from ali3.decimal_number import parse_number
 from ali3.near_names import MOST, did_you_mean
 from ali3.running import command_name
 from ali3.unit_definition import BASE_UNITS, UnitDefinition
-from ali3.words import range_words
+from ali3.words import brief, range_words
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import Value, is_finite
 from hosts.fmu.scalars import KINDS
 
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
@@ -118,10 +118,11 @@ class Variable:
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
-                raise HostError(f"{source}: '{self.name}' is {self.text(value)}; it must be {kind_words(self.kind)}.")
+                told = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
+                raise HostError(f"{source}: '{self.name}' is {told}; it must be {kind_words(self.kind)}.")
             return value
-        if not math.isfinite(value):
-            raise HostError(f"{source}: '{self.name}' is {value}; only finite numbers can be used.")
+        if not isinstance(value, bool) and not is_finite(value):
+            raise HostError(f"{source}: '{self.name}' is {brief(value)}; only finite numbers can be used.")
         if not self.low <= value <= self.high or (self.items and value not in self.items.values()):
             raise HostError(f"{source}: '{self.name}' is {self.with_unit(value)}; its range is {self.range}.")
         if self.kind == "Boolean":

@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ali3.near_names import did_you_mean
 from ali3.words import brief, value_words
+from hosts.common.arguments import mapping, positive, texts
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import Value, is_finite
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu
 
@@ -83,15 +84,16 @@ class Car(Closing):
         inputs: Sequence[str] | None = None,
         parameters: Mapping[str, Value] | None = None,
     ) -> None:
-        if not (isinstance(step, (int, float, np.number)) and 0.0 < step < np.inf):
-            raise HostError(f"The communication step of a car is {step!r} s; it must be a positive number.")
+        self.step_length = positive(step, "The communication step of a car", "s")
+        if not (isinstance(car, (str, Path)) and str(car).isprintable()):
+            raise HostError(f"The car is {brief(car)}; it must be a name, a folder or a file.")
         given = Path(car)
         if given.suffix.lower() == ".fmu" and ports is not None:
             raise HostError(f"Ports are chosen when an FMU is built; {given} is one.")
-        names = ports if ports is None or isinstance(ports, str) else ",".join(map(str, ports))
+        names = ports if ports is None or isinstance(ports, str) else ",".join(texts(ports, "The ports"))
         path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=names)
+        self._always = dict(mapping({} if parameters is None else parameters, "The parameters"))
         self.fmu = Fmu(path)
-        self.step_length = float(step)
         self._used = self._started = self._closed = False
         try:
             self.inputs = tuple(self._known(self.fmu.names("input") if inputs is None else inputs, ("input",)))
@@ -101,7 +103,6 @@ class Car(Closing):
         except HostError:
             self.close()
             raise
-        self._always = dict(parameters or {})
         self._set = self.fmu.setter(self.inputs)
         self._readers: dict[tuple[str, ...], Any] = {}
         self._start_time, self._steps = 0.0, 0
@@ -154,11 +155,11 @@ class Car(Closing):
     def _drawn(self, name: str, value: Range, random: np.random.Generator) -> Value:
         """The value of a parameter, of a range one that is drawn."""
         if isinstance(value, (tuple, list)):
-            ends = [end for end in value if isinstance(end, (int, float, np.number)) and np.isfinite(end)]
+            ends = [end for end in value if is_finite(end)]
             if not (len(ends) == len(value) == 2 and ends[0] <= ends[1]):
                 raise HostError(f"'{name}' is {value_words(value)}; a range is two numbers, the smaller one first.")
             return float(random.uniform(float(ends[0]), float(ends[1])))
-        if not isinstance(value, (int, float, str, np.number)):
+        if not (isinstance(value, (bool, float, str)) or is_finite(value)):
             raise HostError(f"'{name}' is {brief(value)}; it must be a number, or a range of two.")
         known = self.fmu.variables.get(name)
         if known is not None and isinstance(value, str) and known.type != "String":
@@ -183,7 +184,7 @@ class Car(Closing):
         self._check_started()
         try:
             values: list[float] = np.asarray(inputs, dtype=float).ravel().tolist()
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise HostError(f"The inputs are {brief(inputs)}; they must be numbers, in an array.") from None
         if len(values) != len(self.inputs):
             raise HostError(f"{len(values)} inputs are given; the car takes {len(self.inputs)}: {self.inputs}.")
@@ -212,13 +213,14 @@ class Car(Closing):
             There is no such variable that is a number, or the array is none of floats of this shape.
         """
         self._check_started()
-        key = names if isinstance(names, tuple) else tuple(names)
+        key = names if isinstance(names, tuple) else texts(names, "The names")
         reader = self._readers.get(key)
         if reader is None:
-            reader = self._readers[key] = self.fmu.reader(self._known(names if isinstance(names, str) else key, _READ))
+            reader = self._readers[key] = self.fmu.reader(self._known(key, _READ))
         values = np.empty(len(key)) if into is None else into
-        if not isinstance(values, np.ndarray) or values.shape != (len(key),) or values.dtype != float:
-            raise HostError(f"Values go into {brief(into)}; it must be an array of {len(key)} floats.")
+        whole = isinstance(values, np.ndarray) and values.shape == (len(key),) and values.dtype == float
+        if not (whole and values.flags.writeable):
+            raise HostError(f"Values go into {brief(into)}; it must be an array of {len(key)} floats, to be written.")
         reader(values)
         return values
 
@@ -236,7 +238,7 @@ class Car(Closing):
             It is of another car or of another build.
         """
         self._check_open()
-        if not isinstance(saved, Saved):
+        if not (isinstance(saved, Saved) and isinstance(saved.content, bytes) and is_finite(saved.time)):
             raise HostError(f"{brief(saved)} is no state of a car; save() gives one.")
         self.fmu.restore_bytes(saved.content)
         self._steps = saved.steps
@@ -253,12 +255,10 @@ class Car(Closing):
             raise HostError("The car has no start yet; reset() gives it one.")
 
     def _known(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
-        if isinstance(names, str):
-            raise HostError(f"The names are the text {brief(names)}; they must be a list or tuple of names.")
         have = {n for causality in causalities for n in self.fmu.names(causality)}
-        for name in names:
+        for name in (known := texts(names, "The names")):
             if name not in have:
                 what = "input" if causalities == ("input",) else "variable that is a number"
                 some = f"there are {', '.join(sorted(have)[:6])} and others"
-                raise HostError(f"The car has no {what} {brief(name)}{did_you_mean(str(name), have, some)}")
-        return list(names)
+                raise HostError(f"The car has no {what} {brief(name)}{did_you_mean(name, have, some)}")
+        return list(known)

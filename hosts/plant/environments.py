@@ -11,7 +11,9 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from ali3.words import brief
+from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
 from hosts.common.wheels import WHEELS
 from hosts.driving.courses import course_of
 from hosts.fmu.fmu import StepRefusedError
@@ -23,13 +25,10 @@ Floats = NDArray[np.float32]
 
 def two_numbers(given: Any, what: str) -> tuple[float, float]:
     """A pair that an environment is given, checked; `what` says in a sentence which it is."""
-    try:
-        first, second = (float(number) for number in given)
-    except (TypeError, ValueError):
-        first = second = np.nan
-    if not (0.0 <= first < np.inf and 0.0 <= second < np.inf):
+    pair = tuple(given) if isinstance(given, (tuple, list, np.ndarray)) else ()
+    if len(pair) != 2 or not all(is_finite(number) and number >= 0.0 for number in pair):
         raise HostError(f"The {what} of an environment are {brief(given)}; they must be two finite numbers from 0.")
-    return first, second
+    return float(pair[0]), float(pair[1])
 
 
 class CarEnvironment(gymnasium.Env[Floats, Floats]):
@@ -41,7 +40,7 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
     """
 
     def __init__(self, car: Car, reads: tuple[str, ...], seconds: float) -> None:
-        if not (isinstance(seconds, (int, float)) and car.step_length <= seconds < np.inf):
+        if not (is_finite(seconds) and seconds >= car.step_length):
             car.close()
             raise HostError(f"An episode has {brief(seconds)} s; it must be a number, and a step or more.")
         self.car, self._reads = car, reads
@@ -51,8 +50,9 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
 
     def _start(self, seed: int | None, options: dict[str, Any] | None, **ranges: tuple[float, float]) -> None:
         """A start whose numbers are drawn by the generator of the environment."""
+        asked = mapping({} if options is None else options, "The options of a start")
         super().reset(seed=seed)
-        self.car.reset(int(self.np_random.integers(2**31)), **ranges | (options or {}))
+        self.car.reset(int(self.np_random.integers(2**31)), **ranges | dict(asked))
         self._steps = 0
         self.car.read(self._reads, self._now)
 
@@ -62,7 +62,7 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
         assert isinstance(box, spaces.Box)
         try:
             given = np.asarray(action, dtype=float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             given = np.array(np.nan)
         if given.shape != box.shape or not np.isfinite(given).all():
             raise HostError(f"The action is {brief(action)}; it must be {box.shape[0]} finite numbers, in an array.")

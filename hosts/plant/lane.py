@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from ali3.words import brief
+from hosts.common.arguments import positive
 from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
 from hosts.driving.course import Course
 
 SPACING = 0.5  # m between points of the centre line that the nearest one is looked for among
 REACH = 50.0  # m along the lane, before and behind the last place, within which the nearest point is looked for
 ROUNDS, NEAR = 3, 1e-7  # of Newton's method from there; m, a round that moves less is the last
+FARTHEST = 1e9  # m, and ways along a lane: what is measured there is still good to a micrometre
 
 
 class Lane:
@@ -35,15 +36,13 @@ class Lane:
     """
 
     def __init__(self, points: ArrayLike, width: float = 3.5) -> None:
-        p = np.asarray(points, dtype=float)
-        if p.ndim != 2 or p.shape[0] < 4 or p.shape[1] != 2 or not np.isfinite(p).all():
-            raise HostError(f"The points of a lane have the shape {p.shape}; they must be four or more finite (x, y).")
+        p = _numbers(points, "The points of a lane")
+        if p.ndim != 2 or p.shape[0] < 4 or p.shape[1] != 2:
+            raise HostError(f"The points of a lane have the shape {p.shape}; they must be four or more (x, y).")
         chords = np.hypot(*np.diff(p, axis=0).T)
         if not (chords > 0.0).all():
             raise HostError(f"Point {int(np.argmin(chords)) + 1} of a lane lies on the one before it.")
-        if not (isinstance(width, (int, float, np.number)) and 0.0 < width < np.inf):
-            raise HostError(f"The width of a lane is {brief(width)}; it must be a positive number, in m.")
-        self.width = float(width)
+        self.width = positive(width, "The width of a lane", "m")
         self.closed = bool((p[0] == p[-1]).all())
         way = np.concatenate([[0.0], np.cumsum(chords)])
         self.length = float(way[-1])
@@ -64,6 +63,7 @@ class Lane:
         length : float
             Along x, m.
         """
+        length = positive(length, "The length of a lane", "m")
         x = np.linspace(0.0, length, max(4, round(length)) + 1)
         return cls(np.column_stack([x, [course.path(float(each))[0] for each in x]]), width)
 
@@ -79,8 +79,8 @@ class Lane:
         HostError
             The place is not finite.
         """
-        if not math.isfinite(x + y):
-            raise HostError(f"The place on a lane is ({x:g}, {y:g}); it must be two finite numbers.")
+        if not (is_finite(x) and is_finite(y)):
+            raise HostError(f"The place on a lane is ({brief(x)}, {brief(y)}); it must be two finite numbers.")
         away = np.hypot(self._places[:, 0] - x, self._places[:, 1] - y)
         if self._last is not None:
             gap = np.abs(self._ways - self._last)
@@ -129,17 +129,30 @@ class Lane:
         curvature : ndarray of float
             Of the lane at the distances ahead, positive to the left, 1/m.
         """
+        if not is_finite(yaw):
+            raise HostError(f"The heading on a lane is {brief(yaw)}; it must be a finite number, in rad.")
         s = self.place(x, y)
         lane_x, lane_y, ahead_x, ahead_y = self._line(s)[:4]
         direction = np.arctan2(ahead_y, ahead_x)
         offset = np.cos(direction) * (y - lane_y) - np.sin(direction) * (x - lane_x)
         heading = (yaw - direction + np.pi) % (2.0 * np.pi) - np.pi
-        return float(offset), float(heading), self.curvature(s + np.asarray(ahead, dtype=float))
+        return float(offset), float(heading), self.curvature(s + _numbers(ahead, "The distances ahead"))
 
     def curvature(self, ways: ArrayLike) -> NDArray[np.float64]:
         """Curvature of the centre line at ways along it, positive to the left, 1/m; beyond an open end that there."""
-        s = np.asarray(ways, dtype=float)
+        s = _numbers(ways, "The ways along a lane")
         s = s % self.length if self.closed else np.clip(s, 0.0, self.length)
         ahead_x, ahead_y, bend_x, bend_y = np.moveaxis(self._line(s), -1, 0)[2:]
         found: NDArray[np.float64] = (ahead_x * bend_y - ahead_y * bend_x) / np.hypot(ahead_x, ahead_y) ** 3
         return found
+
+
+def _numbers(given: ArrayLike, what: str) -> NDArray[np.float64]:
+    """Numbers of a size that a lane has; `what`, a plural, is the subject of the error."""
+    try:
+        numbers = np.asarray(given, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        numbers = np.array(np.nan)
+    if not (np.abs(numbers) <= FARTHEST).all():
+        raise HostError(f"{what} are {brief(given)}; they must be numbers up to {FARTHEST:g} m.")
+    return numbers

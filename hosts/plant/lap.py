@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from gymnasium import spaces
 
+from hosts.common.arguments import positive
 from hosts.common.errors import HostError
 from hosts.common.world_files import make_world
 from hosts.driving.course import Course
@@ -134,8 +135,8 @@ class LapDriver:
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
             raise HostError(f"The driver needs constants that the car does not tell: {', '.join(missing)}.")
         known = {name: constants[constant] for name, constant in CONSTANTS.items()}
-        self.environment = environment
-        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=speed, **known))
+        self.environment, wanted = environment, positive(speed, "The speed of the driver", "m/s")
+        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=wanted, **known))
 
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""

@@ -11,6 +11,7 @@ import gymnasium
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from ali3.cores import available_cores
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.plant.environments import AntiLockBraking, Floats, LaneKeeping
 from hosts.plant.lap import ProvingGroundLap
@@ -84,8 +85,8 @@ class Together(SyncVectorEnv[Floats, Floats]):
     """
 
     def __init__(self, env_fns: Sequence[Callable[[], _Single]], threads: int | None = None, **options: Any) -> None:
-        if not env_fns:
-            raise HostError("No environments are to run together; there must be one or more.")
+        if not (isinstance(env_fns, Sequence) and env_fns and all(map(callable, env_fns))):
+            raise HostError(f"The environments are {brief(env_fns)}; they must be a list of functions, each makes one.")
         if threads is not None and not (isinstance(threads, int) and threads >= 1):
             raise HostError(f"The number of threads is {threads!r}; it must be a whole number from 1.")
         super().__init__([lambda make=make: _Ahead(make()) for make in env_fns], **options)  # type: ignore[misc]
@@ -94,6 +95,10 @@ class Together(SyncVectorEnv[Floats, Floats]):
 
     def step(self, actions: Any) -> Any:
         """A step of each; see `gymnasium.vector.VectorEnv.step`."""
+        if self.closed:
+            raise HostError("The environments are closed; make other ones.")
+        if not (hasattr(actions, "__len__") and len(actions) == self.num_envs):
+            raise HostError(f"The actions are {brief(actions)}; they must be {self.num_envs}, one an environment.")
         pairs = list(zip(self.envs, gymnasium.vector.utils.iterate(self.action_space, actions), strict=True))
 
         def share(first: int) -> None:
@@ -112,6 +117,8 @@ class Together(SyncVectorEnv[Floats, Floats]):
 
 
 def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> Together:
+    if not isinstance(num_envs, int) or num_envs < 1:
+        raise HostError(f"The number of environments is {brief(num_envs)}; it must be a whole number from 1.")
     own = {name: options.pop(name) for name in ("threads", "autoreset_mode", "copy") if name in options}
     return Together(num_envs * [partial(environment, **options)], **own)
 

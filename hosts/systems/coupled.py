@@ -12,11 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.near_names import did_you_mean
+from ali3.words import brief
+from hosts.common.arguments import positive, texts
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import Value, is_finite
 from hosts.fmu.fmu import Fmu, StepRefusedError
-from hosts.systems.wires import Wire, parted, starts_of, wires_of
+from hosts.systems.wires import Wire, fmus_of, parted, starts_of, wires_of
 
 Array = NDArray[np.float64]
 Order = Literal["in turn", "at once"]
@@ -80,12 +82,10 @@ class CoupledFmus(Closing):
     ) -> None:
         if order not in ORDERS or inputs not in INPUTS:
             raise HostError(f"order '{order}', inputs '{inputs}'; they are out of {ORDERS} and {INPUTS}.")
-        if not 0.0 < step < np.inf:
-            raise HostError(f"The communication step is {step!r} s; it must be a positive number.")
-        self.step_length, self.order, self.inputs = float(step), order, inputs
+        self.step_length, self.order, self.inputs = positive(step, "The communication step", "s"), order, inputs
         self._steps, self._own, self._state = 0, list[str](), "new"
         with ExitStack() as stack:
-            fmus = {name: stack.enter_context(Fmu(Path(path))) for name, path in parts.items()}
+            fmus = fmus_of(parts, stack)
             wires = wires_of(connections, fmus)
             self._parts = [_part(name, fmu, wires) for name, fmu in fmus.items()]
             self._cannot_save = [n for n, f in fmus.items() if not f.description.coSimulation.canGetAndSetFMUstate]
@@ -113,8 +113,8 @@ class CoupledFmus(Closing):
     def fmu(self, name: str) -> Fmu:
         """A part; inputs that no wire sets are set there."""
         fmus = self._fmus()
-        if name not in fmus:
-            raise HostError(f"There is no part '{name}'{did_you_mean(name, fmus)}")
+        if not isinstance(name, str) or name not in fmus:
+            raise HostError(f"There is no part {brief(name)}{did_you_mean(str(name), fmus)}")
         return fmus[name]
 
     def initialise(self, **start: Value) -> None:
@@ -203,11 +203,11 @@ class CoupledFmus(Closing):
         hosts.fmu.fmu.StepRefusedError, HostError
             As of `step`; or the time is no whole number of steps.
         """
-        steps = duration / self.step_length
+        steps = duration / self.step_length if is_finite(duration) else np.nan
         if not (0.0 <= steps < np.inf and abs(steps - round(steps)) < 1e-6 * max(steps, 1.0)):
             raise HostError(
-                f"A run of {duration:g} s is {steps:.6g} communication steps of {self.step_length:g} s; it must be a "
-                "whole number of them."
+                f"A run of {brief(duration)} s is {steps:.6g} communication steps of {self.step_length:g} s; "
+                "it must be a whole number of them."
             )
         read = self._reader(names)
         rows = [read()]
@@ -230,7 +230,7 @@ class CoupledFmus(Closing):
         if self._state == "new":
             raise HostError("A system must be initialised before its values are read.")
         getters = []
-        for text in names:
+        for text in texts(names, "The variables"):
             part, name = parted(text, fmus)
             variables = fmus[part].variables
             if name not in variables or variables[name].type not in ("Real", "Integer"):

@@ -6,17 +6,19 @@ import tempfile
 import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
+from os import PathLike
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
 from ali3.files import check_writable, whole_file
 from ali3.parameter_set import Entry, ParameterSet
+from ali3.words import brief
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.parameters_as_set import written
-from hosts.systems.wires import Wire, starts_of, wires_of
+from hosts.systems.wires import Wire, fmus_of, starts_of, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"
@@ -49,12 +51,16 @@ def write_ssp(
     FileError
         The file cannot be written; an older one is then unchanged.
     """
-    if file.suffix != ".ssp":
+    if not isinstance(file, (str, PathLike)):
+        raise HostError(f"The file of an SSP is {brief(file)}; it must be a path.")
+    if (file := Path(file)).suffix != ".ssp":
         raise HostError(f"{file}: the name of an SSP ends in .ssp.")
+    if not isinstance(name, str) or not name.isprintable():
+        raise HostError(f"The name of the system is {brief(name)}; it must be a text that can be printed.")
     check_writable(file)
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        fmus = {part: stack.enter_context(Fmu(Path(path))) for part, path in parts.items()}
+        fmus = fmus_of(parts, stack)
         wires = wires_of(connections, fmus)
         content = {f"resources/{part}.fmu": Path(path) for part, path in parts.items()}
         for part, values in starts_of(start, fmus).items():

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
 
 from ali3.near_names import did_you_mean
+from ali3.words import brief
+from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.units import known_unit, says_nothing
@@ -31,6 +36,22 @@ class Wire:
     input: str
 
 
+def fmus_of(parts: Mapping[str, Path], stack: ExitStack) -> dict[str, Fmu]:
+    """The FMUs of a system by the names of its parts, which `stack` closes.
+
+    Raises
+    ------
+    HostError
+        A part has a name that no file can have, or no FMU that can be opened.
+    """
+    for part, path in mapping(parts, "The parts of a system").items():
+        if not re.fullmatch(r"[\w-]+", part):
+            raise HostError(f"A part is named {brief(part)}; its name must be of letters, digits, '_' and '-'.")
+        if not isinstance(path, (str, PathLike)):
+            raise HostError(f"The part '{part}' is {brief(path)}; it must be the path of an FMU.")
+    return {part: stack.enter_context(Fmu(Path(path))) for part, path in parts.items()}
+
+
 def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[Wire, ...]:
     """Connections of a system, held against its parts.
 
@@ -42,13 +63,10 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
     Raises
     ------
     HostError
-        There is no such part or variable, the units of both ends differ, or a part has a name that no file can have.
+        There is no such part or variable, or the units of both ends differ.
     """
-    for part in parts:
-        if not re.fullmatch(r"[\w-]+", part):
-            raise HostError(f"A part is named '{part}'; its name must be of letters, digits, '_' and '-'.")
     wires = []
-    for end, start in connections.items():
+    for end, start in mapping(connections, "The connections").items():
         target, name = _split(end, parts, "input")
         source, output = _split(start, parts, "output")
         units = [parts[p].variables[n].unit for p, n in ((source, output), (target, name))]
@@ -77,7 +95,7 @@ def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str,
         There is no such part or variable, or a value is none of its variable.
     """
     found: dict[str, dict[str, Value]] = {part: {} for part in parts}
-    for text, value in start.items():
+    for text, value in mapping(start, "The start values").items():
         part, name = parted(text, parts)
         source = f"The part '{part}'"
         found[part][name] = parts[part].table.settable(name, source).check(value, source)
@@ -86,10 +104,10 @@ def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str,
 
 def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
     """Part and variable of ``part.variable``; a `HostError` where there is no such part."""
-    part, dot, name = text.partition(".")
+    part, dot, name = text.partition(".") if isinstance(text, str) else ("", "", "")
     if part not in parts:
         known = f"the parts are {', '.join(parts)}"
-        raise HostError(f"'{text}' names no part{did_you_mean(part, parts, known)}")
+        raise HostError(f"{brief(text)} names no part{did_you_mean(part, parts, known)}")
     if not dot:
         raise HostError(f"'{text}' names a part and no variable; it must be PART.VARIABLE.")
     return part, name

@@ -63,11 +63,21 @@ class ChannelSensorVocabulary(SensorBase):
         one = [Affine({}, 1.0)]
         return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
 
-    def sense_input(self, name: str, input: Input, *, unit: str = "", description: str = "") -> Sensor:
-        """An input as it is used, within its limits, by default in its own unit."""
+    def sense_input(
+        self, name: str, input: Input, *, scale: float = 1.0, unit: str = "", description: str = ""
+    ) -> Sensor:
+        """An input as it is used, within its limits, by default in its own unit.
+
+        Parameters
+        ----------
+        scale : float
+            Factor on it; by another one than 1 it is no whole number.
+        """
         channel = owned_input(self, input, f"The sensor '{name}'")
-        unit = self._unit(unit, channel.unit)
-        integers = [channel.index]
+        unit, integers = self._unit(unit, channel.unit), [channel.index]
+        factor = number(scale, f"The scale of sensor '{name}'")
+        if factor != 1.0:
+            return self._sense(name, unit, description, SensorType.SCALED_INPUT, integers=integers, reals=[factor])
         return self._sense(name, unit, description, SensorType.INPUT, integers=integers, whole=channel.whole)
 
     def sense_guide(

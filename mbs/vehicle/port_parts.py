@@ -204,3 +204,6 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
     if elements or guided:
         kind = "with guides" if guided else "nonconservative"
         m.sense_energy("energy.ports", kind, elements, description=text)
+    if car.ports.brakes is None:
+        text = "pressure in the brakes of all wheels by the pedal"
+        m.sense_input("brake_pressure", b.inputs["brake"], scale=car.ports.full_pressure, unit="Pa", description=text)

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import json
+import subprocess
+from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from benchmarks import fmu
+from benchmarks.car import road_port_cost
+from benchmarks.car.road_port_steps import ANSWER, answers, height
 
 SCENE = Path(__file__).parents[2] / "examples" / "motor_pendulum.py"
 
@@ -26,3 +31,28 @@ def test_every_quantity_has_a_figure(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert all(value > 0.0 for value in native.values())
     assert {h for _, h in native} == {"C", "FMPy"}
     assert content["meta"]["scene"] == scene
+
+
+def test_answers_are_the_planes_that_touch_the_waves() -> None:
+    places = [0.3, 1.0, 1.7, -1.0]
+    for (x, y), told in zip(np.reshape(places, (2, 2)), np.reshape(answers(places, 0.015), (2, 7)), strict=True):
+        point = dict(zip(ANSWER, told, strict=True))
+        slope = (height(x + 1e-6, 0.015) - height(x - 1e-6, 0.015)) / 2e-6
+        normal = np.array([-slope, 0.0, 1.0]) / np.hypot(1.0, slope)
+        assert abs(slope) > 0.01
+        assert (point["x"], point["y"], point["height"]) == (x, y, height(x, 0.015))
+        assert [point[f"normal_{c}"] for c in "xyz"] == pytest.approx(normal.tolist(), abs=1e-9)
+
+
+@pytest.mark.slow
+def test_cars_on_a_road_of_their_own_and_at_road_ports_make_the_steps_that_are_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def counted(command: Sequence[str]) -> int:
+        subprocess.run(command, check=True)
+        return 500 + (1300 if "ported" in command[-3] else 1000) * int(command[-1])
+
+    monkeypatch.setattr(road_port_cost, "instructions", counted)
+    rows = road_port_cost.measure("prototype", 2, tmp_path)
+    assert [row["own road"] for row in rows] == [1000, 1000]
+    assert [row["ratio"] for row in rows] == [1.3, 1.3]

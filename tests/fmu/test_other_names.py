@@ -150,6 +150,21 @@ def test_names_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
         named(tmp_path, text)
 
 
+def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
+    """Points, normals and places of a wheel are triples; its friction is watched by nobody."""
+    from fmu_src.variables.other_names import renamed
+    from fmu_src.variables.variables import variable_table
+
+    bound = ("road_x", "road_y", "road_height", "road_normal_y", "road_normal_z", "y", "z", "vx")
+    lines = [f'"{name}" = {{ name = "other.{name}", factor = 1e3 }}' for name in (*bound, "road_friction", "load")]
+    (tmp_path / "names.toml").write_text("\n".join(lines), encoding="utf-8")
+    table = variable_table(load_scene(f"{SCENES}:answered")[1].meta, pose=False, step_size=0.01)
+    found = renamed(table, read_content(tmp_path / "names.toml"))
+    assert set(found.named) == {"road_friction", "load"}
+    assert set(found.left_out) == set(bound)
+    assert "is of a port, which works in m" in found.left_out["road_height"]
+
+
 @pytest.mark.parametrize(
     ("text", "why"),
     [

@@ -86,6 +86,18 @@ def test_an_answer_far_from_what_it_is_for_is_told_once(host, sledge) -> None:
     assert "'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in told[0]
 
 
+@pytest.mark.parametrize("step", [0.01, 0.25])
+def test_an_answer_far_away_is_told_where_no_output_is_read(host, sledge, step) -> None:
+    """It is passed at 0.5 s."""
+    h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
+    told = []
+    for k in range(round(0.75 / step)):
+        assert h.step(step * k, step) == OK
+        told.append(sum("last answer on the road" in text for text in h.messages))
+    assert told[round(0.5 / step) - 2] == 0
+    assert told[round(0.75 / step) - 1] == 1
+
+
 @pytest.mark.parametrize(("jump", "where"), [(150.0, "above"), (0.03, "above"), (-0.03, "below")])
 def test_an_answer_that_leaves_the_plane_of_the_last_one_is_told_once(host, sledge, jump, where) -> None:
     """A road that goes on with its slope does not; 10 mm are what curvature makes between answers."""

@@ -82,6 +82,7 @@ SCALED = (
     "GUIDE",
     "MASS",
     "GUIDE_EXCESS",
+    "SCALED_INPUT",
 )
 
 

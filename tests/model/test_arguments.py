@@ -312,7 +312,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
     "sense_guide excess": lambda b: seen(b, guide=b.limited, kind="excess", order=0, scale=2.0),
     "sense_guide force": lambda b: seen(b, guide=b.guide, kind="force", joints=[b.drive], scale=2.0),
     "sense_constant": lambda b: {**seen(b, value=1.0), "whole": True, "computed": False},
-    "sense_input": lambda b: seen(b, input=b.pedal),
+    "sense_input": lambda b: seen(b, input=b.pedal, scale=2.0),
     "sense_solver": lambda b: {"name": "new", "kind": "violation", "description": "what it is"},
     "turning": lambda b: {"name": "new", "body": b.arm, "at": X, "axis": Y, "angle": b.angle},
     "sliding": lambda b: {"name": "new", "body": b.arm, "at": X, "direction": Y, "way": "place"},

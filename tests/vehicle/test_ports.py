@@ -231,6 +231,22 @@ def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share() -> None:
     assert now["wheel_FL.brake_power"] == pytest.approx(now["wheel_FL.brake_torque"] * now["wheel_FL.omega"], rel=1e-2)
 
 
+def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
+    pedal = simulation(rigid, torque="half_shafts", full_pressure=8e6)
+    port = simulation(rigid, torque="half_shafts", brakes="pressure", full_pressure=8e6)
+    pedal.set_input("brake", 0.25)
+    pedal.step(STEP)
+    assert pedal.sensors["brake_pressure"] == 2e6
+    for w in WHEELS:
+        port.set_input(f"wheel_{w}.brake_pressure", pedal.sensors["brake_pressure"])
+    port.step(STEP)
+    for w in WHEELS:
+        torque = port.sensors[f"wheel_{w}.brake_torque"]
+        assert torque < -10.0
+        assert torque == pytest.approx(pedal.sensors[f"wheel_{w}.brake_torque"], rel=1e-12)
+    assert "brake_pressure" not in port.sensors
+
+
 def test_a_brake_by_torque_holds_the_standing_car() -> None:
     """It is what the brake can hold, not a torque that turns the wheel backwards."""
     s = simulation(rigid, 3.0, brakes="torque")

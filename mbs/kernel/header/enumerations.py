@@ -173,6 +173,7 @@ class SensorType(IntEnum):
     GUIDE_EXCESS = 21
     REACTION_BY_TABLE = 22
     GUIDED_WORK = 23
+    SCALED_INPUT = 24
 
 
 SENSOR_READS = {
@@ -200,6 +201,7 @@ SENSOR_READS = {
     SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
     SensorType.REACTION_BY_TABLE: SensorReads.ROWS,
     SensorType.GUIDED_WORK: SensorReads.FORCES,
+    SensorType.SCALED_INPUT: SensorReads.INPUTS,
 }
 
 

@@ -26,7 +26,12 @@ NAMES = (
     *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
     *("wheel_FL.Fz", "wheel_RR.omega", "wheel_FL.slip", "wheel_FR.steer", "wheel_RL.travel", "engine_speed"),
 )
-THEIRS = {"carmaker": "Car.YawRate", "carsim": "IMP_STEER_SW", "chrono": "ref_frame.rot.e0"}
+THEIRS = {
+    "carmaker": "Car.YawRate",
+    "carsim": "IMP_STEER_SW",
+    "chrono": "ref_frame.rot.e0",
+    "osi": "host_vehicle_data.vehicle_wheels.wheel[0].slip",
+}
 
 
 def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:

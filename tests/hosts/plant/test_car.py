@@ -153,7 +153,13 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
     for bad in ("brake", {"steering": 0.0}, [0.0, "x"]):
         with pytest.raises(HostError, match="they must be numbers, in an array"):
             car.step(bad)
-    for into in (np.zeros(3), np.zeros((2, 1)), np.zeros(2, int), [0.0, 0.0]):
+    with pytest.raises(HostError, match="they must be numbers, in an array"):
+        car.step([10**400, 0.0])
+    with pytest.raises(HostError, match="The names have 1 among them; they must be a list or tuple of texts"):
+        car.read([1])  # type: ignore[list-item]
+    locked = np.zeros(2)
+    locked.flags.writeable = False
+    for into in (np.zeros(3), np.zeros((2, 1)), np.zeros(2, int), [0.0, 0.0], locked):
         with pytest.raises(HostError, match="it must be an array of 2 floats") as told:
             car.read(("speed", "chassis.x"), into)
         assert "\n" not in str(told.value)
@@ -205,9 +211,26 @@ def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"car": 1}, "The car is 1; it must be a name, a folder or a file."),
+        ({"car": "a\x00b"}, r"The car is 'a\\x00b'"),
+        ({"car": 1000 * "a"}, "cannot be read: file name too long."),
+        ({"ports": {"torque": 1}}, "The ports are {'torque': 1}; they must be a list or tuple of texts."),
+        ({"parameters": 5}, "The parameters are 5; they must be a dictionary."),
+        ({"step": "0.01"}, "The communication step of a car is '0.01'; it must be a positive number, in s."),
+    ],
+)
+def test_options_of_another_type_are_one_sentence(options: dict[str, object], words: str) -> None:
+    with pytest.raises(HostError, match=words):
+        Car(**options)
+
+
+@pytest.mark.parametrize(
     ("inputs", "words"),
     [
-        ("steering", "The names are the text 'steering'; they must be a list or tuple of names."),
+        ("steering", "The names are 'steering'; they must be a list or tuple of texts."),
+        (5, "The names are 5; they must be a list or tuple of texts."),
         (("stering",), "no input 'stering'; did you mean 'steering'?"),
         (("steering", "throttle", "steering"), "'steering' is named 2 times"),
     ],

@@ -93,6 +93,8 @@ def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> Non
         given, _ = env.reset(seed=1, options={"initial.speed": 10.0, "road.friction": (0.4, 0.5)})
         assert given[2] == pytest.approx(10.0, rel=1e-3)
         assert 0.4 < env.car.read(("road.friction",))[0] < 0.5
+        with pytest.raises(HostError, match="The options of a start are 5; they must be a dictionary"):
+            env.reset(seed=1, options=5)
         with pytest.raises(HostError, match=r"no parameter or input 'speed'"):
             env.reset(seed=1, options={"speed": 10.0})
         again, _ = env.reset(seed=1)

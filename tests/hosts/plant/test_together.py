@@ -102,5 +102,16 @@ def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
     for threads in (0, -1, 1.5):
         with pytest.raises(HostError, match="whole number from 1"):
             gymnasium.make_vec(LANE, 2, threads=threads, car=str(rigid_fmu))
-    with pytest.raises(HostError, match="one or more"):
-        Together([])
+    for functions in ([], None, [5]):
+        with pytest.raises(HostError, match="they must be a list of functions, each makes one"):
+            Together(functions)  # type: ignore[arg-type]
+    with pytest.raises(HostError, match="number of environments is 0; it must be a whole number from 1"):
+        gymnasium.make_vec(LANE, 0, car=str(rigid_fmu))
+    made = gymnasium.make_vec(LANE, 2, car=str(rigid_fmu))
+    made.reset(seed=0)
+    for actions in (None, np.zeros((3, 1), np.float32)):
+        with pytest.raises(HostError, match="they must be 2, one an environment"):
+            made.step(actions)
+    made.close()
+    with pytest.raises(HostError, match="The environments are closed"):
+        made.step(np.zeros((2, 1), np.float32))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -13,8 +12,8 @@ from pythonfmu import FmuBuilder
 
 from hosts.common.numbers import Value
 from hosts.systems import CoupledFmus
-from hosts.systems.coupled import INPUTS, Inputs, Order
-from tests.hosts.systems.weak_coupling import car_fmu, percent
+from hosts.systems.coupled import Inputs, Order
+from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.test_ports import WHEELS
 
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
@@ -151,15 +150,3 @@ def run(
         rows = system.run(case.time, reads)
         assert not system.messages, system.messages
     return dict(zip(reads, rows.T, strict=True))
-
-
-def lines() -> Iterator[str]:
-    """The table of how much the measure at the end changes with the step, in parts of its change over the run."""
-    steps = (0.002, 0.004, 0.01)
-    yield "| system | measured at the end | " + " | ".join(f"{1e3 * h:g} ms" for h in steps) + " |"
-    yield "| --- | --- |" + " --- |" * len(steps)
-    for name, case in SYSTEMS.items():
-        finest = run(name, INNER, inputs="repeated")[case.measure]
-        for inputs in INPUTS:
-            errors = [abs(run(name, h, inputs=inputs)[case.measure][-1] - finest[-1]) / np.ptp(finest) for h in steps]
-            yield f"| {name}, {inputs} | `{case.measure}` | {' | '.join(map(percent, errors))} |"

@@ -8,12 +8,12 @@ from __future__ import annotations
 import sys
 
 from benchmarks.shared.pages import DOCS, replace
-from tests.hosts.systems import controlled, weak_coupling
+from tests.hosts.systems import twins, weak_coupling
 
 if __name__ == "__main__":
     errors: weak_coupling.Errors = {}
     blocks = {"coupling of parts": "", "coupling of controllers": ""}
-    for name, lines in zip(blocks, (weak_coupling.lines(errors), controlled.lines()), strict=True):
+    for name, lines in zip(blocks, (weak_coupling.lines(errors), twins.lines()), strict=True):
         for line in lines:
             print(line, flush=True)
             blocks[name] += f"{line}\n"

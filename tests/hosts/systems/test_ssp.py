@@ -72,6 +72,7 @@ def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) ->
         ("all", "a.ssp", {"all.count": 1.5}, "'count' is 1.5; it must be a whole number"),
         ("all", "a.ssp", {"all.file": 1.0}, "'file' is 1; it must be a String"),
         ("all", "a.zip", {}, r"a\.zip: the name of an SSP ends in \.ssp"),
+        ("all", "a.ssp", {1: 2.0}, "The names of the start values have 1 among them"),
         ("../all", "a.ssp", {}, r"A part is named '\.\./all'; its name must be of letters"),
         ("a.b", "a.ssp", {}, r"A part is named 'a\.b'; its name must be of letters"),
     ],
@@ -82,6 +83,17 @@ def test_what_cannot_be_is_one_sentence_and_writes_nothing(
     with pytest.raises(HostError, match=words):
         write_ssp(tmp_path / file, {name: partners["settings"]}, {}, start)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, Path], tmp_path: Path) -> None:
+    """Text that XML has no character for would make an SSP that nobody reads."""
+    with pytest.raises(HostError, match="The file of an SSP is 1; it must be a path"):
+        write_ssp(1, halves(partners), WIRES, {})  # type: ignore[arg-type]
+    for name, told in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
+        with pytest.raises(HostError, match=f"The name of the system is {told}; it must be a text that can be printed"):
+            write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, name=name)
+    assert list(tmp_path.iterdir()) == []
+    assert write_ssp(str(tmp_path / "a.ssp"), halves(partners), WIRES, {}, name="<&>").is_file()  # type: ignore[arg-type]
 
 
 def test_an_older_file_stays_where_the_new_one_fails(partners: dict[str, Path], tmp_path: Path, monkeypatch) -> None:

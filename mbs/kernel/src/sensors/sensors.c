@@ -223,6 +223,10 @@ static double value_input(const ali3_instance *in, const int32_t *v, const doubl
   return in->now.used[v[0]];
 }
 
+static double value_scaled_input(const ali3_instance *in, const int32_t *v, const double *real) {
+  return real[0] * in->now.used[v[0]];
+}
+
 static double value_guide(const ali3_instance *in, const int32_t *v, const double *real) {
   const double *of_order[3] = {in->now.s, in->now.sd, in->now.sdd};
   return real[0] * of_order[v[1]][v[0]];

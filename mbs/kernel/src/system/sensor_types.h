@@ -70,7 +70,9 @@
     "n, then n times: row, 3 signals, guide, guide by a table (-1: none)", "n weights", \
     "sum weight * lam_user * u * u * u * s * ds/du: the force of a guide that others follow by a table") \
   X(23, GUIDED_WORK, guided_work, "n(e)", 0, 0, NEVER, FORCES, \
-    "n, then n elements", "-", "work of all guides and nonconservative work of elements since the start, J")
+    "n, then n elements", "-", "work of all guides and nonconservative work of elements since the start, J") \
+  X(24, SCALED_INPUT, scaled_input, "u", 1, 0, NEVER, INPUTS, \
+    "input", "scale", "scale * input as used")
 /* clang-format on */
 
 enum {

@@ -1,0 +1,69 @@
+"""Steps of a car through FMPy, on a road of its own or with answers at its road ports; valgrind counts them.
+
+python -m benchmarks.car.road_port_steps FOLDER ROAD STEPS, with a folder that an FMU is unpacked in, and the file of
+its own road or the amplitude of the waves that are answered, m.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable
+
+import fmpy
+from fmpy.fmi2 import FMU2Slave
+
+STEP, SPEED, LENGTH, FRICTION = 0.002, 10.0, 2.0, 0.9  # s, m/s, m of a wave, 1
+WHEELS, ANSWER = ("FL", "FR", "RL", "RR"), ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
+WAVE = 2.0 * math.pi / LENGTH
+
+
+def height(x: float, amplitude: float) -> float:
+    """Of the waves, m, level at x = 0."""
+    return amplitude * (1.0 - math.cos(WAVE * x))
+
+
+def answers(places: list[float], amplitude: float) -> list[float]:
+    """The plane that touches the waves at each point asked for, as the ports take it."""
+    told: list[float] = []
+    for k in range(0, len(places), 2):
+        x, y = places[k : k + 2]
+        slope = amplitude * WAVE * math.sin(WAVE * x)
+        size = math.hypot(1.0, slope)
+        told += (x, y, height(x, amplitude), -slope / size, 0.0, 1.0 / size, FRICTION)
+    return told
+
+
+def main(folder: str, road: str, steps: str) -> None:
+    """Start the car and make the steps."""
+    description = fmpy.read_model_description(folder)
+    reference = {v.name: v.valueReference for v in description.modelVariables}
+    model = description.coSimulation.modelIdentifier
+    car = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=model, instanceName="car")
+    car.instantiate()
+    car.setupExperiment(startTime=0.0)
+    car.setReal([reference["initial.speed"]], [SPEED])
+    asked = [reference[f"wheel_{w}.contact_{c}"] for w in WHEELS for c in "xy"]
+    inputs, amplitude = [reference["steering"], reference["throttle"]], None
+    if "road.file" in reference:
+        car.setString([reference["road.file"]], [road])  # without a name the plane
+    else:
+        amplitude = float(road)
+        inputs += [reference[f"wheel_{w}.road_{name}"] for w in WHEELS for name in ANSWER]
+    told: Callable[[], list[float]] = lambda: [0.1, 0.2]  # noqa: E731
+    if amplitude is not None:
+        told = lambda: [0.1, 0.2, *answers(car.getReal(asked), amplitude)]  # noqa: E731
+    car.enterInitializationMode()
+    car.setReal(inputs, told())
+    car.exitInitializationMode()
+    for k in range(int(steps)):
+        values = told() if amplitude is not None else (car.getReal(asked), told())[1]
+        car.setReal(inputs, values)
+        car.doStep(currentCommunicationPoint=k * STEP, communicationStepSize=STEP)
+    speed = car.getReal([reference["speed"]])[0]
+    if not abs(speed - SPEED) < 1.0:
+        raise RuntimeError(f"The car has {speed:g} m/s after {steps} steps, begun at {SPEED:g} m/s.")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,35 @@
+"""Arguments of functions that people call from Python, held against what they must be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ali3.words import brief
+from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
+
+
+def positive(value: Any, what: str, unit: str) -> float:
+    """A positive number, else a `HostError` with `what` as its subject."""
+    if not is_finite(value) or value <= 0.0:
+        raise HostError(f"{what} is {brief(value)}; it must be a positive number, in {unit}.")
+    return float(value)
+
+
+def mapping(value: object, what: str) -> Mapping[str, Any]:
+    """A mapping whose keys are text, else a `HostError` with `what`, a plural, as its subject."""
+    if not isinstance(value, Mapping):
+        raise HostError(f"{what} are {brief(value)}; they must be a dictionary.")
+    texts(list(value), f"The names of {what[:1].lower()}{what[1:]}")
+    return value
+
+
+def texts(values: object, what: str) -> tuple[str, ...]:
+    """Texts in their order, else a `HostError` with `what`, a plural, as its subject."""
+    if not isinstance(values, Iterable) or isinstance(values, (str, bytes, Mapping)):
+        raise HostError(f"{what} are {brief(values)}; they must be a list or tuple of texts.")
+    found = tuple(values)
+    if odd := [value for value in found if not isinstance(value, str)]:
+        raise HostError(f"{what} have {brief(odd[0])} among them; they must be a list or tuple of texts.")
+    return found
