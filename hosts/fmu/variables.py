@@ -158,11 +158,9 @@ class Variables:
     ----------
     description : ModelDescription
         As FMPy reads it.
-    program : str
-        How messages call the FMU.
     """
 
-    def __init__(self, description: ModelDescription, program: str = "the FMU") -> None:
+    def __init__(self, description: ModelDescription) -> None:
         units = {u.name: u for u in description.unitDefinitions}
         self._variables = {v.name: _variable(v, units) for v in description.modelVariables}
         self.names = list(self._variables)

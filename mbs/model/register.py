@@ -240,26 +240,20 @@ class Register:
             raise ModelError(f"{what} has an expression of coordinates that model '{self.name}' does not have.")
         return given
 
-    def expressions(self, given: AffineVector, what: str, sizes: tuple[int, ...] = ()) -> AffineVector:
+    def expressions(self, given: AffineVector, what: str) -> AffineVector:
         """A point or vector of bodies, if its coordinates are those of this model.
 
         Parameters
         ----------
         given : AffineVector
             Such as ``body.point((0, 0, 1))``.
-        sizes : tuple of int
-            How many components it may have; by default the dimension of the model.
         """
-        sizes = sizes or (self.dimension,)
         if not isinstance(given, AffineVector):
             raise ModelError(
                 f"{what} needs a point or a vector of a body, such as body.point(...), got {shown(given)}."
             )
-        if len(given) not in sizes:
-            raise ModelError(
-                f"{what} has a point or a vector of {len(given)} components; it needs "
-                f"{' or '.join(str(n) for n in sizes)}."
-            )
+        if len(given) != self.dimension:
+            raise ModelError(f"{what} has a point or a vector of {len(given)} components; it needs {self.dimension}.")
         for component in given.components:
             self.expression(component, what)
         return given

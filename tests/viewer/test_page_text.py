@@ -156,6 +156,7 @@ def test_a_page_has_as_many_times_as_were_asked_for(most: int, tmp_path: Path) -
     assert written.notes[0].startswith(f"{kept} of 12001 times are shown")
     assert 0.9 * most < kept <= most
 
+
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
