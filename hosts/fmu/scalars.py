@@ -43,13 +43,7 @@ class Place:
 
 
 def element_names(path: Path) -> dict[str, list[str]]:
-    """Names of the elements of the arrays that say them, by the name of the array.
-
-    Parameters
-    ----------
-    path : Path
-        An FMU that can be read.
-    """
+    """Names of the elements of the arrays that say them, by the name of the array."""
     with zipfile.ZipFile(path) as archive:
         root = etree.fromstring(archive.read("modelDescription.xml"))
     found = root.iterfind(f"ModelVariables/*/Annotations/Annotation[@type='{ANNOTATION}']")

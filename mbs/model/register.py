@@ -34,31 +34,13 @@ def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
 
 
 class Register:
-    """Names and coordinates of a model.
+    """Names and coordinates of a `Model`, which describes the arguments.
 
     A public method of a model either does all it says or raises and changes nothing: every class of the vocabulary is
     made so when it is defined.
-
-    Parameters
-    ----------
-    name : str
-        Name of the model; it goes into the System and into messages.
-    dimension : {2, 3}
-        Planar (x, y) or spatial.
-    gravity : array_like, shape (dimension,), optional
-        Acceleration of gravity in earth axes, m/s2; by default 9.81 along -y (planar) or -z (spatial).
-    length : float, optional
-        What the tolerance of a run is relative to, m; by default the extent of the drawing.
-
-    Raises
-    ------
-    ModelError
-        The name is empty, or the dimension is neither 2 nor 3.
     """
 
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
+    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
         self.name = named(name, "a model")
         what = f"model '{self.name}'"
         self.dimension = whole(dimension, f"The dimension of {what}", 2, 3)
