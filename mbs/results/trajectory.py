@@ -177,9 +177,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         every = 1 if poses is None else poses.every
         columns, units = {n: v[::every] for n, v in self.items()}, dict(self.units)
         if poses is not None:
-            names = poses.recorded_names
-            columns |= {names[column]: values for column, values in poses.items()}
-            units |= {names[column]: unit for column, unit in poses.units.items()}
+            of_bodies, units_of_bodies = poses.recorded()
+            columns, units = columns | of_bodies, units | units_of_bodies
         found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
         if found.scene is None:
             drawn = shown(scene["name"])
@@ -284,9 +283,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     f"Poses were kept of one of {self.poses.every} samples; write "
                     f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
                 )
-            names = self.poses.recorded_names
-            columns |= {names[column]: values for column, values in self.poses.items()}
-            units |= {names[column]: unit for column, unit in self.poses.units.items()}
+            of_bodies, units_of_bodies = self.poses.recorded()
+            columns, units = columns | of_bodies, units | units_of_bodies
         with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])
