@@ -13,12 +13,12 @@ from ali3.words import shortened
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.posed import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load
-from mbs.vehicle.car_file import FILE
 from mbs.vehicle.ports import chosen_ports
 from mbs.vehicle.summary import grip_row
 
 FOLDER = "resources/car"
 """Where the car's file and its tables lie in an FMU."""
+_FILE = "car.toml"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
     if fidelity is not None:
         only = Fidelity.of(int(fidelity) if fidelity % 1.0 == 0.0 else fidelity)  # type: ignore[arg-type]
         name = f"{name or made.name}_{only.name.lower()}"
-    where = f"{made.folder / FILE}: the car '{made.name}' cannot be built"
+    where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
     try:
         makers: Mapping[Any, Maker] = made.fidelities()
         if fidelity is not None:
@@ -82,9 +82,9 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
     except (ArithmeticError, LookupError) as error:
         raise SceneError(f"{where}: {type(error).__name__}: {error}.") from error
     files = car_files(made)
-    if ports is not None and b"[ports]" not in files[f"{FOLDER}/{FILE}"]:  # so that the FMU can be built again from it
+    if ports is not None and b"[ports]" not in files[f"{FOLDER}/{_FILE}"]:  # so that the FMU can be built again from it
         table = "\n".join(["\n[ports]", *(f'{key} = "{kind}"' for key, kind in chosen.items()), ""])
-        files[f"{FOLDER}/{FILE}"] += table.encode()
+        files[f"{FOLDER}/{_FILE}"] += table.encode()
     return BuiltCar(name or made.name, made.description, systems, files, grip_of(made))
 
 
@@ -103,7 +103,7 @@ def car_words(car: str) -> str:
     """
     if _is_path(car) or car not in car_names():
         return shortened(car)
-    own = f" (the folder {car} here would be ./{car})" if (Path(car) / FILE).is_file() else ""
+    own = f" (the folder {car} here would be ./{car})" if (Path(car) / _FILE).is_file() else ""
     return f"{car} of the package{own}"
 
 
@@ -117,7 +117,7 @@ def car_files(car: Car) -> dict[str, bytes]:
     """
     folder = car.folder.resolve()
     named = {(folder / text).resolve() for text in _texts(car.model_dump())}
-    files = {folder / FILE} | {file for file in named if folder in file.parents and file.is_file()}
+    files = {folder / _FILE} | {file for file in named if folder in file.parents and file.is_file()}
     return {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file.read_bytes() for file in sorted(files)}
 
 
