@@ -9,15 +9,12 @@ from typing import Any
 
 from ali3.parameter_set import Entry, ParameterSet, ParameterSetError
 from ali3.reading import read_bytes
-from ali3.unit_definition import UnitDefinition
+from ali3.unit_definition import KINDS, UnitDefinition
 from ali3.xml_memory import is_lack_of_memory
 
 LARGEST = 10_000_000
 """Bytes that a file may have."""
 
-_KINDS = {"Float64": "Real", "Float32": "Real"} | {
-    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
-}
 
 _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 
@@ -123,7 +120,7 @@ def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
         if len(inner) != 1:
             raise ParameterSetError(f"{where}: '{name}' has {len(inner)} values; one is needed.")
         value = inner[0]
-    kind = _KINDS.get(kind, kind)
+    kind = KINDS.get(kind, kind)
     if kind in ("Real", "Integer", "Boolean") and len(value.split()) != 1:
         raise ParameterSetError(f"{where}: '{name}' has {len(value.split())} values; one is needed.")
     if kind not in ("String", "Enumeration"):

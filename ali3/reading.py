@@ -130,15 +130,9 @@ def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     return content
 
 
-def read_json(
-    file: str | os.PathLike[str],
-    error: Error = FileError,
-    name: str = "",
-    largest: int = LARGEST_JSON,
-    finite: bool = True,
-) -> Any:
+def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str = "", finite: bool = True) -> Any:
     """Content of a JSON file; see `check_file` and `json_of`."""
-    return json_of(read_bytes(file, largest, error, name), error, name or str(file), finite)
+    return json_of(read_bytes(file, LARGEST_JSON, error, name), error, name or str(file), finite)
 
 
 def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:

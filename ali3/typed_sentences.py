@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from ali3.columns import some_of
 from ali3.near_names import near_names
 from ali3.typed_paths import (
     all_keys,
@@ -131,8 +132,7 @@ class Sentences:
             return f"{self.place(path)} is not known; did you mean '{near}'?"
         places = self._places(path)
         if places and self.place(path) not in places:
-            more = f" and {len(places) - ELSEWHERE} more" if len(places) > ELSEWHERE else ""
-            return f"{self.place(path)} is not known; '{path[-1]}' stands at {', '.join(places[:ELSEWHERE])}{more}."
+            return f"{self.place(path)} is not known; '{path[-1]}' stands at {some_of(places, ELSEWHERE)}."
         table = table_at(self.top, path[:-1], self.data)
         known = ", ".join(keys_of(table)) if table else "none"
         why = f"belongs to another kind than {value_words(self._kind(path))}" if places else "is not known"

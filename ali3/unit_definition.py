@@ -1,4 +1,4 @@
-"""Units by their base units, as the standards SSP and FMI define them."""
+"""Types of numbers, and units by their base units, as the standards SSP and FMI define them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
-"""Base units of the standards SSP and FMI."""
+KINDS = {"Float64": "Real", "Float32": "Real"} | {
+    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
+}
+"""Types of FMI 2.0 by those of FMI 3.0."""
 
 
 @dataclass(frozen=True)

@@ -27,10 +27,8 @@ SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 _LARGEST = 4_000_000_000  # bytes of a file
 MOST_TRIANGLES = 100_000
 """Of a mesh that is drawn: 1.8 MB of a page."""
-LARGER, SMALLER = 20.0, 1.0 / 2000.0
-"""Sizes of a mesh, as shares of the model's, beyond which its unit is doubted: 25.4 and 1000 times lie beyond."""
-DOUBTED_SIZES = 1e-3, 500.0
-"""The same for a model whose size is not known, m."""
+_LEAST_SIZE, _MOST_SIZE = 1e-3, 500.0
+"""Sizes of a mesh beyond which its unit is doubted, m."""
 
 
 class MeshError(ViewerError):
@@ -38,16 +36,13 @@ class MeshError(ViewerError):
 
 
 def read_mesh(
-    path: str | os.PathLike[str],
-    scale: float = 1.0,
-    *,
-    extent: float | None = None,
-    most_triangles: int = MOST_TRIANGLES,
+    path: str | os.PathLike[str], scale: float = 1.0, *, most_triangles: int = MOST_TRIANGLES
 ) -> tuple[Positions, Triangles]:
     """Read the triangles of a mesh from a file.
 
     Points of the same place are one point. The axes are those of the file: a glTF file has its y axis up. All parts of
-    a file with several are read, each where the file places it; colours and textures are left out.
+    a file with several are read, each where the file places it; colours and textures are left out. A size below 1 mm or
+    above 500 m is warned about.
 
     Parameters
     ----------
@@ -55,8 +50,7 @@ def read_mesh(
         ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``.
     scale : float
         Metres per unit of the file: 0.001 for millimetres, 0.0254 for inches.
-    extent : float, optional
-        Size of the model that the mesh belongs to, m: a mesh that is very much larger or smaller is warned about.
+
     most_triangles : int
         A finer mesh is thinned by merging points that are close to each other; a warning says by how much they move.
 
@@ -79,7 +73,11 @@ def read_mesh(
         raise MeshError(f"{path} is no mesh: none of its triangles has an area.")
     if len(triangles) > most_triangles:
         points, triangles = _thinned(path, points, triangles, most_triangles)
-    _doubt_size(path, float(np.linalg.norm(np.ptp(points, axis=0))), extent)
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    if not _LEAST_SIZE <= size <= _MOST_SIZE:
+        large = "in a file in millimetres, scale=0.001 is needed"
+        advice = large if size > _MOST_SIZE else "scale is given in metres per unit"
+        warnings.warn(f"The mesh {path} is {size:.3g} m across; {advice}.", UserWarning, stacklevel=2)
     return points.astype(np.float32), triangles.astype(np.uint32)
 
 
@@ -183,18 +181,3 @@ def _thinned(
         stacklevel=3,
     )
     return merged, left[np.sort(first)]
-
-
-def _doubt_size(path: str | os.PathLike[str], size: float, extent: float | None) -> None:
-    if extent is None:
-        smallest, largest = DOUBTED_SIZES
-        beside = ""
-    else:
-        smallest, largest = SMALLER * extent, LARGER * extent
-        beside = f", the model {extent:.3g} m"
-    if smallest <= size <= largest:
-        return
-    advice = (
-        "in a file in millimetres, scale=0.001 is needed" if size > largest else "scale is given in metres per unit"
-    )
-    warnings.warn(f"The mesh {path} is {size:.3g} m across{beside}; {advice}.", UserWarning, stacklevel=3)

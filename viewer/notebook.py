@@ -8,14 +8,13 @@ from typing import Any
 
 from viewer.errors import ViewerError
 from viewer.page_file import notes_of, page_html, thinned
-from viewer.recording import MOST_TIMES, Recording
+from viewer.recording import Recording
 
 
 def html_of(
     recordings: Recording | Sequence[Recording],
     height: int = 480,
     options: Mapping[str, Any] | None = None,
-    most: int = MOST_TIMES,
 ) -> str:
     """HTML for ``_repr_html_`` of an object, which shows recordings in a notebook.
 
@@ -25,8 +24,6 @@ def html_of(
         As `viewer.page_file.write_page` takes them.
     height : int
         Of the frame, pixels.
-    most : int
-        Times that a recording is thinned to.
 
     Returns
     -------
@@ -40,7 +37,7 @@ def html_of(
     """
     if not isinstance(height, int) or isinstance(height, bool) or not 200 <= height <= 4000:
         raise ViewerError(f"The height of the frame is {height!r}; it must be a whole number of pixels, 200 to 4000.")
-    shown = thinned(recordings, most)
+    shown = thinned(recordings)
     page = page_html(shown, None, options)
     told = [f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.", *notes_of(shown)]
     return (

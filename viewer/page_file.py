@@ -78,10 +78,9 @@ def page_html(
     recordings: Recording | Sequence[Recording],
     title: str | None = None,
     options: Mapping[str, Any] | None = None,
-    most: int = MOST_TIMES,
 ) -> str:
-    """The text of the page that `write_page` writes; see there."""
-    shown = thinned(recordings, most)
+    """The text of the page that `write_page` writes, with all times; see there."""
+    shown = _listed(recordings)
     checked = check_options(options or {})
     known = dict.fromkeys(name for recording in shown for name in recording.columns)
     for name in checked.get("plots", ()):
@@ -101,13 +100,17 @@ def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES)
     ViewerError
         There is none, or something else stands in their place.
     """
+    return [recording.thinned(most) for recording in _listed(recordings)]
+
+
+def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
     listed = [recordings] if isinstance(recordings, Recording) else list(recordings)
     if not listed:
         raise ViewerError("There is no recording to be shown.")
     for item in listed:
         if not isinstance(item, Recording):
             raise ViewerError(f"A page shows objects of the class Recording; this is one of {type(item).__name__}.")
-    return [recording.thinned(most) for recording in listed]
+    return listed
 
 
 def notes_of(recordings: Sequence[Recording]) -> list[str]:

@@ -12,7 +12,7 @@ from ali3.files import check_writable, whole_file
 from viewer.browser import screenshot
 from viewer.errors import ViewerError
 from viewer.page_file import notes_of, thinned, write_page
-from viewer.recording import MOST_TIMES, Recording
+from viewer.recording import Recording
 
 
 def pictures(
@@ -21,7 +21,6 @@ def pictures(
     size: tuple[int, int] = (1280, 720),
     camera: str | None = None,
     options: Mapping[str, Any] | None = None,
-    most: int = MOST_TIMES,
 ) -> Iterator[bytes]:
     """Pictures of recordings without anything but the drawing.
 
@@ -35,8 +34,6 @@ def pictures(
         Pixels.
     options : mapping, optional
         Of the player; ``controls`` is false if they do not say otherwise.
-    most : int
-        Times that a recording is thinned to.
 
     Yields
     ------
@@ -50,11 +47,11 @@ def pictures(
     BrowserError
         There is no browser that draws.
     """
-    shown = thinned(recordings, most)
+    shown = thinned(recordings)
     if all(recording.scene is None for recording in shown):
         raise ViewerError("There is nothing to draw: no recording has a scene.")
     with tempfile.TemporaryDirectory(prefix="ali3_page_", ignore_cleanup_errors=True) as folder:
-        page = write_page(Path(folder, "page.html"), shown, options={"controls": False, **(options or {})}, most=most)
+        page = write_page(Path(folder, "page.html"), shown, options={"controls": False, **(options or {})})
         yield from screenshot(page.path, times, size, camera)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ali3.columns import some_of
 from ali3.words import value_words
 from viewer.base64_numbers import decoded, octets
 from viewer.scene_parts import GROUND, anchors_of, frames_of
@@ -47,9 +48,8 @@ def _known(scene: Mapping[str, Any]) -> list[str]:
 
 
 def _no_frame(scene: Mapping[str, Any], path: tuple[str | int, ...], name: str) -> str:
-    known = _known(scene)
-    listed = ", ".join(repr(frame) for frame in known[:8]) + (f" and {len(known) - 8} more" if len(known) > 8 else "")
-    return f"{place(path)} is {value_words(name)}, which is no frame; there are {listed}."
+    known = some_of(map(repr, _known(scene)), 8)
+    return f"{place(path)} is {value_words(name)}, which is no frame; there are {known}."
 
 
 def _frames(scene: Mapping[str, Any]) -> Iterator[str]:

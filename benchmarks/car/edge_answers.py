@@ -9,6 +9,7 @@ import numpy as np
 import mbs
 from benchmarks.car.road_faces import SPEED
 from benchmarks.shared.pages import Row, table
+from hosts.common.wheels import WHEELS
 from mbs.elements import KerbRoad
 from mbs.elements.road import ANSWER
 from mbs.vehicle import load
@@ -21,7 +22,6 @@ EDGES = [
 HEIGHT, DEEPER, SUM = "height below", "deeper of both", "sum of both"
 COLUMNS = {"car": "", "edge, m": "g", "kerb, kN": ".2f"} | dict.fromkeys((HEIGHT, DEEPER, SUM), ".2f")
 COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
-WHEELS = ("FL", "FR", "RL", "RR")
 
 
 def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:

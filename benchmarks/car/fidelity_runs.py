@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.low_pass import low_pass
 from benchmarks.car import manoeuvres
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.measures.low_pass import low_pass
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
 from mbs.vehicle import Fidelity

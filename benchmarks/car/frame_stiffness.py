@@ -13,7 +13,7 @@ from mbs.flexible.frequencies import natural_modes
 from mbs.vehicle import Car
 
 COUPLE = 1e3  # N m; the frame is linear
-RIGID = 6
+RIGID, MODES = 6, 4
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Stiffness:
     frequencies: NDArray[np.float64]
 
 
-def stiffness(car: Car, modes: int = 4) -> Stiffness:
+def stiffness(car: Car) -> Stiffness:
     """Twist the free frame by opposite couples at the axles, and find its lowest frequencies.
 
     Parameters
@@ -60,7 +60,7 @@ def stiffness(car: Car, modes: int = 4) -> Stiffness:
         float(np.array([1.0, -1.0]) @ moved[_up(model, flexible.place(n))]) / _width(flexible.place(n))
         for n in (front, rear)
     ]
-    hertz, _ = natural_modes(model, RIGID + modes)
+    hertz, _ = natural_modes(model, RIGID + MODES)
     return Stiffness((front, rear), COUPLE / float(np.degrees(turned[0] - turned[1])), hertz[RIGID:])
 
 

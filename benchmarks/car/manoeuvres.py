@@ -145,14 +145,15 @@ def sampling(name: str, car: str = PROTOTYPE) -> float:
     return max(1, round(load(name, car).stop_time / 400.0 / 0.01)) * 0.01
 
 
-def record_driver(car: str = PROTOTYPE, h: float = 1e-3, interval: float = 0.02) -> NDArray[np.float64]:
-    """What the host's driver does in the double lane change when it acts every `interval` seconds.
+def record_driver(car: str) -> NDArray[np.float64]:
+    """What the host's driver does in the double lane change when it acts every 0.02 s.
 
     Returns
     -------
     ndarray of shape (n, 4)
         Time, steering, throttle, brake.
     """
+    h, interval = 1e-3, 0.02
     manoeuvre = load(CLOSED_LOOP, car)
     system = system_of(CLOSED_LOOP, car)
     driver = make_driver(manoeuvre.driver, {c["name"]: c["value"] for c in system.meta["constants"]})

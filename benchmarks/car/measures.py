@@ -138,15 +138,9 @@ def _axles(car: Car) -> dict[str, float]:
     }
 
 
-def steady_turn(car: Car, system: System, ratio: float | None = None) -> dict[str, float]:
-    """Gradients of a turn to the left at constant speed.
-
-    Parameters
-    ----------
-    ratio : float, optional
-        Steering ratio at straight ahead; by default from the rig.
-    """
-    ratio = ratio or kinematics(car)["steering_ratio"]
+def steady_turn(car: Car, system: System) -> dict[str, float]:
+    """Gradients of a turn to the left at constant speed."""
+    ratio = kinematics(car)["steering_ratio"]
     pedal = _hold_speed(TURN_SPEED)
     run = Simulation(system, pose=Pose(speed=TURN_SPEED))
     rows = []

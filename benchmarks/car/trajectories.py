@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ali3.files import write_text
 from benchmarks.car import manoeuvres
+from hosts.common.wheels import WHEELS
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from mbs import Settings, Trajectory
@@ -20,7 +21,6 @@ FOLDER = Path(__file__).parents[2] / "tests" / "data" / "car"
 STEP = 1e-4  # s
 CHECKS = (1e-3, 5e-4, 2.5e-4)  # s, steps that show the order
 TIGHT = Settings(tolerance_r=1e-12)
-WHEELS = ("FL", "FR", "RL", "RR")
 SENSORS = (
     *POSITION,
     *(f"chassis.{name}" for name in ("yaw", "pitch", "roll", "vx", "vy", "wz", "ay")),

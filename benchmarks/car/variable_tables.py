@@ -11,9 +11,9 @@ import mbs
 from ali3.words import range_words
 from fmu_src.variables.text_variables import text_table
 from fmu_src.variables.variables import Variable, variable_table
+from hosts.common.wheels import WHEELS
 from mbs.vehicle import car_names, load
 
-_WHEELS = ("FL", "FR", "RL", "RR")
 _WHEEL = re.compile(r"_(FL|FR|RL|RR)(?=\.|$)")
 _TITLES = {"input": "inputs", "parameter": "parameters", "output": "outputs", "local": "constants"}
 
@@ -143,7 +143,7 @@ def _table(name: str) -> tuple[Variable, ...]:
 def _family(v: Variable, present: set[str]) -> str:
     """One name for the same thing at all wheels or both axles."""
     plain = _WHEEL.sub("_FL", v.name)
-    if plain != v.name and all(_WHEEL.sub(f"_{wheel}", v.name) in present for wheel in _WHEELS):
+    if plain != v.name and all(_WHEEL.sub(f"_{wheel}", v.name) in present for wheel in WHEELS):
         return plain
     front = re.sub(r"\brear\b", "front", v.name)
     return front if v.causality == "parameter" and front in present else v.name
@@ -157,7 +157,7 @@ def _alike(v: Variable) -> str:
 
 def _short(names: Sequence[str]) -> str:
     """Names of one row: those of four wheels as the first and the last."""
-    if len(names) == len(_WHEELS):
+    if len(names) == len(WHEELS):
         return f"`{names[0]}` ... `{names[-1]}`"
     return ", ".join(f"`{name}`" for name in names)
 

@@ -60,7 +60,7 @@ class Animation:
     options: Mapping[str, Any] = field(default_factory=dict)
 
 
-def film(name: str, path: Path, progress: bool | Callable[[float], None] | None = None) -> WrittenFilm:
+def film(name: str, path: Path) -> WrittenFilm:
     """Run a scene and write its film.
 
     Parameters
@@ -69,8 +69,6 @@ def film(name: str, path: Path, progress: bool | Callable[[float], None] | None 
         Of `ANIMATIONS`.
     path : Path
         ``.webp``, ``.gif`` or ``.mp4``.
-    progress : bool or callable, optional
-        As of `viewer.video.write_mp4`.
     """
     a = ANIMATIONS[name]
     return write_mp4(
@@ -83,7 +81,6 @@ def film(name: str, path: Path, progress: bool | Callable[[float], None] | None 
         begin=a.begin,
         end=a.end,
         options=a.options,
-        progress=progress,
     )
 
 
@@ -96,11 +93,10 @@ def recording_of(*runs: mbs.Trajectory) -> Recording:
     return Recording(parts[0].scene, np.concatenate([part.t for part in parts]), columns, parts[0].units, parts[0].name)
 
 
-def _scene(build: Callable[[], Model], end: float, h: float, method: str | None = None) -> Callable[[], Recording]:
+def _scene(build: Callable[[], Model], end: float, h: float) -> Callable[[], Recording]:
     def record() -> Recording:
-        settings = None if method is None else mbs.Settings(method=method)
         every = max(1, round(0.002 * end / h / 4))
-        return recording_of(mbs.simulate(mbs.compile(build()), end, h, settings=settings, every=every, progress=False))
+        return recording_of(mbs.simulate(mbs.compile(build()), end, h, every=every, progress=False))
 
     return record
 

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import PchipInterpolator, PPoly
 
+from ali3.low_pass import low_pass
 from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
-from hosts.measures.low_pass import low_pass
 from mbs import Settings, Trajectory, compile, simulate
 from mbs.model import Model
 from mbs.model.records import Guide

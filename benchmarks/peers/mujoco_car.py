@@ -16,6 +16,7 @@ import numpy as np
 from mujoco.rollout import Rollout
 from numpy.typing import NDArray
 
+from hosts.common.wheels import WHEELS
 from mbs.vehicle.car import Car
 
 Array = NDArray[np.float64]
@@ -24,7 +25,6 @@ GRAVITY = 9.81  # m/s2
 SINK = 0.08  # m
 DAMPING = 0.3  # of the critical one of a corner
 STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its angle
-WHEELS = ("FL", "FR", "RL", "RR")
 
 
 def model(car: Car, mass: float, h: float, stiffer: float = 1.0) -> Any:

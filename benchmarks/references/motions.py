@@ -72,11 +72,11 @@ def light_cart(t: Array, cart_mass: float = cart_pole.CART) -> Array:
     return np.column_stack([cart + L * np.cos(angle), -L * np.sin(angle)])
 
 
-def rolling_bicycle(t: Array, sensors: tuple[str, ...] = BICYCLE) -> Array:
+def rolling_bicycle(t: Array) -> Array:
     """Position sensors (n, k) of the bicycle, with contact points from the geometry of its wheels."""
     model = RollingBicycle()
     motion = model.motion(bicycle.SPEED, bicycle.LEAN_RATE, float(t[-1]))
-    return model.mechanism.positions(motion(t), sensors)
+    return model.mechanism.positions(motion(t), BICYCLE)
 
 
 def one_degree(
@@ -96,9 +96,9 @@ def one_degree(
     )[0]
 
 
-def minimum_norm(system: mbs.System, sensors: tuple[str, ...], t: Array, stiff: bool = False) -> Array:
+def minimum_norm(system: mbs.System, sensors: tuple[str, ...], t: Array) -> Array:
     """Sensors (n, k) at times (n,) by minimum-norm accelerations; see `minimum_norm_motion`."""
-    return minimum_norm_motion(system, sensors, float(t[-1]), stiff)(t)
+    return minimum_norm_motion(system, sensors, float(t[-1]))(t)
 
 
 def minimum_norm_motion(

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ali3.columns import in_columns
 from ali3.files import write_text
 
 
@@ -25,14 +26,10 @@ def print_table(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str] | 
     if not rows:
         return
     formats = dict(columns) if columns is not None else dict.fromkeys(rows[0], ".4g")
-    lines = [list(formats)] + [[_cell(row[key], form) for key, form in formats.items()] for row in rows]
-    widths = [max(len(line[k]) for line in lines) for k in range(len(formats))]
-    left = [isinstance(rows[0][key], str) for key in formats]
-    for number, line in enumerate(lines):
-        cells = [c.ljust(w) if is_left else c.rjust(w) for c, w, is_left in zip(line, widths, left, strict=True)]
-        print("  ".join(cells).rstrip())
-        if number == 0:
-            print("  ".join("-" * w for w in widths))
+    cells = [list(formats)] + [[_cell(row[key], form) for key, form in formats.items()] for row in rows]
+    rule = ["-" * max(map(len, column)) for column in zip(*cells, strict=True)]
+    right = {k for k, key in enumerate(formats) if not isinstance(rows[0][key], str)}
+    print("\n".join(in_columns([cells[0], rule, *cells[1:]], right)))
 
 
 def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> None:

@@ -26,13 +26,13 @@ from benchmarks.validation.commonroad_reference import (
     STEER,
     STEER_SPEED,
 )
+from hosts.common.wheels import WHEELS
 from mbs import Pose, compile, simulate
 from mbs.vehicle import Car, load
 
 Array = NDArray[np.float64]
 
 STEP = 0.002
-WHEELS = ("FL", "FR", "RL", "RR")
 ROLLING = 0.344  # m, R_w
 SAME = {"steering.frequency": 200.0, "ports.torque": "half_shafts"}
 """Of the cars here: their wheels follow the demand at once, and nothing drives or drags."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
-from benchmarks.validation.drive import JUDGED, LENGTH, Array, Drive, Spans
+from benchmarks.validation.drive import JUDGED, LENGTH, Array, Drive
 from benchmarks.validation.fitting import begins
 
 G = 9.81
@@ -51,9 +51,9 @@ def lateral_acceleration(vx: Array, vy: Array, rate: Array, interval: float) -> 
     return np.asarray(np.gradient(vy, interval, axis=-1) + rate * vx)
 
 
-def window_rows(drive: Drive, seconds: Spans = JUDGED) -> Array:
-    """Samples of the windows in some seconds, of shape (w, m)."""
-    return begins(drive, seconds)[:, None] + np.arange(round(LENGTH / drive.interval) + 1)
+def window_rows(drive: Drive) -> Array:
+    """Samples of the windows that were not fitted, of shape (w, m)."""
+    return begins(drive, JUDGED)[:, None] + np.arange(round(LENGTH / drive.interval) + 1)
 
 
 def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:

@@ -7,7 +7,6 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TextIO
 
 PATIENCE = 2.0
 """What takes longer is reported, s."""
@@ -39,15 +38,10 @@ class ProgressLine:
 
     On a terminal it is one line that is drawn again and again; in a file it is a line at the beginning, every half a
     minute and at the end.
-
-    Parameters
-    ----------
-    stream : text stream, optional
-        The standard error stream by default.
     """
 
-    def __init__(self, stream: TextIO | None = None) -> None:
-        self._stream = sys.stderr if stream is None else stream
+    def __init__(self) -> None:
+        self._stream = sys.stderr
         self._drawn = self._stream.isatty()
         self._done, self._total = 0, 0
 

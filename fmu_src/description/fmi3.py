@@ -20,6 +20,7 @@ from fmu_src.description.description import (
 from fmu_src.description.probe import Dependencies
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.variables import Variable
+from mbs.elements.road import ANSWER
 
 ELEMENTS = "org.ali3.elements"
 """Type of the annotation of an array that holds the names its elements have in the other kinds, with blanks between."""
@@ -130,7 +131,7 @@ def terminals(arrays: Sequence[Array]) -> bytes:
 
 
 _FORCE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
-_ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
+
 # By the last part of the name of its first port: what a terminal is called, and its members, each the last part of the
 # name of a variable, the name that a partner has for it, and its kind. Those that a model does not have are left out.
 _PLUGS: dict[str, tuple[str, tuple[tuple[str, str, str], ...]]] = {
@@ -142,7 +143,7 @@ _PLUGS: dict[str, tuple[str, tuple[tuple[str, str, str], ...]]] = {
     "road_x": (
         "road_port",
         (
-            *((f"road_{name}", name, "signal") for name in _ANSWER),
+            *((f"road_{name}", name, "signal") for name in ANSWER),
             *((name, name, "signal") for name in ("contact", "contact_x", "contact_y", "contact_z")),
             *((f"road_ahead_{c}", f"ahead_{c}", "signal") for c in "xy"),
         ),

@@ -6,11 +6,11 @@ import math
 import re
 from dataclasses import dataclass
 
-_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+from ali3.unit_definition import BASE_UNITS
 
 # Symbol -> (exponents of the base units, factor to the base units).
 _SYMBOLS: dict[str, tuple[dict[str, int], float]] = {
-    **{name: ({name: 1}, 1.0) for name in _BASE},
+    **{name: ({name: 1}, 1.0) for name in BASE_UNITS},
     "N": ({"kg": 1, "m": 1, "s": -2}, 1.0),
     "J": ({"kg": 1, "m": 2, "s": -2}, 1.0),
     "W": ({"kg": 1, "m": 2, "s": -3}, 1.0),
@@ -128,7 +128,7 @@ def parse_unit(name: str, foreign: bool = False) -> Unit:
     0.001
     """
     symbols = _SYMBOLS | (_FOREIGN if foreign else {})
-    exponents = dict.fromkeys(_BASE, 0)
+    exponents = dict.fromkeys(BASE_UNITS, 0)
     factor = 1.0
     for k, part in enumerate(name.split("/")):
         sign = 1 if k == 0 else -1

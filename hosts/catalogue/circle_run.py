@@ -11,6 +11,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.ends import ROLLED
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
@@ -27,7 +28,7 @@ _FASTEST = 20.0  # m/s2 at which a run ends at the latest
 _SETTLE = 3.0  # s at the first speed
 _LAG = 1.5  # m/s that the speed may stay behind
 _FALL = 1.0  # m/s2 below the largest lateral acceleration where a run ends
-_SPUN, _ROLLED = math.radians(45.0), math.radians(60.0)
+_SPUN = math.radians(45.0)
 _RECORD = 0.02
 _APPROACH = 60.0
 
@@ -96,7 +97,7 @@ class _Watch:
             if time > _APPROACH:
                 self.end = f"the car did not come to {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
             return time > _APPROACH
-        if abs(senses.get("sideslip", 0.0)) > _SPUN or abs(senses.get("chassis.roll", 0.0)) > _ROLLED:
+        if abs(senses.get("sideslip", 0.0)) > _SPUN or abs(senses.get("chassis.roll", 0.0)) > ROLLED:
             return True
         self._smooth += step / 0.5 * (self.side * senses["chassis.ay"] - self._smooth)
         self._largest = max(self._largest, self._smooth)

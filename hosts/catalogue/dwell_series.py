@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.ends import SPUN
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.measures.filters import phaseless_low_pass
 from hosts.measures.sine_with_dwell import NOTHING, SineWithDwell, sine_with_dwell
@@ -19,7 +20,6 @@ DWELL = 0.5
 AFTER = 2.0
 _LEAST_LAST = math.radians(270.0)
 _MOST = math.radians(300.0)
-_SPUN = math.radians(90.0)
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class DwellRun:
     @property
     def is_lost(self) -> bool:
         """Whether the car spun by more than a quarter turn, rolled over, or the FMU refused a step."""
-        return not self.run.whole or self.measures.sideslip > _SPUN
+        return not self.run.whole or self.measures.sideslip > SPUN
 
 
 def amplitudes(a: float, first: float, increment: float, full_lock: float) -> list[float]:

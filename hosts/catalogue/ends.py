@@ -15,9 +15,7 @@ class Ends:
     Parameters
     ----------
     stands : float
-        A car slower than this after `not_before` stands, m/s; 0: it does not end the run.
-    not_before : float
-        s.
+        A car slower than this stands, m/s; 0: it does not end the run.
 
     Attributes
     ----------
@@ -25,18 +23,17 @@ class Ends:
         ``stands``, ``spun`` or ``rolled``; empty while the run goes on; that of the last call.
     """
 
-    def __init__(self, stands: float = 0.0, not_before: float = 0.0) -> None:
+    def __init__(self, stands: float) -> None:
         self.stands = stands
-        self.not_before = not_before
         self.reason = ""
 
-    def __call__(self, time: float, outputs: Mapping[str, float]) -> bool:
+    def __call__(self, outputs: Mapping[str, float]) -> bool:
         """Whether the run is over; outputs that the car does not have are not looked at."""
         self.reason = ""
         if abs(outputs.get("chassis.roll", 0.0)) > ROLLED:
             self.reason = "rolled"
         elif outputs["speed"] > 1.0 and abs(outputs.get("sideslip", 0.0)) > SPUN:
             self.reason = "spun"
-        elif time >= self.not_before and outputs["speed"] < self.stands:
+        elif outputs["speed"] < self.stands:
             self.reason = "stands"
         return bool(self.reason)

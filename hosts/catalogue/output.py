@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.columns import in_columns
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
@@ -144,10 +145,5 @@ def _cell(measure: Measure | None) -> str:
 
 
 def _print_rows(rows: Sequence[Sequence[str]]) -> None:
-    if not rows:
-        return
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    for row in rows:
-        cells = [f"{row[0]:<{widths[0]}}", f"{row[1]:<{widths[1]}}"]
-        cells += [f"{cell:>{width}}" for cell, width in zip(row[2:], widths[2:], strict=True)]
-        print("  " + "  ".join(cells).rstrip())
+    for line in in_columns(rows, range(2, len(rows[0]) if rows else 0)):
+        print(f"  {line}")

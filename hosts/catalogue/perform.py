@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
+from ali3.columns import some_of
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.common.errors import HostError
@@ -102,10 +103,9 @@ def _said(record: TestRecord) -> list[str]:
             runs.setdefault(message, []).append(name)
     said = []
     for message, names in list(runs.items())[:_MOST_MESSAGES]:
-        where = "every run" if len(names) == len(record.runs) > 1 else ", ".join(names[:_MOST_NAMES])
-        more = f" and {len(names) - _MOST_NAMES} more" if where != "every run" and len(names) > _MOST_NAMES else ""
+        where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MOST_NAMES)
         words = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
-        said.append(f"The FMU said in {where}{more}: {words}")
+        said.append(f"The FMU said in {where}: {words}")
     if len(runs) > _MOST_MESSAGES:
         said.append(f"The FMU said {len(runs) - _MOST_MESSAGES} other sentences.")
     return said

@@ -71,8 +71,8 @@ class SteadyMap:
         return angle
 
 
-def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 1.0) -> SteadyMap:
-    """Drive the ramp.
+def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
+    """Drive the ramp to the left.
 
     Parameters
     ----------
@@ -80,8 +80,6 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
         m/s.
     acceleration : float
         Up to which the map is wanted, m/s².
-    side : float
-        1 to the left, -1 to the right.
 
     Returns
     -------
@@ -102,20 +100,12 @@ def steady_map(car: TestedCar, speed: float, acceleration: float, side: float = 
         angle = np.array([0.0, slow, largest])
     else:
         time, angle = np.array([0.0, given.largest / _RATE_OF_INPUT]), np.array([0.0, given.largest])
-    run = steer(
-        car,
-        f"ramp {'left' if side > 0.0 else 'right'}",
-        speed,
-        time,
-        side * angle,
-        Pedals.HOLD_SPEED,
-        1.1 * acceleration,
-    )
+    run = steer(car, "ramp left", speed, time, angle, Pedals.HOLD_SPEED, 1.1 * acceleration)
     if len(run.time) < 20:
         return SteadyMap(speed, np.zeros(0), np.zeros(0), run)
     # one filter for both, so that neither is late against the other
     frequency = min(6.0, 0.2 / run.interval)
-    turned, lateral = (side * phaseless_low_pass(x, run.interval, frequency) for x in (run.steering, run.acceleration))
+    turned, lateral = (phaseless_low_pass(x, run.interval, frequency) for x in (run.steering, run.acceleration))
     zero = run.time < 0.0
     if zero.any():
         turned, lateral = turned - turned[zero].mean(), lateral - lateral[zero].mean()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.ends import ROLLED
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
@@ -20,7 +21,6 @@ from hosts.measures.filters import resample
 _CLOSE = 0.1
 _NEAR = 0.5
 _COAST_FROM = 0.7
-_ROLLED = math.radians(60.0)
 _INTERVAL = 0.005
 _REACHED = 0.97
 
@@ -102,7 +102,7 @@ class SteeredPilot:
 
     def ends(self, time: float, senses: Mapping[str, float]) -> bool:
         """Whether the run is over: the table is at its end, the car gave up or lies on its side."""
-        return self.gave_up or time >= self.begin + self.time[-1] or abs(senses.get("chassis.roll", 0.0)) > _ROLLED
+        return self.gave_up or time >= self.begin + self.time[-1] or abs(senses.get("chassis.roll", 0.0)) > ROLLED
 
 
 @dataclass(frozen=True)

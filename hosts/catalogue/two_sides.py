@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import is_round_off
-from hosts.measures.measure import Limit, Measure
+from hosts.measures.measure import Measure
 
 _SAME = 0.05
 
@@ -18,7 +18,6 @@ def mean_of_sides(
     right: float,
     unit: str,
     text: str,
-    limit: Limit | None = None,
     why: str = "",
     exists: bool = True,
 ) -> Measure:
@@ -35,7 +34,7 @@ def mean_of_sides(
     """
     known = [x for x in (left, right) if math.isfinite(x)]
     if not known:
-        return Measure(name, math.nan, unit, text, limit, why or "The runs do not show it.", exists)
+        return Measure(name, math.nan, unit, text, None, why or "The runs do not show it.", exists)
     mean = sum(known) / len(known)
     note = ""
     if len(known) == 1:
@@ -43,7 +42,7 @@ def mean_of_sides(
     elif abs(left - right) > _SAME * abs(mean):
         tail, factor = shown_in(unit, name)
         note = f"Left {factor * left:.4g}, right {factor * right:.4g}{'' if tail == '1' else f' {tail}'}."
-    return Measure(name, mean, unit, text, limit, note)
+    return Measure(name, mean, unit, text, None, note)
 
 
 def asymmetry(name: str, pairs: Sequence[tuple[float, float]], text: str) -> Measure:

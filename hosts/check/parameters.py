@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.columns import in_columns
 from ali3.words import shortened
 from hosts.common.options import Wishes
 from hosts.fmu.parameters_as_set import parameter_set_of
@@ -84,8 +85,5 @@ def _differences(variables: Variables, mine: Mapping[str, Value], other: Sequenc
 
 
 def _print_rows(rows: Sequence[Sequence[str]]) -> None:
-    """Columns side by side."""
-    rows = [[shortened(cell) for cell in row] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        print("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())
+    for line in in_columns([[shortened(cell) for cell in row] for row in rows]):
+        print(line)

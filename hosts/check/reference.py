@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.columns import in_columns
 from ali3.errors import UserError
 from ali3.tables import TextTable
 from hosts.check.junit import Case
@@ -302,6 +303,4 @@ def _print_table(found: Sequence[Deviation]) -> None:
     rows = [("", "signal", "largest error", "at", "of its range", "bound")]
     for d in found:
         rows.append((" ok " if d.good else "BAD ", d.name, *d.words))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        print("  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())
+    print("\n".join(in_columns(rows)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ali3.columns import in_columns
 from hosts.compare.fit_result import Fit, Found
 from hosts.compare.words import unit_shown, with_unit
 
@@ -46,9 +47,7 @@ def _value(found: Found) -> tuple[str, str]:
 
 def fit_table(fit: Fit) -> str:
     """The fit for the terminal."""
-    rows = [FIT_COLUMNS, *fit_rows(fit)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(FIT_COLUMNS))]
-    lines = ["  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines = in_columns([FIT_COLUMNS, *fit_rows(fit)])
     lines.append(
         f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
         f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"

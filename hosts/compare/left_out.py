@@ -110,22 +110,22 @@ def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
     return found
 
 
-def folds(jacobian: Array, residual: Array, parts: Parts, count: int = FOLDS) -> Array:
+def folds(jacobian: Array, residual: Array, parts: Parts) -> Array:
     """Change of the parameters where a fold of the log is not fitted, to first order.
+
+    A fold is parts one after the other, as many in each as can be.
 
     Parameters
     ----------
     jacobian : ndarray of shape (n, p)
     residual : ndarray of shape (n,)
-    count : int
-        Folds: parts one after the other, of each fold as many as can be.
 
     Returns
     -------
-    ndarray of shape (count, p)
+    ndarray of shape (FOLDS, p)
     """
     order = np.argsort(parts.begins, kind="stable")
-    return _changes(jacobian, residual, parts, [list(fold) for fold in np.array_split(order, count)])
+    return _changes(jacobian, residual, parts, [list(fold) for fold in np.array_split(order, FOLDS)])
 
 
 def _changes(jacobian: Array, residual: Array, parts: Parts, groups: Sequence[Sequence[int]]) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from ali3.columns import some_of
 from ali3.near_names import did_you_mean
 from ali3.words import brief
 from hosts.common.errors import HostError
@@ -179,7 +180,7 @@ def _columns(
         clock = [n for n in there if n.lower() not in _TIMES]
         raise HostError(
             f"The log {raw.path} has no column with the name of an input or output of {fmu.path.name}; its columns "
-            f"are {_listed(clock)}. An alias file (--log-aliases) gives them names: under [signals] "
+            f"are {some_of(clock)}. An alias file (--log-aliases) gives them names: under [signals] "
             f'"{next(iter(outputs), "speed")}" = {{ name = "{next(iter(clock), "column")}", unit = "..." }}.'
         )
     return found
@@ -196,7 +197,7 @@ def _time_column(raw: RawLog, aliases: LogAliases) -> str:
     if found is None:
         raise HostError(
             f"The log {raw.path} has no column of times (one of the names {', '.join(_TIMES)}); its columns are "
-            f'{_listed(there)}. The alias file names it: [time] name = "...".'
+            f'{some_of(there)}. The alias file names it: [time] name = "...".'
         )
     return found
 
@@ -318,9 +319,4 @@ def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal
 
 
 def _near(name: str, names: Collection[str]) -> str:
-    return did_you_mean(name, names, f"it has {_listed(names)}")
-
-
-def _listed(names: Collection[str]) -> str:
-    shown = ", ".join(list(names)[:12])
-    return f"{shown} and {len(names) - 12} more" if len(names) > 12 else shown or "none"
+    return did_you_mean(name, names, f"it has {some_of(names)}")

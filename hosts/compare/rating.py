@@ -61,10 +61,10 @@ def rating(measured: ArrayLike, simulated: ArrayLike) -> Rating:
 
 
 def on_equal_steps(
-    time: NDArray[np.float64], *signals: NDArray[np.float64], points: int = POINTS
+    time: NDArray[np.float64], *signals: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], list[NDArray[np.float64]]]:
-    """Signals at equally spaced times, as many as they have samples but no more than `points`; linear in between."""
-    grid = np.linspace(time[0], time[-1], max(10, min(points, len(time))))
+    """Signals at equally spaced times, as many as they have samples but no more than `POINTS`; linear in between."""
+    grid = np.linspace(time[0], time[-1], max(10, min(POINTS, len(time))))
     return grid, [np.interp(grid, time, s) for s in signals]
 
 

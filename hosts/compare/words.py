@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ali3.columns import in_columns
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 
@@ -31,8 +32,7 @@ def table(comparison: Comparison) -> str:
                 f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else "-",
             ]
         )
-    widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
-    return "\n".join("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in rows)
+    return "\n".join(in_columns(rows))
 
 
 def common_words(comparison: Comparison) -> list[str]:

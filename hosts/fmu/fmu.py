@@ -7,7 +7,8 @@ import shutil
 import sys
 import tempfile
 import zipfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
 
@@ -143,10 +144,8 @@ class Fmu(Closing):
                 some = f"it has {len(settable)}, such as {', '.join(sorted(settable)[:6]) or 'none'}"
                 raise HostError(f"The FMU has no parameter or input {brief(name)}{did_you_mean(name, settable, some)}")
         values = {self._places[name]: self._fitting(name, value) for name, value in start.items()}
-        try:
+        with self._told("The FMU could not be initialised", StartRefusedError):
             self._instance.initialise(values, start_time)
-        except FMICallException as error:
-            raise StartRefusedError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
     def _fitting(self, name: str, value: Value) -> Value:
         place = self._places[name]
@@ -232,25 +231,19 @@ class Fmu(Closing):
 
     def reset(self) -> None:
         """Back to before `initialise`, which then gives a new start."""
-        try:
+        with self._told("The FMU could not be reset"):
             self._instance.reset()
-        except FMICallException as error:
-            raise HostError(f"The FMU could not be reset: {self._last_message() or error}") from None
 
     def state(self) -> State:
         """The state now, to be given back by `free`; `HostError` if the FMU cannot save it."""
         self._check_states(self._can("canGetAndSetFMUstate"), "save its state")
-        try:
+        with self._told("The FMU could not save its state"):
             return self._instance.state()
-        except FMICallException as error:
-            raise HostError(f"The FMU could not save its state: {self._last_message() or error}") from None
 
     def restore(self, state: State) -> None:
         """Go on from a state of `state`, which stays valid."""
-        try:
+        with self._told("The FMU could not restore a state"):
             self._instance.restore(state)
-        except FMICallException as error:
-            raise HostError(f"The FMU could not restore a state: {self._last_message() or error}") from None
 
     def free(self, state: State) -> None:
         """Free the memory of a state."""
@@ -259,18 +252,14 @@ class Fmu(Closing):
     def state_bytes(self) -> bytes:
         """The state now as bytes, for a file or another process; `HostError` if the FMU cannot give it."""
         self._check_states(self._can("canSerializeFMUstate"), "write its state")
-        try:
+        with self._told("The FMU could not write its state"):
             return self._instance.state_bytes()
-        except FMICallException as error:
-            raise HostError(f"The FMU could not write its state: {self._last_message() or error}") from None
 
     def restore_bytes(self, content: bytes) -> None:
         """Go on from a state of `state_bytes`; `HostError` if it is of another build or damaged."""
         self._check_states(self._can("canSerializeFMUstate"), "read a state")
-        try:
+        with self._told("The FMU refused a saved state"):
             self._instance.restore_bytes(content)
-        except FMICallException as error:
-            raise HostError(f"The FMU refused a saved state: {self._last_message() or error}") from None
 
     def _can(self, flag: str) -> bool:
         return bool(getattr(self.description.coSimulation, flag, False))
@@ -286,6 +275,14 @@ class Fmu(Closing):
     def constants(self) -> dict[str, float]:
         """Values of the constants, by name."""
         return {n: float(v.start) for n, v in self.variables.items() if (v.variability, v.type) == ("constant", "Real")}
+
+    @contextmanager
+    def _told(self, what: str, kind: type[HostError] = HostError) -> Iterator[None]:
+        """What the FMU refuses is an error with what it said."""
+        try:
+            yield
+        except FMICallException as error:
+            raise kind(f"{what}: {self._last_message() or error}") from None
 
     def _last_message(self) -> str:
         return self.messages[-1] if self.messages else ""

@@ -12,13 +12,11 @@ from pathlib import Path
 from fmpy.model_description import ModelDescription, ScalarVariable
 from lxml import etree
 
+from ali3.unit_definition import KINDS
+
 ANNOTATION = "org.ali3.elements"
 """Type of the annotation of an array that holds the names of its elements, with blanks between them."""
 
-KINDS = {"Float64": "Real", "Float32": "Real"} | {
-    f"{sign}Int{bits}": "Integer" for sign in ("", "U") for bits in (8, 16, 32, 64)
-}
-"""Types of FMI 3.0 by those of FMI 2.0."""
 
 TEXTS = ("String", "Binary")
 """Types whose start values are elements of XML."""
@@ -43,13 +41,7 @@ class Place:
 
 
 def element_names(path: Path) -> dict[str, list[str]]:
-    """Names of the elements of the arrays that say them, by the name of the array.
-
-    Parameters
-    ----------
-    path : Path
-        An FMU that can be read.
-    """
+    """Names of the elements of the arrays that say them, by the name of the array."""
     with zipfile.ZipFile(path) as archive:
         root = etree.fromstring(archive.read("modelDescription.xml"))
     found = root.iterfind(f"ModelVariables/*/Annotations/Annotation[@type='{ANNOTATION}']")

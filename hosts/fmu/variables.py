@@ -11,11 +11,10 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from ali3.decimal_number import parse_number
 from ali3.near_names import MOST, did_you_mean
 from ali3.running import command_name
-from ali3.unit_definition import BASE_UNITS, UnitDefinition
+from ali3.unit_definition import BASE_UNITS, KINDS, UnitDefinition
 from ali3.words import brief, range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
-from hosts.fmu.scalars import KINDS
 
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
 _ROLES = {
@@ -25,7 +24,6 @@ _ROLES = {
     "calculatedParameter": "a calculated parameter",
     "structuralParameter": "a structural parameter",
 }
-_LONGEST = 80
 
 
 @dataclass(frozen=True)
@@ -153,17 +151,9 @@ class Variable:
 
 
 class Variables:
-    """Those of an FMU by name.
+    """Variables of an FMU by name."""
 
-    Parameters
-    ----------
-    description : ModelDescription
-        As FMPy reads it.
-    program : str
-        How messages call the FMU.
-    """
-
-    def __init__(self, description: ModelDescription, program: str = "the FMU") -> None:
+    def __init__(self, description: ModelDescription) -> None:
         units = {u.name: u for u in description.unitDefinitions}
         self._variables = {v.name: _variable(v, units) for v in description.modelVariables}
         self.names = list(self._variables)
@@ -195,7 +185,7 @@ class Variables:
                 f"{source}: '{name}' is an array of the FMU; set its elements, '{elements[0]}' to '{elements[-1]}'."
             )
         if variable is None:
-            raise HostError(f"{source}: the FMU has no parameter or input '{_line(name)}'{self._near(name)}")
+            raise HostError(f"{source}: the FMU has no parameter or input {brief(name)}{self._near(name)}")
         if variable.variability == "constant":
             raise HostError(
                 f"{source}: '{name}' is a constant, {variable.with_unit(variable.start)}; it cannot be set."
@@ -259,9 +249,3 @@ def _start(text: Any, kind: str) -> Value | None:
 def kind_words(kind: str) -> str:
     """A kind with its article."""
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"
-
-
-def _line(name: str) -> str:
-    """A name that may be anything, on one line."""
-    text = " ".join(name.split())
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."

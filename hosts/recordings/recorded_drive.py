@@ -242,19 +242,3 @@ def _events(file: Path) -> list[dict[str, Any]]:
         if not words or not isinstance(found.get("time"), (int, float)):
             raise HostError(f"{file}, line {k} is no event: it needs a kind, a time and a text.")
     return events
-
-
-def session_time(rows: Rows, step: float) -> Any:
-    """Time as the driver had it, s: it goes on where the car was reset or rewound.
-
-    Parameters
-    ----------
-    step : float
-        s.
-
-    Returns
-    -------
-    ndarray of shape (n,)
-        Not decreasing; the first row of an epoch has the time of the row before it.
-    """
-    return step * np.asarray(rows.steps, dtype=np.float64)

@@ -12,7 +12,7 @@ from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.scene_file import scene_from
-from hosts.recordings.recorded_drive import read_recording, session_time
+from hosts.recordings.recorded_drive import read_recording
 from viewer.recording import Recording
 
 _MOST_VALUES = 8_000_000  # that are read: 64 MB
@@ -59,7 +59,8 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
             told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
     if scene is None:
         told.append(f"{geometry or drive.meta['fmu']} does not say what there is to draw; signals can be plotted.")
-    time, whole = session_time(rows, drive.step), set(drive.meta.get("whole", ()))
+    # As the driver had it: it goes on where the car was reset or rewound.
+    time, whole = drive.step * np.asarray(rows.steps, dtype=np.float64), set(drive.meta.get("whole", ()))
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
     for part in (scene or {}).get("flexible") or []:
         if set(part["amplitudes"]) & set(drive.left_out):  # drawn rigid, and without the colours of stresses

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.columns import in_columns
+
 if TYPE_CHECKING:
     from hosts.recordings.recorded_drive import RecordedDrive
 
@@ -34,9 +36,7 @@ def show_recording(folder: Path) -> int:
         "seed": "none" if meta.get("seed") is None else str(meta["seed"]),
         "versions": ", ".join(f"{name} {text}" for name, text in meta.get("versions", {}).items()),
     }
-    width = max(map(len, told))
-    for name, text in told.items():
-        print(f"{name:<{width}}  {text}")
+    print("\n".join(in_columns(list(told.items()))))
     for event in drive.events[:_SHOWN]:
         print(f"{event['kind']} at {event['time']:g} s: {event['text']}")
     if len(drive.events) > _SHOWN:

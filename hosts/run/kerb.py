@@ -93,7 +93,7 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
 
 def moments(result: Result, step: float) -> list[dict[str, float | str]]:
     """Per gauge: value at rest, range before and after the filter as differences from it, what is left at the end."""
-    from hosts.measures.low_pass import low_pass
+    from ali3.low_pass import low_pass
 
     rows: list[dict[str, float | str]] = []
     for gauge in GAUGES:
@@ -120,7 +120,7 @@ def draw(result: Result, step: float, file: Path) -> None:
 
     from ali3.chart_style import BLACK, BLUE, RED
     from ali3.charts import save_picture
-    from hosts.measures.low_pass import low_pass
+    from ali3.low_pass import low_pass
 
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
     for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):

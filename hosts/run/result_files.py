@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from ali3.columns import in_columns
 from ali3.files import check_writable, whole_file, write_text
 from hosts.common.options import ROAD
 from hosts.driving.driver import Driver
@@ -108,9 +109,8 @@ def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, fi
         Exit code: 0 if every step was accepted.
     """
     for rows in tables:
-        width = max((len(what) for what, _ in rows), default=0)
-        for what, value in rows:
-            print(f"{what:<{width}}  {value}")
+        for line in in_columns(rows):
+            print(line)
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
     print(f"written: {', '.join(map(str, files))}")

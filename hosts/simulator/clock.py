@@ -74,22 +74,13 @@ class LinuxClock:
 
 
 class SleepingClock:
-    """Sleeps of Python, and a loop for the last fraction of a millisecond.
-
-    Parameters
-    ----------
-    spin : float
-        Length of the loop, s.
-    """
-
-    def __init__(self, spin: float = _SPIN) -> None:
-        self._spin = spin
+    """Sleeps of Python, and a loop for the last fraction of a millisecond."""
 
     def now(self) -> float:
         return time.perf_counter()
 
     def sleep_until(self, until: float) -> None:
-        rest = until - time.perf_counter() - self._spin
+        rest = until - time.perf_counter() - _SPIN
         if rest > 0.0:
             time.sleep(rest)
         while time.perf_counter() < until:

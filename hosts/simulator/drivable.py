@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
+from ali3.columns import some_of
+
 STEERING = ("steering", "steering_wheel_angle_demand", "steering_torque")
 """Any of them steers."""
 PEDALS = ("throttle", "brake")
 POSE = ("chassis.x", "chassis.y", "chassis.z", "chassis.yaw")
-_SHOWN = 12
 
 
 def lacking(inputs: Collection[str], outputs: Collection[str]) -> tuple[list[str], list[str]]:
@@ -28,7 +29,7 @@ def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], draw
         Names, after aliases.
     """
     no_inputs, no_outputs = lacking(inputs, outputs)
-    parts = [f"no input {' and '.join([', '.join(no_inputs)])}"] if no_inputs else []
+    parts = [f"no input {', '.join(no_inputs)}"] if no_inputs else []
     parts += [f"no output {', '.join(no_outputs)}"] if no_outputs else []
     if not parts:
         return ""
@@ -36,13 +37,6 @@ def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], draw
     picture = "" if drawn else ", but is not drawn, since it has no drawing"
     return (
         f"{path.name} has {' and '.join(parts)}, which driving needs. If it has them under other names, an alias file "
-        f"says so (--aliases FILE). Its inputs are {_some(inputs)}; its outputs {_some(outputs)}. "
-        f"As it is, {still} runs, can be paused, slowed down, reset and recorded{picture}."
+        f"says so (--aliases FILE). Its inputs are {some_of(inputs)}; its outputs {some_of(outputs)}. As it is, "
+        f"{still} runs, can be paused, slowed down, reset and recorded{picture}."
     )
-
-
-def _some(names: Sequence[str]) -> str:
-    if not names:
-        return "none"
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return ", ".join(names[:_SHOWN]) + more

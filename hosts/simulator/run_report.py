@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import time
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,13 +25,10 @@ class RunReport:
     ----------
     begin : float
         When the command was started, by `time.monotonic`.
-    show : callable
-        Takes a line.
     """
 
-    def __init__(self, begin: float, show: Callable[[str], None] = lambda line: print(line, flush=True)) -> None:
+    def __init__(self, begin: float) -> None:
         self._begin = begin
-        self._show = show
         self._figures: dict[str, Any] = {}
         self._marks: dict[str, float] = {}
         self._events: list[dict[str, str]] = []
@@ -44,15 +40,15 @@ class RunReport:
         return not (self._kinds[RECORDING_CUT] or self._kinds["overflow"])
 
     def tell(self, text: str) -> None:
-        """Show a sentence."""
-        self._show(text)
+        """Show a sentence on the terminal."""
+        print(text, flush=True)
 
     def event(self, kind: str, text: str) -> None:
         """Show and keep something that happened to the car."""
         self._kinds[kind] += 1
         if len(self._events) < _KEPT_EVENTS:
             self._events.append({"kind": kind, "text": text})
-        self._show(text)
+        self.tell(text)
 
     def passed(self, what: str) -> float:
         """Note that something is done; seconds since the start of the command."""
@@ -72,20 +68,18 @@ class RunReport:
             "built": prepared.fmu.built,
         }
         for name, words in prepared.settings.rows():
-            self._show(f"{name}: {words}")
-        self._show(
-            f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average."
-        )
+            self.tell(f"{name}: {words}")
+        self.tell(f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average.")
 
     def ready(self) -> None:
         """Say how long it took until a page could come, or a run without one began."""
         seconds, built = self.passed("ready"), self._figures["built"]
         how = f"cold: the FMU was built in {built:.1f} s of it" if built else "warm: the FMU was there"
-        self._show(f"Ready {seconds:.2f} s after the start of the command ({how}).")
+        self.tell(f"Ready {seconds:.2f} s after the start of the command ({how}).")
 
     def first_frame(self) -> None:
         """Say when the first page had its first frame."""
-        self._show(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
+        self.tell(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
 
     def finish(self, times: StepTimes, file: Path | None) -> None:
         """Show the report, and write it.
@@ -100,12 +94,12 @@ class RunReport:
         FileError
             It cannot be written.
         """
-        self._show(times.text())
+        self.tell(times.text())
         if self._kinds:
             told = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))
-            self._show(f"what was said: {told}")
+            self.tell(f"what was said: {told}")
         if file is not None:
             self._figures |= {"seconds since the start": self._marks, "steps": times.report()}
             self._figures |= {"events": self._events, "event counts": dict(self._kinds)}
             write_text(file, json.dumps(self._figures, indent=1, allow_nan=False) + "\n")
-            self._show(f"report: {file}")
+            self.tell(f"report: {file}")

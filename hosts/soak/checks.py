@@ -41,7 +41,6 @@ class Counts:
     most_iterations: float = 0.0
     halvings: float = 0.0
     capped: float = 0.0
-    slow_steps: int = 0
 
 
 class Watch:

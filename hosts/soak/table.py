@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ali3.columns import in_columns
 from ali3.running import command_name
 from hosts.soak.drive import Outcome, Task
 from hosts.soak.memory import LARGEST_GROWTH
@@ -29,10 +30,7 @@ def print_outcomes(tasks: Sequence[Task], outcomes: Sequence[Outcome], prog: str
     prog : str
         How the user typed the command.
     """
-    rows = [_HEADINGS, *map(_row, outcomes)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(_HEADINGS))]
-    for row in rows:
-        print("  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)))
+    print("\n".join(in_columns([_HEADINGS, *map(_row, outcomes)], range(len(_HEADINGS)))))
     for task, outcome in zip(tasks, outcomes, strict=True):
         _print_failures(task, outcome, prog)
     messages: dict[str, int] = {}

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
@@ -162,10 +163,10 @@ def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, w
     print(f"study       {plan.name}: {points} points x {len(jobs)} = {plan.runs} runs, into {folder}")
     print(f"FMU         {plan.fmu}, {plan.record['model']}, {plan.work.guid}")
     print(f"manoeuvres  {', '.join(job.label for job in jobs)}")
-    print(f"parameters  {_some(plan.work.parameters)}")
-    print(f"measures    {_some(plan.work.columns) or 'none'}")
+    print(f"parameters  {some_of(plan.work.parameters, 8)}")
+    print(f"measures    {some_of(plan.work.columns, 8)}")
     if plan.work.signals:
-        print(f"signals     {_some(plan.work.signals)}")
+        print(f"signals     {some_of(plan.work.signals, 8)}")
     whole = plan.runs * trial.seconds
     where = "on one worker" if count == 1 else f"with {count} workers"
     print(
@@ -173,10 +174,6 @@ def _print_plan(plan: Plan, trial: Trial, folder: Path, scheduler: str | None, w
         f"{_size(bytes_of(plan))} of results",
         flush=True,
     )
-
-
-def _some(names: tuple[str, ...], most: int = 8) -> str:
-    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
 def _size(count: float) -> str:

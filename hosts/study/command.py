@@ -101,9 +101,9 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
 
 
 def _repeat(options: argparse.Namespace) -> int:
-    from hosts.study.repeat import repeat_command
+    from hosts.study.repeat import repeater
 
-    repeat = repeat_command(options.study if options.study.is_dir() else _out(options), options.run)
+    repeat = repeater(options.study if options.study.is_dir() else _out(options))(options.run)
     if not repeat.drive:
         raise HostError("The study has an alias file; a manoeuvre under its names cannot be repeated as a drive.")
     print("\n".join(line for line in (repeat.drive, repeat.view) if line))

@@ -10,6 +10,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from ali3.columns import some_of
 from ali3.files import whole_file
 from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
@@ -47,11 +48,10 @@ def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) 
         differ = [key for key in differ if key != "fmu_sha256"]
     if len(differ) > 1:
         differ = [key for key in differ if key not in ("points_sha256", "points", "runs")]
-    words = "; ".join(_difference(key, before.get(key), same.get(key)) for key in differ[:_MOST])
-    more = f" and {len(differ) - _MOST} more" if len(differ) > _MOST else ""
+    words = some_of((_difference(key, before.get(key), same.get(key)) for key in differ), _MOST, "; ")
     raise HostError(
-        f"{folder} holds another study, whose rows stay as they are: {words}{more}. Put it back as it was, or give "
-        "another --out."
+        f"{folder} holds another study, whose rows stay as they are: {words}. Put it back as it was, or give another "
+        "--out."
     )
 
 

@@ -39,24 +39,14 @@ class Repeat:
     view: str
 
 
-def repeat_command(folder: str | os.PathLike[str], index: int, write: bool = True) -> Repeat:
-    """The commands that repeat a run; see `Repeater` for many.
-
-    Parameters
-    ----------
-    write : bool
-        Whether the manoeuvre they name is written, into the folder ``repeat``.
+def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
+    """A function that gives the commands of a run by its number, and writes the manoeuvre that they name.
 
     Raises
     ------
     HostError
-        There is no such run.
+        The folder is of no study; the function raises it where there is no such run.
     """
-    return repeater(folder)(index, write)
-
-
-def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
-    """A function that gives the commands of a run, as `repeat_command` does; the runs are planned once."""
     from hosts.study.planned_runs import runs_of_folder
 
     place = Path(folder)
@@ -67,7 +57,7 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
     study, planned = runs_of_folder(place, record)
     aliases = ["--aliases", _alias_file(study.aliases, Path(record["file"]))] if study.aliases else []
 
-    def repeat(index: int, write: bool = True) -> Repeat:
+    def repeat(index: int) -> Repeat:
         if not 0 <= index < runs:
             raise HostError(f"There is no run {index}; the study in {folder} has the runs 0 to {runs - 1}.")
         point, number = divmod(index, len(planned.jobs))
@@ -77,7 +67,7 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int, bool], Repeat]:
             return _test(job, fmu, values, aliases, place / FOLDER / f"run-{index}")
         if aliases:
             return Repeat("", "")  # the command run knows the names of the FMU only
-        return _drive(job, fmu, values, place / FOLDER / f"run-{index}.toml", write)
+        return _drive(job, fmu, values, place / FOLDER / f"run-{index}.toml")
 
     return repeat
 
@@ -94,10 +84,9 @@ def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[st
     return Repeat(_line("catalogue", [*words, "--out", str(out)]), "")
 
 
-def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path, write: bool) -> Repeat:
+def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
-    if write:
-        write_manoeuvre(job.manoeuvre, file)
+    write_manoeuvre(job.manoeuvre, file)
     words = [str(fmu), "-m", str(file), "--step", repr(job.step), *_sets(values)]
     drive = _line("run", [*words, "--out", str(file.parent)])
     return Repeat(drive, _line("view", [*words, "--out", str(file.parent)]))

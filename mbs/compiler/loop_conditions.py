@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from mbs.common.vectors import cross
+from mbs.compiler.biconnected import blocks_of
 from mbs.compiler.spanning_tree import frame_along, in_space
 from mbs.model.body import Body, Ground
 from mbs.model.joints.joint import Drawing, Joint
@@ -273,7 +274,12 @@ def loops_of(model: Model, most_bodies: int) -> list[Loops]:
                 welded[id(body)] = first
     joints = [j for j in model.joints if j.drawing is not None and j.switch is None and _is_rigid(j.drawing.bodies)]
     joints = [j for j in joints if len({id(b) for b in _sides(_drawing(j).bodies, welded)}) == 2]
-    blocks = _blocks(joints, welded)
+    around: dict[int, list[tuple[int, int]]] = {}
+    for n, joint in enumerate(joints):
+        a, b = (id(body) for body in _sides(_drawing(joint).bodies, welded))
+        around.setdefault(a, []).append((n, b))
+        around.setdefault(b, []).append((n, a))
+    blocks = [[joints[n] for n in sorted(block)] for block in blocks_of(around) if len(block) > 1]
     return [Loops(model, block, welded) for block in blocks if len(_bodies(block, welded)) <= most_bodies]
 
 
@@ -304,44 +310,3 @@ def _bodies(joints: Iterable[Joint], welded: Welded) -> list[Body]:
             count[id(body)] = count.get(id(body), 0) + 1
     rest = next((b for b in found.values() if b.is_ground), None) or max(found.values(), key=lambda b: count[id(b)])
     return [body for body in found.values() if body is not rest]
-
-
-def _blocks(joints: list[Joint], welded: Welded) -> list[list[Joint]]:
-    """Joints of each block (biconnected component) of the graph of bodies and joints, those of one joint left out
-    (J. Hopcroft, R. Tarjan, Communications of the ACM 16, 1973, algorithm 447; without recursion).
-    """
-    at: dict[int, list[tuple[int, int]]] = {}
-    for n, joint in enumerate(joints):
-        a, b = (id(body) for body in _sides(_drawing(joint).bodies, welded))
-        at.setdefault(a, []).append((n, b))
-        at.setdefault(b, []).append((n, a))
-    order: dict[int, int] = {}
-    lowest: dict[int, int] = {}
-    used: set[int] = set()
-    found: list[list[Joint]] = []
-    for root in at:
-        if root in order:
-            continue
-        order[root] = lowest[root] = len(order)
-        path, edges = [(root, iter(at[root]), 0)], list[int]()
-        while path:
-            body, around, mark = path[-1]
-            n, other = next(around, (-1, -1))
-            if n < 0:
-                path.pop()
-                if not path:
-                    break
-                parent = path[-1][0]
-                lowest[parent] = min(lowest[parent], lowest[body])
-                if lowest[body] >= order[parent]:
-                    found.append([joints[k] for k in sorted(edges[mark:])])
-                    del edges[mark:]
-            elif n not in used:
-                used.add(n)
-                edges.append(n)
-                if other in order:
-                    lowest[body] = min(lowest[body], order[other])
-                else:
-                    order[other] = lowest[other] = len(order)
-                    path.append((other, iter(at[other]), len(edges) - 1))
-    return [block for block in found if len(block) > 1]

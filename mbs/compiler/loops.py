@@ -1,17 +1,16 @@
 """Closed loops of a model: which bodies and massless rods joints tie to each other in a ring.
 
 The graph has welded bodies as one vertex, massless rods as vertices of their own, and an edge for all joints between
-two vertices. A block is a largest set of edges of which any two lie on a ring (biconnected component; R. Tarjan,
-Depth-first search and linear graph algorithms, SIAM J. Comput. 1 (1972)): loops of two blocks act on each other only
-through the one vertex they may share.
+two vertices. A block is a largest set of edges of which any two lie on a ring: loops of two blocks act on each other
+only through the one vertex they may share.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from mbs.common.affine import AffineVector
+from mbs.compiler.biconnected import blocks_of
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
@@ -86,7 +85,7 @@ class Block:
 def blocks_of_loops(model: Model) -> list[Block]:
     """The blocks that close a ring; joints with a switch are left out, they are not always closed."""
     found = []
-    for edges in _blocks(_graph(model)):
+    for edges in blocks_of({v: [(e, w) for w, e in v.edges.items()] for v in _graph(model)}):
         vertices = list(dict.fromkeys(v for e in edges for v in e.ends))
         if len(vertices) < 3:
             continue
@@ -178,44 +177,3 @@ def _join(a: Vertex, b: Vertex, new: Edge) -> None:
     edge.joints += new.joints
     if edge.axis is None and new.axis is None:
         edge.axis = new.point - edge.point
-
-
-def _blocks(vertices: Sequence[Vertex]) -> list[list[Edge]]:
-    """Biconnected components by depth-first search without recursion."""
-    number: dict[int, int] = {}
-    low: dict[int, int] = {}
-    found: list[list[Edge]] = []
-    for root in vertices:
-        if id(root) in number:
-            continue
-        number[id(root)] = low[id(root)] = len(number)
-        open_edges: list[Edge] = []
-        stack: list[tuple[Vertex, Edge | None, Iterator[tuple[Vertex, Edge]]]] = [
-            (root, None, iter(root.edges.items()))
-        ]
-        while stack:
-            v, came, rest = stack[-1]
-            for w, edge in rest:
-                if edge is came:
-                    continue
-                if id(w) not in number:
-                    open_edges.append(edge)
-                    number[id(w)] = low[id(w)] = len(number)
-                    stack.append((w, edge, iter(w.edges.items())))
-                    break
-                if number[id(w)] < number[id(v)]:
-                    open_edges.append(edge)
-                    low[id(v)] = min(low[id(v)], number[id(w)])
-            else:
-                stack.pop()
-                if not stack or came is None:
-                    continue
-                parent = stack[-1][0]
-                low[id(parent)] = min(low[id(parent)], low[id(v)])
-                if low[id(v)] >= number[id(parent)]:
-                    k = len(open_edges) - 1
-                    while open_edges[k] is not came:
-                        k -= 1
-                    found.append(open_edges[k:])
-                    del open_edges[k:]
-    return found

@@ -74,10 +74,10 @@ def pointer(counts: Sequence[int]) -> NDArray[np.int64]:
     return np.concatenate([[0], np.cumsum(np.asarray(counts, dtype=np.int64))]).astype(np.int64)
 
 
-def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type, stem: str | None = None) -> Arrays:
+def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type) -> Arrays:
     """``name_ptr`` and ``name`` of a list of lists."""
     flat = [v for g in groups for v in g]
-    return {f"{stem or name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
+    return {f"{name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
 
 
 def element_cliques(model: Model, full: Sequence[Affine], room: Mapping[int, frozenset[int]]) -> list[list[int]]:

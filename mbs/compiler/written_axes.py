@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.common.affine import Affine
+from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.polynomial import substitute
 from mbs.compiler.spanning_tree import NoTreeError
 from mbs.kernel.header.enumerations import ParameterTarget
+from mbs.model.carried import WrittenAxis
 from mbs.model.model import Model
 
 ROUND = 1e-12
+"""rad, by which a value that a parameter writes may differ from the drawn one in its last bits."""
 
 
 def axis_room(model: Model, full: Sequence[Affine]) -> dict[int, frozenset[int]]:
@@ -22,19 +24,19 @@ def axis_room(model: Model, full: Sequence[Affine]) -> dict[int, frozenset[int]]
     found: dict[int, frozenset[int]] = {}
     for axis in model.written_axes:
         for k in range(3):
-            room = frozenset(j for v in axis.frame for j in substitute(v.components[k], full).terms)
-            found |= {id(v.components[k]): room for v in axis.vectors}
+            found |= dict.fromkeys((id(v.components[k]) for v in axis.vectors), _room(axis, k, full))
     return found
 
 
 def axis_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that a wheel couples in the mass matrix of its carrier."""
     axes = [a for a in model.written_axes if not a.spin.carrier.is_tabled]
-    return [
-        sorted({j for v in axis.frame for j in substitute(v.components[k], full).terms})
-        for axis in axes
-        for k in (0, 1, 2)
-    ]
+    return [sorted(_room(axis, k, full)) for axis in axes for k in range(3)]
+
+
+def _room(axis: WrittenAxis, k: int, full: Sequence[Affine]) -> frozenset[int]:
+    """Coordinates of z that the k-th component of a vector of the carrier may have."""
+    return frozenset(j for v in axis.frame for j in substitute(v.components[k], full).terms)
 
 
 def axis_arrays(model: Model, signals: Any, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
@@ -42,7 +44,7 @@ def axis_arrays(model: Model, signals: Any, seen: Sequence[Affine], new: NDArray
     tables = {id(t): k for k, t in enumerate(model.tabled)}
     axes = model.written_axes
 
-    def numbers(vectors: Any) -> list[int]:
+    def numbers(vectors: Iterable[AffineVector]) -> list[int]:
         return [signals.number(c) for v in vectors for c in v.components]
 
     return {
@@ -68,8 +70,8 @@ def _reals(model: Model) -> list[float]:
     return [r for pair in found for r in pair]
 
 
-def _drawn(axis: Any) -> list[float]:
-    """f, g and e of a wheel as drawn, along the axes of its carrier."""
+def _drawn(axis: WrittenAxis) -> list[float]:
+    """f, g and the axis of a wheel as drawn, along the axes of its carrier."""
     return [float(v) for vector in axis.spin.drawn for v in vector]
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.common.checks import number
+from mbs.common.checks import not_negative, number
 from mbs.common.errors import ModelError
 
 
@@ -28,18 +28,12 @@ class RayleighDamping:
         low, high : float
             The frequencies, Hz.
 
-        Returns
-        -------
-        RayleighDamping
-            With its alpha and beta.
-
         Raises
         ------
         ModelError
             The ratio is negative, or the frequencies are not 0 < low < high.
         """
-        if number(ratio, "The modal damping ratio") < 0:
-            raise ModelError(f"The modal damping ratio is {ratio:g}; it cannot be negative.")
+        ratio = not_negative(ratio, "The modal damping ratio")
         low, high = number(low, "The low frequency of the fit"), number(high, "The high frequency of the fit")
         if not 0 < low < high:
             raise ModelError(f"The frequencies of the fit are {low:g} and {high:g} Hz; 0 < first < second is needed.")
@@ -47,16 +41,5 @@ class RayleighDamping:
         return cls(2 * ratio * w1 * w2 / (w1 + w2), 2 * ratio / (w1 + w2))
 
     def matrix(self, M: np.ndarray, K: np.ndarray) -> np.ndarray:
-        """Damping matrix.
-
-        Parameters
-        ----------
-        M, K : ndarray, shape (n, n)
-            Mass and stiffness.
-
-        Returns
-        -------
-        ndarray, shape (n, n)
-            ``alpha M + beta K``.
-        """
+        """The damping matrix, shape (n, n), of a mass and a stiffness matrix."""
         return self.alpha * M + self.beta * K

@@ -7,6 +7,7 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import eigsh
 
+from ali3.columns import some_of
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.sparse import Sparse
@@ -109,9 +110,7 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
 
 
 def _named(model: FiniteElementModel, nodes: np.ndarray) -> str:
-    names = ", ".join(repr(model.names[i]) for i in nodes[:NAMED])
-    more = f" and {nodes.size - NAMED} more" if nodes.size > NAMED else ""
-    return f"{'node' if nodes.size == 1 else 'nodes'} {names}{more}"
+    return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), NAMED)}"
 
 
 def check_turning_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:

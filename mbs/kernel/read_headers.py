@@ -43,7 +43,6 @@ LIMITS = {
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",
-    "ALI3_DOUBT_FROM": "Steps that a run makes before it is judged.",
 }
 ROADS = "src/roads/road_file.h"
 ROAD_LIMITS = {

@@ -27,18 +27,10 @@ ROTATION = 1e-9
 
 
 class BodyVocabulary(ModelCore):
-    """The bodies of a model.
+    """The bodies of a model."""
 
-    Parameters
-    ----------
-    name, dimension, gravity, length
-        See `Model`.
-    """
-
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
-        super().__init__(name, dimension, gravity, length=length)
+    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
+        super().__init__(name, dimension, gravity, length)
         self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
         self.bodies: list[Body] = []
         self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints

@@ -16,6 +16,9 @@ from mbs.common.errors import ModelError
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.register import Register
 
+SAME_PLACE = 1e-6
+"""A point is one of a body, such as a node or a port, if it is no farther from it, m."""
+
 
 class Body:
     """A rigid body; made by `Model.body`.

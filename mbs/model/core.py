@@ -20,12 +20,10 @@ from mbs.model.tabled import TabledBody, TabledNumber
 
 
 class ModelCore(Register):
-    """What all parts of the vocabulary write into; see `Register` for its parameters."""
+    """What all parts of the vocabulary write into."""
 
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
-        super().__init__(name, dimension, gravity, length=length)
+    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
+        super().__init__(name, dimension, gravity, length)
         self.floating = False
         self.grounded = False  # a joint ties something to the ground
         self.start_in_equilibrium = False

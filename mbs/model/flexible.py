@@ -17,14 +17,12 @@ from mbs.common.errors import ModelError
 from mbs.flexible.fe_model_checks import check_turning_inertia
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.reduced_body import ReducedBody
-from mbs.model.body import Body
+from mbs.model.body import SAME_PLACE, Body
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, Product
 from mbs.model.joints.joint import Joint
 
-SAME_PLACE = 1e-6
-"""A point belongs to a node if it is no farther from it, m."""
 NO_MOTION = 1e-12
 """Displacements per unit amplitude below this part of the largest are round-off."""
 

@@ -102,7 +102,7 @@ class Model(
     def __init__(
         self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
     ) -> None:
-        super().__init__(name, dimension, gravity, length=length)
+        super().__init__(name, dimension, gravity, length)
         self.coordinate_rates: dict[int, float] = {}
 
     # --- coordinates ---

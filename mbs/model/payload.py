@@ -8,14 +8,12 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import AffineVector
 from mbs.common.checks import not_negative, shown, vector
 from mbs.common.errors import ModelError
-from mbs.model.body import Body
+from mbs.model.body import SAME_PLACE, Body
 from mbs.model.carried import Payload
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody
 
 REALS = ("mass",)
-SAME_PLACE = 1e-6
-"""How far a point may be drawn from where it is said to be, m."""
 
 
 def new_payload(

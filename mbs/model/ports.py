@@ -13,12 +13,9 @@ from numpy.typing import ArrayLike
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
-from mbs.model.body import Body
+from mbs.model.body import SAME_PLACE, Body
 from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors
-
-SAME_PLACE = 1e-6
-"""A point belongs to a port if it is no farther from it, m."""
 
 
 class PortedBody(Body):

@@ -34,31 +34,13 @@ def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
 
 
 class Register:
-    """Names and coordinates of a model.
+    """Names and coordinates of a `Model`, which describes the arguments.
 
     A public method of a model either does all it says or raises and changes nothing: every class of the vocabulary is
     made so when it is defined.
-
-    Parameters
-    ----------
-    name : str
-        Name of the model; it goes into the System and into messages.
-    dimension : {2, 3}
-        Planar (x, y) or spatial.
-    gravity : array_like, shape (dimension,), optional
-        Acceleration of gravity in earth axes, m/s2; by default 9.81 along -y (planar) or -z (spatial).
-    length : float, optional
-        What the tolerance of a run is relative to, m; by default the extent of the drawing.
-
-    Raises
-    ------
-    ModelError
-        The name is empty, or the dimension is neither 2 nor 3.
     """
 
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
+    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
         self.name = named(name, "a model")
         what = f"model '{self.name}'"
         self.dimension = whole(dimension, f"The dimension of {what}", 2, 3)
@@ -240,26 +222,20 @@ class Register:
             raise ModelError(f"{what} has an expression of coordinates that model '{self.name}' does not have.")
         return given
 
-    def expressions(self, given: AffineVector, what: str, sizes: tuple[int, ...] = ()) -> AffineVector:
+    def expressions(self, given: AffineVector, what: str) -> AffineVector:
         """A point or vector of bodies, if its coordinates are those of this model.
 
         Parameters
         ----------
         given : AffineVector
             Such as ``body.point((0, 0, 1))``.
-        sizes : tuple of int
-            How many components it may have; by default the dimension of the model.
         """
-        sizes = sizes or (self.dimension,)
         if not isinstance(given, AffineVector):
             raise ModelError(
                 f"{what} needs a point or a vector of a body, such as body.point(...), got {shown(given)}."
             )
-        if len(given) not in sizes:
-            raise ModelError(
-                f"{what} has a point or a vector of {len(given)} components; it needs "
-                f"{' or '.join(str(n) for n in sizes)}."
-            )
+        if len(given) != self.dimension:
+            raise ModelError(f"{what} has a point or a vector of {len(given)} components; it needs {self.dimension}.")
         for component in given.components:
             self.expression(component, what)
         return given

@@ -123,18 +123,10 @@ class Shape:
 
 
 class ShapeVocabulary(BodyVocabulary):
-    """The looks of a model.
+    """The looks of a model."""
 
-    Parameters
-    ----------
-    name, dimension, gravity, length
-        See `Model`.
-    """
-
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
-        super().__init__(name, dimension, gravity, length=length)
+    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
+        super().__init__(name, dimension, gravity, length)
         self._shapes: list[Shape] = []
         self._turnings: list[Turning] = []
         self.default_shapes = True

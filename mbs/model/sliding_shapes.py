@@ -29,18 +29,10 @@ class Sliding(Turning):
 
 
 class SlidingVocabulary(ShapeVocabulary):
-    """What slides on a body, and computed meshes.
+    """What slides on a body, and computed meshes."""
 
-    Parameters
-    ----------
-    name, dimension, gravity, length
-        See `Model`.
-    """
-
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
-        super().__init__(name, dimension, gravity, length=length)
+    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
+        super().__init__(name, dimension, gravity, length)
         self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
         self.flexible_scene: list[dict[str, Any]] = []
 

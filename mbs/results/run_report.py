@@ -7,9 +7,6 @@ from dataclasses import dataclass, fields
 
 from mbs.kernel.header.limits import BALANCE_WRONG
 
-BRANCH_JUMPED = 2
-"""`Report.branch_kind` of a step that jumped."""
-
 
 @dataclass(frozen=True)
 class Report:

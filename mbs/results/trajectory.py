@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.columns import some_of
 from ali3.errors import TableError, UserError
 from ali3.files import whole_file
 from ali3.near_names import did_you_mean
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viewer.recording import Recording
-
-
-_LISTED = 12  # names in a sentence
 
 
 class Trajectory(Mapping[str, NDArray[np.float64]]):
@@ -109,9 +107,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if isinstance(name, str) and name in self._left_out.names:
             return self._left_out.column(name)
         if not isinstance(name, str) or name not in self._columns:
-            known = ", ".join(list(self.units)[:_LISTED]) or "none"
-            more = f" and {len(self) - _LISTED} more" if len(self) > _LISTED else ""
-            hint = did_you_mean(str(name), self.units, f"the trajectory has: {known}{more}")
+            known = some_of(self.units)
+            hint = did_you_mean(str(name), self.units, f"the trajectory has: {known}")
             raise KeyError(f"There is no sensor {shown(name)}{hint}")
         return self._columns[name]
 
@@ -180,9 +177,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         every = 1 if poses is None else poses.every
         columns, units = {n: v[::every] for n, v in self.items()}, dict(self.units)
         if poses is not None:
-            names = poses.recorded_names
-            columns |= {names[column]: values for column, values in poses.items()}
-            units |= {names[column]: unit for column, unit in poses.units.items()}
+            of_bodies, units_of_bodies = poses.recorded()
+            columns, units = columns | of_bodies, units | units_of_bodies
         found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
         if found.scene is None:
             drawn = shown(scene["name"])
@@ -287,9 +283,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     f"Poses were kept of one of {self.poses.every} samples; write "
                     f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
                 )
-            names = self.poses.recorded_names
-            columns |= {names[column]: values for column, values in self.poses.items()}
-            units |= {names[column]: unit for column, unit in self.poses.units.items()}
+            of_bodies, units_of_bodies = self.poses.recorded()
+            columns, units = columns | of_bodies, units | units_of_bodies
         with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])

@@ -25,15 +25,13 @@ BESIDE = 10.0  # m, to which a level strip of frictions is drawn at least: the v
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
 
 
-def scene_part(road: PlaneRoad | KerbRoad | GridRoad, most: int = MOST) -> dict[str, Any]:
+def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
     """A road as what draws reads it.
 
     Parameters
     ----------
     road : PlaneRoad, KerbRoad or GridRoad
         As `mbs.roads.read_road` reads it, or of a model.
-    most : int
-        Points of a grid along a side.
 
     Returns
     -------
@@ -44,7 +42,7 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad, most: int = MOST) -> dict[
         return _plane(road)
     if isinstance(road, KerbRoad):
         return _kerb(road)
-    return _grid(road, most)
+    return _grid(road)
 
 
 def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
@@ -65,15 +63,13 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
     return GridRoad(head.real[:2], spacing, values[0], values[1] if head.maps == 2 else head.real[4])
 
 
-def drawn_roads(roads: Sequence[Mapping[str, Any]], most: int = MOST) -> list[dict[str, Any]]:
+def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Roads of a scene with those of files read.
 
     Parameters
     ----------
     roads : sequence of mapping
         Of a scene; the path of an entry of the kind "file" is one of this machine.
-    most : int
-        Points of a grid along a side.
 
     Returns
     -------
@@ -86,7 +82,7 @@ def drawn_roads(roads: Sequence[Mapping[str, Any]], most: int = MOST) -> list[di
         A file cannot be read.
     """
     return [
-        scene_part(read_road(road["path"]), most) if road["kind"] == "file" and road.get("path") else dict(road)
+        scene_part(read_road(road["path"])) if road["kind"] == "file" and road.get("path") else dict(road)
         for road in roads
     ]
 
@@ -111,7 +107,7 @@ def _kerb(road: KerbRoad) -> dict[str, Any]:
     }
 
 
-def _grid(road: GridRoad, most: int) -> dict[str, Any]:
+def _grid(road: GridRoad) -> dict[str, Any]:
     heights = np.asarray(road.heights, float)
     frictions = np.broadcast_to(np.asarray(road.frictions, float), heights.shape)
     origin = np.array(road.origin, float)
@@ -120,7 +116,7 @@ def _grid(road: GridRoad, most: int) -> dict[str, Any]:
         more = np.maximum(np.ceil(missing / road.spacing), 0).astype(int)
         heights, frictions = (np.pad(values, [(n, n) for n in more], mode="edge") for values in (heights, frictions))
         origin -= more * np.array(road.spacing, float)
-    every = [max(1, -(-(n - 1) // (most - 1))) for n in heights.shape]
+    every = [max(1, -(-(n - 1) // (MOST - 1))) for n in heights.shape]
     part = tuple(slice(None, None, k) for k in every)
     thin = heights[part]
     found: dict[str, Any] = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import cache
 from typing import BinaryIO
 
@@ -208,9 +208,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
     return len(values), values.astype("<f8").tobytes() + which.astype(np.uint8).tobytes()
 
 
-def read_shared(
-    file: BinaryIO, head: Header, name: object, wanted: Callable[[int], bool] = lambda number: True
-) -> Iterable[tuple[int, Float]]:
+def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Numbers and values of tiles.
 
     Parameters
@@ -219,8 +217,6 @@ def read_shared(
         Open.
     name : object
         What errors call it.
-    wanted : callable
-        Of the number of a tile.
 
     Yields
     ------
@@ -240,8 +236,6 @@ def read_shared(
         raise RoadFileError(f"The table of parts of the road {name} was altered or damaged.")
     kept: dict[int, Float] = {}
     for number, (place, size, crc, _, _) in enumerate(ENTRY.iter_unpack(table)):
-        if not wanted(number):
-            continue
         if place not in kept:
             inside = 0 < place <= head.file_bytes - size and 0 < size <= head.file_bytes
             file.seek(place if inside else 0)

@@ -8,9 +8,9 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from mbs.common.progress import progress_for
+from mbs.kernel.header.enumerations import BranchKind
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
-from mbs.results.run_report import BRANCH_JUMPED
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -94,7 +94,7 @@ def judged_run(
             error.trajectory = error.trajectory.thinned(every // often)
         raise
     finally:  # of the run that was asked for, also when it failed
-        jump = made and made[0].report.branch_kind == BRANCH_JUMPED
+        jump = made and made[0].report.branch_kind == BranchKind.JUMP
         branch = made[0].branch_change if jump else found.branch if found is not None else ""
         bent = made[0].bending.once() if made else ""
         rim = made[0].instance.rim_text() if made and found is not None else ""  # else the refusal says it

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -15,10 +14,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 from scipy.spatial.transform import Rotation
 
+from ali3.decimal_number import parse_number
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
 from ali3.reading import read_bytes
-from ali3.words import brief
+from mbs.common.checks import array, direction
 from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -212,7 +212,7 @@ def _mass(parts: Iterable[tuple[Any, Pose]]) -> tuple[float, Pose, Pose]:
     for link, pose in parts:
         if link.inertial is not None and link.inertial.mass:
             own = pose @ _pose(link.inertial.origin)
-            inertia = _numbers(link.inertial.inertia, (3, 3), f"inertia of the link '{link.name}'")
+            inertia = array(link.inertial.inertia, (3, 3), f"the inertia of the link '{link.name}'")
             tensor = own[:3, :3] @ inertia @ own[:3, :3].T
             found.append((float(link.inertial.mass), own[:3, 3], tensor))
     mass = sum(m for m, _, _ in found)
@@ -307,28 +307,14 @@ def _tell_left_out(joints: Iterable[Any], what: str) -> None:
 
 
 def _loss(joint: Any, kind: str) -> float:
-    given = getattr(joint.dynamics, kind, None) or 0.0
-    return float(_numbers(given, (), f"{kind} of the joint '{joint.name}'"))
-
-
-def _numbers(given: Any, shape: tuple[int, ...], what: str) -> Pose:
-    """What the reader found for a quantity, of a shape."""
     try:
-        found = np.asarray(given, float)
-    except ValueError:
-        found = np.empty(0)
-    if given is None or found.shape != shape:
-        wanted = f"{math.prod(shape)} numbers" if shape else "a number"
-        raise ModelError(f"The {what} is {brief(given)}; it must be {wanted}.")
-    return found
+        return parse_number(getattr(joint.dynamics, kind, None) or "0")
+    except ValueError as error:
+        raise ModelError(f"The {kind} of the joint '{joint.name}' cannot be used: {error}.") from None
 
 
 def _axis(joint: Any) -> Pose:
-    axis = _numbers([1.0, 0.0, 0.0] if joint.axis is None else joint.axis, (3,), f"axis of the joint '{joint.name}'")
-    size = float(np.linalg.norm(axis))
-    if not 0.0 < size < np.inf:
-        raise ModelError(f"The axis of the joint '{joint.name}' is {axis.tolist()}; it must have a direction.")
-    return np.asarray(axis / size)
+    return direction([1.0, 0.0, 0.0] if joint.axis is None else joint.axis, 3, f"the axis of the joint '{joint.name}'")
 
 
 def _pose(origin: Any) -> Pose:

@@ -10,6 +10,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.columns import in_columns
 from ali3.errors import UserError
 from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of, name_and_text
@@ -94,9 +95,7 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
     _refuse(given_of(parser, options, ("json",)), "--kinematics or --cheapest")
     if options.list:
-        width = max(map(len, car_names()))
-        for name in car_names():
-            print(f"{name:<{width}}  {load(name).description}")
+        print("\n".join(in_columns([(name, load(name).description) for name in car_names()])))
         return 0
     if options.folder is not None:
         from mbs.vehicle.copy_car import copy_car

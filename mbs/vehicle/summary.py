@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ali3.columns import in_columns
 from mbs.vehicle.car import Car
 from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.environment import GRAVITY
@@ -47,8 +48,7 @@ def summary(car: Car) -> str:
         ("chassis", "rigid" if not car.has_frame else "rigid, or flexible by its frame"),
         ("parameters", f"{len(car.values())} of the file in the FMU"),
     ]
-    width = max(len(name) for name, _ in rows)
-    return "\n".join(f"{name:<{width}}  {text}" for name, text in rows)
+    return "\n".join(in_columns(rows))
 
 
 def grip_row(car: Car, axle: str) -> tuple[str, str]:
@@ -82,5 +82,4 @@ def parameter_table(car: Car) -> str:
             when = "while driving" if q.change == "tunable" else "before the start"
             for path in section.numbers(field) if q.change is not None else ():
                 rows.append((path, f"{values[path]:g}", q.unit, f"{q.least:g}", f"{q.high:g}", when))
-    widths = [max(len(row[k]) for row in rows) for k in range(5)]
-    return "\n".join("  ".join([*(row[k].ljust(widths[k]) for k in range(5)), row[5]]) for row in rows)
+    return "\n".join(in_columns(rows))

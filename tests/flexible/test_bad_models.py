@@ -53,7 +53,7 @@ def one_sentence(error: pytest.ExceptionInfo[ModelError]) -> bool:
         (lambda: section_forces(portal(), 0, 1.2), "place 1.2 on beam 0 is outside"),
         (lambda: section_forces(portal(), 99, 0.5), "no beam 99"),
         (lambda: RayleighDamping.fitted(0.02, 60.0, 15.0), "0 < first < second"),
-        (lambda: RayleighDamping.fitted(-0.02, 15.0, 60.0), "cannot be negative"),
+        (lambda: RayleighDamping.fitted(-0.02, 15.0, 60.0), "must not be negative"),
     ],
 )
 def test_impossible_frames(build: object, sentence: str) -> None:

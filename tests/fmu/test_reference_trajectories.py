@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from ali3.low_pass import low_pass
 from benchmarks.car import accuracy, fidelity_runs, manoeuvres, statics, trajectories
 from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
@@ -22,7 +23,6 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.wild_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import element_names
-from hosts.measures.low_pass import low_pass
 from mbs import Pose, Simulation
 from mbs.vehicle.environment import GRAVITY
 from tests.fmu.native import compile_host, guid_of, unpack

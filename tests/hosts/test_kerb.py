@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import mbs
+from ali3.low_pass import low_pass
 from fmu_src.build.build import build_fmu
 from hosts.fmu import built_fmu
-from hosts.measures.low_pass import low_pass
 from hosts.run import kerb
 from hosts.run.command import main
 from mbs.scenes import kerb_test

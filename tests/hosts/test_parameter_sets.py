@@ -178,7 +178,7 @@ def test_units_are_converted_by_their_definitions(
         (ssv("spring.stifness=20"), "no parameter or input 'spring.stifness'; did you mean 'spring.stiffness'"),
         (ssv("Spring.Damping=2"), "no parameter or input 'Spring.Damping'; did you mean 'spring.damping'"),
         (ssv("car.damping=2"), "did you mean 'spring.damping'"),
-        (ssv(f"a&#10;{'b' * 200}=2"), "no parameter or input 'a bbbbb.*[.]{3}'; it has: "),
+        (ssv(f"a&#10;{'b' * 200}=2"), r"no parameter or input 'a\\nbbbbb.*[.]{3}; it has: "),
         (ssv("xyzzy=2"), "no parameter or input 'xyzzy'; it has: "),
         (ssv("bob.x=2"), "'bob.x' is an output of the FMU"),
         (ssv("spring.mass=2"), "'spring.mass' is a constant, 0.1 kg; it cannot be set"),

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 import pytest
 
+from ali3.low_pass import low_pass
 from benchmarks.car import fidelity_runs
-from hosts.measures.low_pass import low_pass
 from mbs import Settings, Simulation, compile
 from mbs.scenes import kerb_test
 from mbs.vehicle import load

@@ -129,19 +129,17 @@ def test_a_block_of_every_format_is_the_block(tmp_path, suffix):
 def test_scale_is_in_metres_per_unit(tmp_path):
     file = tmp_path / "block.stl"
     file.write_bytes(stl(1000.0 * CORNERS))
-    points, triangles = read_mesh(file, 0.001, extent=4.2)
+    points, triangles = read_mesh(file, 0.001)
     assert volume(points, triangles) == pytest.approx(SIZE.prod(), rel=1e-4)
 
 
 def test_a_unit_that_does_not_fit_is_warned_about(tmp_path):
     file = tmp_path / "block.stl"
     file.write_bytes(stl(1000.0 * CORNERS))
-    with pytest.warns(UserWarning, match=r"is 616 m across, the model 4\.2 m; .* scale=0\.001 is needed\.$"):
-        read_mesh(file, extent=4.2)
-    with pytest.warns(UserWarning, match=r"is 616 m across; "):
+    with pytest.warns(UserWarning, match=r"is 616 m across; .* scale=0\.001 is needed\.$"):
         read_mesh(file)
-    with pytest.warns(UserWarning, match=r"is 0\.000616 m across, the model 4\.2 m; scale is given in metres per unit"):
-        read_mesh(file, 1e-6, extent=4.2)
+    with pytest.warns(UserWarning, match=r"is 0\.000616 m across; scale is given in metres per unit"):
+        read_mesh(file, 1e-6)
 
 
 @pytest.mark.parametrize(

@@ -146,6 +146,17 @@ def test_the_notes_are_returned_and_stand_in_the_page(tmp_path: Path) -> None:
     assert run["missing"][0]["name"] == "slider"
 
 
+@pytest.mark.parametrize("most", [4000, 6000])
+def test_a_page_has_as_many_times_as_were_asked_for(most: int, tmp_path: Path) -> None:
+    """Also more than by default."""
+    written = write_page(tmp_path / "p.html", crank(np.linspace(0.0, 1.0, 12001)), most=most)
+    run = data_of(written.path.read_text(encoding="utf-8"))["runs"][0]
+    kept = len(numbers(run["time"])["time"])
+    assert run["notes"] == written.notes
+    assert written.notes[0].startswith(f"{kept} of 12001 times are shown")
+    assert 0.9 * most < kept <= most
+
+
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [

@@ -94,7 +94,7 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         started = not math.isnan(pilot.onset)
-        return ends(time, outputs) and (started or ends.reason != "stands")
+        return ends(outputs) and (started or ends.reason != "stands")
 
     start = {"initial.speed": speed} if can_start else {}
     result = car.drive(held(car, f"braking_in_a_turn {pedal:.3g}", stop_time, {}, start), pilot, over)

@@ -209,7 +209,7 @@ def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage
         if math.isnan(pilot.start):
             return time > run_up
         x, y, _ = pilot.seen(outputs)
-        return ends(time, outputs) or x > way or abs(y) > 8.0
+        return ends(outputs) or x > way or abs(y) > 8.0
 
     start = {"initial.speed": wanted} if can_start else {}
     result = car.drive(held(car, f"{layout.name} {speed:g} km/h", run_up + 3.0 * way / wanted, {}, start), pilot, over)

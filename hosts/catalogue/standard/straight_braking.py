@@ -113,7 +113,7 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         started = not math.isnan(pilot.onset)
-        return (ends(time, outputs) and (started or ends.reason != "stands")) or (not started and time > run_up)
+        return (ends(outputs) and (started or ends.reason != "stands")) or (not started and time > run_up)
 
     start = {"initial.speed": nominal} if can_start else {}
     result = car.drive(held(car, "straight_braking", stop_time, {}, start), pilot, over)

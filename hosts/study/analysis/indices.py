@@ -15,6 +15,7 @@ _BARS = "Bars: bootstrap, 95 %; an index whose bar reaches zero or lies below it
 # Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
 _HARMONICS = 10
 _FEWEST_FOR_ESTIMATE, _MOST_FOR_ESTIMATE = 64, 50_000
+_SEED = 1  # of the bootstrap; SALib takes 0 for none
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class Indices:
 
 
 def saltelli_indices(
-    names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64], second_order: bool, seed: int = 1
+    names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64], second_order: bool
 ) -> Indices | str:
     """First-order and total indices from a design of Saltelli's.
 
@@ -56,8 +57,6 @@ def saltelli_indices(
         Finite.
     second_order : bool
         As the plan was made.
-    seed : int
-        Of the bootstrap; not 0, which SALib takes for none.
 
     Returns
     -------
@@ -86,7 +85,7 @@ def saltelli_indices(
     used = blocks[whole].ravel()
     if same := _all_the_same(used):
         return same
-    found = sobol.analyze(_problem(names), used, calc_second_order=second_order, seed=seed)
+    found = sobol.analyze(_problem(names), used, calc_second_order=second_order, seed=_SEED)
     left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
     how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
     second = np.asarray(found["S2"]) if second_order else None
@@ -129,9 +128,7 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     return Indices(tuple(names), np.array(first), none, np.array(total), none, how)
 
 
-def estimated_indices(
-    names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 1
-) -> Indices | str:
+def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
     """First-order indices of any design that fills its space, by RBD-FAST.
 
     Parameters
@@ -158,9 +155,9 @@ def estimated_indices(
     if same := _all_the_same(y):
         return same
     if len(y) > _MOST_FOR_ESTIMATE:
-        some = np.random.default_rng(seed).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
+        some = np.random.default_rng(_SEED).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
         x, y = x[some], y[some]
-    found = rbd_fast.analyze(_problem(names), x, y, M=_HARMONICS, seed=seed)
+    found = rbd_fast.analyze(_problem(names), x, y, M=_HARMONICS, seed=_SEED)
     none = np.full(len(names), np.nan)
     how = (
         f"An estimate by RBD-FAST from {len(y)} runs, of the first order only: for total indices choose the sampling "

@@ -58,7 +58,7 @@ def write_report(folder: Path) -> list[Path]:
 
     @cache
     def commands(index: int) -> list[str]:
-        repeat = repeated(index, True)
+        repeat = repeated(index)
         return [line for line in (repeat.drive, repeat.view) if line]
 
     return report_of(read_study(folder), folder, commands)

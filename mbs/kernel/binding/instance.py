@@ -347,9 +347,9 @@ class Instance:
         """Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs."""
         self._check(self._library.ali3_refresh(self._handle))
 
-    def sensors(self, out: Any = None) -> Any:
-        """Sensor values (ns,) at the present state, in a new C array or in `out`."""
-        values = out if out is not None else (c_double * self.system.sizes.ns)()
+    def sensors(self) -> Any:
+        """Sensor values (ns,) at the present state, in a new C array."""
+        values = (c_double * self.system.sizes.ns)()
         status = self._sensors(self._handle, values)
         if status:
             self._check(status)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from ctypes import byref, c_void_p
 
 from ..header.structures import Sizes
@@ -14,11 +13,6 @@ from .library import load_library
 class LoadedSystem:
     """A System in the kernel's memory, immutable and shared by its instances.
 
-    Parameters
-    ----------
-    library : path, optional
-        The kernel library; by default `library_path()`.
-
     Attributes
     ----------
     sizes : Sizes
@@ -27,9 +21,9 @@ class LoadedSystem:
         Bytes of a saved state and of an instance.
     """
 
-    def __init__(self, data: bytes, library: str | os.PathLike[str] | None = None) -> None:
+    def __init__(self, data: bytes) -> None:
         self._handle: c_void_p | None = None
-        self._library = load_library(library)
+        self._library = load_library()
         handle = c_void_p()
         message = ctypes.create_string_buffer(256)
         status = self._library.ali3_system_load(bytes(data), len(data), byref(handle), message, len(message))

@@ -16,8 +16,6 @@ HALVINGS_SUSPECT = 0.1
 """Halvings per step above which a run is suspect."""
 SYSTEM_VERSION = 1
 """Of the System file."""
-DOUBT_FROM = 100
-"""Steps that a run makes before it is judged."""
 ROAD_VERSION = 1
 """Of a road file."""
 ROAD_SHARED = 2

@@ -29,8 +29,8 @@ Ranges = dict[str, tuple[float, float]]
 
 
 def working_ranges(car: CarContent) -> Ranges:
-    """Least and largest value by key path: of tyres, springs and dampers, brakes, drive, air, and of masses and where
-    they are.
+    """Least and largest value by key path: of tyres, springs, dampers, brakes, drive, air, and of masses and where they
+    are.
 
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
     unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
@@ -75,9 +75,14 @@ def _of_mass_centre(found: Ranges, car: CarContent) -> None:
 
 
 def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:
-    """Of a spring that carries a weight, and of the damper beside it; how much more load lets it sink as far as it may.
+    """Ranges of a spring that carries a weight, N, and of its damper.
 
     A law is taken as lines from row to row, which go on beyond its ends.
+
+    Returns
+    -------
+    float
+        How much more load, N, the spring carries until it has sunk by `SUNK`.
     """
     spring, damper = axle.spring, axle.damper
     x, force = _rows(spring)
@@ -112,7 +117,7 @@ def _rows(spring: Spring) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _of_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
-    """Of the areas and of the density of the air.
+    """Ranges of the areas and of the density of the air.
 
     Parameters
     ----------

@@ -14,7 +14,6 @@ from ali3.told_warnings import told_warnings
 
 LEAST_RANGE = 1e-3  # m: who gives metres finds less
 TRAVEL = (-80.0, 80.0)  # mm
-POINTS = 81
 
 
 def report(options: argparse.Namespace) -> int:
@@ -24,7 +23,7 @@ def report(options: argparse.Namespace) -> int:
     from ali3.files import check_writable, write_text
     from mbs.common.progress import progress_for
     from mbs.vehicle.car_file import load
-    from mbs.vehicle.kinematics.car_kinematics import MOTIONS, checked_travel, kinematics
+    from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
     from mbs.vehicle.kinematics.compliance import compliance, fidelity_of
     from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
     from mbs.vehicle.kinematics.curve_files import curve_file, write_curve

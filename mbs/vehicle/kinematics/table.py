@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ali3.columns import in_columns
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance_table import shown_number
 from mbs.vehicle.kinematics.quantities import BY_NAME, Quantity
@@ -76,12 +77,5 @@ def text(lines: Sequence[tuple[str, str, str, str, str]]) -> str:
         As `rows` gives them.
     """
     lines = [("", "front", "rear", "", ""), *lines]
-    widths = [max(len(line[k]) for line in lines) for k in range(4)]
-    printed = []
-    for line in lines:
-        if line[0] and not any(line[1:]):
-            printed.append(f"\n{line[0]}")
-            continue
-        cells = [line[0].ljust(widths[0]), line[1].rjust(widths[1]), line[2].rjust(widths[2]), line[3].ljust(widths[3])]
-        printed.append("  ".join([*cells, line[4]]).rstrip())
-    return "\n".join(printed)
+    headings = [bool(line[0]) and not any(line[1:]) for line in lines]
+    return "\n".join("\n" * heading + line for heading, line in zip(headings, in_columns(lines, (1, 2)), strict=True))

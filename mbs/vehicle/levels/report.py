@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
 from ali3.words import brief
@@ -117,13 +118,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         cost = _most(mine, "us_per_step", 1e-3 / h, ".1f")
         real = "-" if cost == "-" else f"{1e3 / max(1e-3 * row['us_per_step'] / h for row in mine):.0f}"
         lines.append((f"{Fidelity.of(name).value:>3} {name}", f"{1e3 * h:g}", *errors, cost, real))
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    return [
-        "  ".join(
-            cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(line, widths, strict=True))
-        )
-        for line in lines
-    ]
+    return in_columns(lines, range(1, 7))
 
 
 def _most(rows: Sequence[Mapping[str, Any]], key: str, factor: float, form: str) -> str:

@@ -22,7 +22,7 @@ from hosts.common.errors import HostError
 from hosts.run.command import main as drive
 from hosts.study.campaign import run_study
 from hosts.study.command import main
-from hosts.study.repeat import repeat_command
+from hosts.study.repeat import repeater
 from hosts.study.store import read_study
 
 TESTS = Path(__file__).parents[2]
@@ -171,11 +171,11 @@ sys.exit(main())
 
 def test_a_run_is_repeated_as_a_drive(finished: Path) -> None:
     out = finished / "out"
-    lines = repeat_command(out, 11)
+    lines = repeater(out)(11)
     words = shlex.split(lines.drive)
     assert drive(words[words.index("run") + 1 :]) == 0
     table = read_csv(out / "repeat" / "tuned_run-11.csv")
     assert max(table["bob.y"]) == read_study(out).loc[11, "highest"]
     assert " view " in lines.view
     with pytest.raises(HostError, match="There is no run 16; the study in .* has the runs 0 to 15."):
-        repeat_command(out, 16)
+        repeater(out)(16)

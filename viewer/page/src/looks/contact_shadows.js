@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
 import { lift, LIFT } from "./lifted.js";
 import { groundHeight } from "./road_height.js";
+import { atEachPoint } from "./vertex_code.js";
 
 /** How dark the middle of a shadow is, of the body and of a wheel, beside shadows of the sun and in place of them. */
 const [BESIDE, ALONE] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
@@ -78,10 +79,7 @@ function material() {
   const made = new THREE.MeshBasicMaterial({ color: "#05060a", transparent: true, depthWrite: false, side: THREE.DoubleSide });
   made.onBeforeCompile = (shader) => {
     const head = "varying vec2 vCorner;\nvarying float vDark;\n";
-    shader.vertexShader = `attribute vec2 corner;\nattribute float dark;\n${head}${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      "#include <begin_vertex>\nvCorner = corner;\nvDark = dark;",
-    );
+    atEachPoint(shader, `attribute vec2 corner;\nattribute float dark;\n${head}`, "vCorner = corner;\nvDark = dark;");
     lift(shader, NEARER);
     shader.fragmentShader = `${head}${shader.fragmentShader}`.replace(
       "#include <color_fragment>",

@@ -1,6 +1,6 @@
 // How much of each surface lies where, as pictures for the graphics card: soft edges and no shimmer far away.
-import * as THREE from "three";
 import { SURFACES } from "./heights.js";
+import { smoothTexture } from "./noise.js";
 
 /** The pictures have no more points a side; larger rasters are averaged. */
 const MOST = 4096;
@@ -56,20 +56,12 @@ function soften(picture, width, height, step) {
 /**
  * @param {import("./heights.js").SurfaceRaster} raster
  * @param {number} anisotropy
- * @returns {{textures: THREE.DataTexture[], size: number[], start: number[]}} size: metres of a picture along y and x;
+ * @returns {{textures: import("three").DataTexture[], size: number[], start: number[]}} size: metres of a picture along y and x;
  *   start: metres from the first point of the raster to the corner of the pictures
  */
 export function coverage(raster, anisotropy) {
   const { width, height, factor, pictures } = shares(raster);
-  const textures = pictures.map((pixels) => {
-    const texture = new THREE.DataTexture(pixels, width, height);
-    texture.magFilter = THREE.LinearFilter;
-    texture.minFilter = THREE.LinearMipmapLinearFilter;
-    texture.generateMipmaps = true;
-    texture.anisotropy = anisotropy;
-    texture.needsUpdate = true;
-    return texture;
-  });
+  const textures = pictures.map((pixels) => smoothTexture(pixels, width, height, anisotropy));
   const [dx, dy] = raster.spacing;
   return { textures, size: [width * factor * dy, height * factor * dx], start: [-0.5 * dy, -0.5 * dx] };
 }

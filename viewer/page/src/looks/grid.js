@@ -1,6 +1,7 @@
 // A floor or wall with a grid in metres, fixed to the earth.
 import * as THREE from "three";
 import { dot } from "../scene/math.js";
+import { onTheEarth } from "./vertex_code.js";
 
 const CODE = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
@@ -35,10 +36,7 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
     : new THREE.MeshBasicMaterial({ ...settings, toneMapped: false, fog: false });
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
-    shader.vertexShader = `varying vec3 vGround;\n${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
-    );
+    onTheEarth(shader);
     const head = "uniform vec3 aX, aY, aInk;\nuniform vec2 aOffset[2];\nuniform float aStep, aReach;\nvarying vec3 vGround;\n";
     shader.fragmentShader = (head + shader.fragmentShader)
       .replace("#include <map_fragment>", `#include <map_fragment>\n${CODE}`)

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { across, cross, dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { SKYLIGHT } from "./skylight.js";
+import { atEachPoint, onTheEarth } from "./vertex_code.js";
 
 /** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
 export const PERIODS = [1.1, 7.3, 61, 10];
@@ -103,10 +104,8 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
 
 /** @param {Data} shader of a material of three.js */
 function patterned(shader) {
-  shader.vertexShader = `attribute float wet;\nvarying vec3 vGround;\nvarying float vWet;\n${shader.vertexShader}`.replace(
-    "#include <begin_vertex>",
-    "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;\nvWet = wet;",
-  );
+  onTheEarth(shader);
+  atEachPoint(shader, "attribute float wet;\nvarying float vWet;", "vWet = wet;");
   shader.fragmentShader = PARAMETERS + shader.fragmentShader.replace("#include <map_fragment>", `#include <map_fragment>\n${ASPHALT}`);
 }
 

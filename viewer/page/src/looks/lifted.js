@@ -1,4 +1,5 @@
 // What lies on the ground is drawn nearer to the eye than it is: at its place in the picture, and never in the ground.
+import { atEachPoint } from "./vertex_code.js";
 
 /** Shares of the distance by which paint, and what lies on paint, is drawn nearer. */
 export const [PAINT, MARKS] = [0.004, 0.006];
@@ -14,10 +15,10 @@ export const LIFT = 0.004;
  */
 export function widen(shader, viewport, { up = [0, 0, 1], least = 1.2, fainter = true } = {}) {
   shader.uniforms.aViewport = viewport;
-  shader.vertexShader = `attribute vec3 aside;\nuniform vec2 aViewport;\nvarying float vThin;\n${shader.vertexShader}`.replace(
-    "#include <begin_vertex>",
-    `#include <begin_vertex>
-mat4 seen = projectionMatrix * modelViewMatrix;
+  atEachPoint(
+    shader,
+    "attribute vec3 aside;\nuniform vec2 aViewport;\nvarying float vThin;",
+    `mat4 seen = projectionMatrix * modelViewMatrix;
 vec4 edgeSeen = seen * vec4(position, 1.0);
 vec4 middleSeen = seen * vec4(position - aside, 1.0);
 vec4 aheadSeen = seen * vec4(position - aside + cross(vec3(${up.map((value) => value.toFixed(6))}), aside), 1.0);

@@ -45,8 +45,14 @@ export function noiseTexture(anisotropy = 1) {
       pixels[k + 3] = 255 * Math.min(1, Math.max(0, 6 * (valueNoise(x, y, 128, 307) - 0.82)));
     }
   }
-  const texture = new THREE.DataTexture(pixels, SIZE, SIZE);
+  const texture = smoothTexture(pixels, SIZE, SIZE, anisotropy);
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  return texture;
+}
+
+/** Pixels that do not shimmer from afar. @param {Uint8Array} pixels @param {number} width @param {number} height @param {number} anisotropy */
+export function smoothTexture(pixels, width, height, anisotropy) {
+  const texture = new THREE.DataTexture(pixels, width, height);
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipmapLinearFilter;
   texture.generateMipmaps = true;

@@ -4,6 +4,7 @@ import { dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
 import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
+import { onTheEarth } from "./vertex_code.js";
 
 /** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
 const DRAFTED = 0.01;
@@ -86,10 +87,7 @@ const layered = (code) => code.replace(/LAYER_(\d)/g, (_, k) => `(plane + aOffse
 /** The place on the ground goes along; paint is widened and lifted. @param {Data} shader @param {Data} uniforms @param {{value: Data} | false} viewport of paint @param {number} [nearer] */
 function onGround(shader, uniforms, viewport, nearer = PAINT) {
   Object.assign(shader.uniforms, uniforms);
-  shader.vertexShader = `varying vec3 vGround;\n${shader.vertexShader}`.replace(
-    "#include <begin_vertex>",
-    "#include <begin_vertex>\nvGround = (modelMatrix * vec4(position, 1.0)).xyz;",
-  );
+  onTheEarth(shader);
   if (!viewport) return;
   widen(shader, viewport);
   lift(shader, nearer);

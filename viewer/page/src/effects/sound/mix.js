@@ -2,6 +2,8 @@
 import * as signals from "./signals.js";
 
 const PREFIX = /^(.+)\.slip_angle$/;
+/** Radius of a wheel, m, and the longest time between two pictures, s, over which a change of load is a thump. */
+const [RADIUS, LONGEST] = [0.3, 0.2];
 
 /** Knows which numbers a car has; remembers the loads of the last time. */
 export class CarMix {
@@ -34,14 +36,17 @@ export class CarMix {
    * @returns {import("./mixer.js").Mix | null} null: nothing is to be heard
    */
   at(lookup, time) {
-    const number = (name) => (Number.isFinite(lookup(name)) ? lookup(name) : 0);
+    const number = (name) => {
+      const value = lookup(name);
+      return Number.isFinite(value) ? value : 0;
+    };
     const step = this.time === null ? 0 : time - this.time;
     this.time = time;
     const wheels = this.wheels.map((prefix) => ({
       load: number(`${prefix}.Fz`),
       slip: number(`${prefix}.slip`),
       angle: number(`${prefix}.slip_angle`),
-      tread: Math.abs(number(`${prefix}.omega`)) * 0.3,
+      tread: Math.abs(number(`${prefix}.omega`)) * RADIUS,
     }));
     const before = this.loads;
     this.loads = wheels.map(({ load }) => load);
@@ -53,7 +58,7 @@ export class CarMix {
     );
     const loudest = squeals.indexOf(Math.max(...squeals, 0));
     const touching = wheels.length > 0 ? wheels.filter(({ load }) => load > 0).length / wheels.length : 1;
-    const thumps = before === null || step > 0.2 ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
+    const thumps = before === null || step > LONGEST ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
     return {
       engine: this.engine ? { pitch: signals.enginePitch(number("engine_speed")), ...signals.engineLevels(number("engine_speed"), throttle) } : null,
       motor: this.motor ? this.#motor(number, throttle) : null,

@@ -1,6 +1,7 @@
 // Guard rails and buildings.
 import looks from "../../../../looks.json" with { type: "json" };
 import { chance } from "./chance.js";
+import { atEachPoint } from "../vertex_code.js";
 
 const { zinc: ZINC, roof: ROOF } = looks.things;
 /** Across a rail, from below: outwards and up, of a rail of height 1 whose beam is its upper 0.4. */
@@ -61,7 +62,7 @@ export function addBuilding(made, { at, yaw, size }) {
 
 /** Windows in a regular order, by the metres of a wall. @param {Data} shader of three.js */
 export function windows(shader) {
-  shader.vertexShader = `varying vec2 vWall;\n${shader.vertexShader}`.replace("#include <begin_vertex>", "#include <begin_vertex>\nvWall = uv;");
+  atEachPoint(shader, "varying vec2 vWall;", "vWall = uv;");
   shader.fragmentShader = `varying vec2 vWall;\n${shader.fragmentShader}`.replace(
     "#include <color_fragment>",
     `#include <color_fragment>

@@ -1,0 +1,27 @@
+"""Many texts for a person: rows in columns, the first names of a list."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Sequence
+
+
+def in_columns(rows: Sequence[Sequence[str]], right: Container[int] = ()) -> list[str]:
+    """A line for each row, its cells two blanks apart.
+
+    Parameters
+    ----------
+    rows : sequence of sequence of str
+        With as many cells each.
+    right : container of int
+        Columns whose cells are flush right, from 0.
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    justified = [str.rjust if k in right else str.ljust for k in range(len(widths))]
+    return ["  ".join(fit(c, w) for fit, c, w in zip(justified, row, widths, strict=True)).rstrip() for row in rows]
+
+
+def some_of(names: Iterable[str], most: int = 12, between: str = ", ") -> str:
+    """The first of some names, and how many more there are; "none" where there are none."""
+    listed = list(names)
+    more = f" and {len(listed) - most} more" if len(listed) > most else ""
+    return (between.join(listed[:most]) or "none") + more

@@ -1,0 +1,9 @@
+// Code of a material that runs for each point.
+
+/** @param {Data} shader of three.js @param {string} declared before all @param {string} code once the place of the point is known, `position` */
+export function atEachPoint(shader, declared, code) {
+  shader.vertexShader = `${declared}\n${shader.vertexShader}`.replace("#include <begin_vertex>", `#include <begin_vertex>\n${code}`);
+}
+
+/** Hands the place on the earth on to the pixels. @param {Data} shader */
+export const onTheEarth = (shader) => atEachPoint(shader, "varying vec3 vGround;", "vGround = (modelMatrix * vec4(position, 1.0)).xyz;");
