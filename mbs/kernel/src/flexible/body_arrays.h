@@ -1,7 +1,9 @@
 /* A flexible body in the arrays of a System, and the loops that its files share. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
+#include "../algebra/processor.h"
 #include "../algebra/real.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 
 enum {
@@ -47,6 +49,51 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
   return f;
 }
 
+#ifndef ALI3_WIDTH
+enum { ALI3_FEW = 2, ALI3_MANY = 8 }; /* fours of rows that are worked on together */
+
+/* Rows i to i + 4 fours - 1 of start + M x go to out: their sums stay in registers, in the order of `ali3_accumulate`. */
+ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const ali3_four *start, int fours, int64_t i,
+                            double *out) {
+  ali3_four sum[ALI3_MANY];
+#pragma clang loop unroll(full)
+  for (int t = 0; t < fours; t++) sum[t] = start[t];
+  const double *a = M + i, *b = a + n, *c = b + n, *d = c + n;
+  int64_t l = 0;
+  ALI3_SHORT
+  for (; l + 3 < n; l += 4) {
+#pragma clang loop unroll(full)
+    for (int t = 0; t < fours; t++)
+      sum[t] += (((const ali3_four *)a)[t] * x[l] + ((const ali3_four *)b)[t] * x[l + 1]) +
+                (((const ali3_four *)c)[t] * x[l + 2] + ((const ali3_four *)d)[t] * x[l + 3]);
+    a += 4 * n, b += 4 * n, c += 4 * n, d += 4 * n;
+  }
+  ALI3_SHORT
+  for (; l < n; l++, a += n)
+#pragma clang loop unroll(full)
+    for (int t = 0; t < fours; t++) sum[t] += ((const ali3_four *)a)[t] * x[l];
+#pragma clang loop unroll(full)
+  for (int t = 0; t < fours; t++) ((ali3_four *)(out + i))[t] = sum[t];
+}
+
+/* out += M x, M by columns; four columns at once. The last rows may be worked on twice, from the same start. */
+ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const double *restrict x, double *restrict out) {
+  const int32_t few = 4 * ALI3_FEW, many = 4 * ALI3_MANY;
+  ali3_four last[ALI3_FEW] = {{0}};
+  int32_t i = 0;
+  for (int t = 0; t < ALI3_FEW && n >= few; t++) last[t] = ((const ali3_four *)(out + n - few))[t];
+  for (; i + many <= n; i += many) ali3_tile(n, M, x, (const ali3_four *)(out + i), ALI3_MANY, i, out);
+  for (; i + few <= n; i += few) ali3_tile(n, M, x, (const ali3_four *)(out + i), ALI3_FEW, i, out);
+  if (i < n && n >= few) ali3_tile(n, M, x, last, ALI3_FEW, n - few, out);
+  for (; i < n && n < few; i++) {
+    int32_t l = 0;
+    for (; l + 3 < n; l += 4)
+      out[i] += (M[l * n + i] * x[l] + M[(l + 1) * n + i] * x[l + 1]) +
+                (M[(l + 2) * n + i] * x[l + 2] + M[(l + 3) * n + i] * x[l + 3]);
+    for (; l < n; l++) out[i] += M[l * n + i] * x[l];
+  }
+}
+#else
 /* out += M x, M by columns; four columns at once. */
 static inline void ali3_accumulate(int32_t n, const double *restrict M, const real *restrict x, real *restrict out) {
   int32_t l = 0;
@@ -61,6 +108,7 @@ static inline void ali3_accumulate(int32_t n, const double *restrict M, const re
     for (int32_t i = 0; i < n; i++) out[i] += column[i] * factor;
   }
 }
+#endif
 
 static inline real ali3_inner(int32_t n, const real *restrict a, const real *restrict b) {
   real even = {0}, odd = {0};
