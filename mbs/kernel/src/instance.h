@@ -34,7 +34,7 @@ typedef struct {
   double *by_inputs; /* n_input_work: what jumps of inputs since the start added to the stored energy */
 } ali3_vectors;
 
-enum { ALI3_STAGES = 12, ALI3_RADAU = 3, ALI3_LOCAL = 8 }; /* of runge_kutta.c, radau.c, fronts.c */
+enum { ALI3_STAGES = 12, ALI3_RADAU = 3, ALI3_LOCAL = 12 }; /* of runge_kutta.c, radau.c, fronts.c */
 enum { ALI3_PAST = 4, ALI3_HISTORY_OWNER = 0, ALI3_HISTORY_COUNT, ALI3_HISTORY_TIME, ALI3_HISTORY = 2 + ALI3_PAST };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */

@@ -6,6 +6,7 @@
 #include "front_block.h"
 #include "processor.h"
 
+enum { PANELS = 3 };     /* that a column loses while it is in hand: twelve factors of sixteen registers */
 enum { FOUR_SUMS = 16 }; /* coordinates of a front from which on back substitution makes four sums */
 
 #ifdef ALI3_WIDTH
@@ -16,26 +17,29 @@ typedef ali3_four group;
 enum { GROUP = sizeof(group) / sizeof(real) };
 
 /* The columns of a panel from entry `from` on, one group of each after the other. Returns the end. */
-ALI3_INLINED const group *pack(const real *panel, int64_t n, int64_t from, group *packed) {
+ALI3_INLINED group *pack(const real *panel, int64_t n, int64_t from, group *packed) {
   for (int64_t i = from; i < n; i += GROUP)
     for (int32_t k = 0; k < PANEL; k++) *packed++ = *(const group *)(panel + k * n + i);
   return packed;
 }
 
-/* Columns j to last - 1 lose L_jp times each unscaled column p of one or two packed panels, whose ends are `first` and
- * `second`: in one sum a panel, one panel after the other, so that an entry is in hand once. `panel` has L. */
-ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t count, int64_t n, int64_t j, int64_t last,
-                                  const group *first, const group *second) {
+/* Columns j to last - 1 lose L_jp times each unscaled column p of packed panels, whose ends are known: in one sum a
+ * panel, one panel after the other, so that an entry is in hand once. `panel` has L. */
+ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels, int64_t n, int64_t j, int64_t last,
+                                  const group *const *end) {
   for (; j < last; j++) {
     const int64_t from = ali3_by_fours_below(j, n);
     group *restrict target = (group *)(block + j * n + from);
-    real f[2 * PANEL];
-    for (int32_t k = 0; k < count; k++) f[k] = panel[k * n + j];
+    real f[PANELS * PANEL];
+    for (int32_t k = 0; k < panels * PANEL; k++) f[k] = panel[k * n + j];
     ALI3_SHORT
     for (int64_t at = (from - n) / GROUP * PANEL; at < 0; at += PANEL) {
-      const group *a = first + at, *b = second + at;
-      group sum = *target - ((f[0] * a[0] + f[1] * a[1]) + (f[2] * a[2] + f[3] * a[3]));
-      if (count > PANEL) sum -= (f[4] * b[0] + f[5] * b[1]) + (f[6] * b[2] + f[7] * b[3]);
+      group sum = *target;
+#pragma clang loop unroll(full)
+      for (int32_t k = 0; k < panels; k++) {
+        const group *c = end[k] + at;
+        sum -= (f[4 * k] * c[0] + f[4 * k + 1] * c[1]) + (f[4 * k + 2] * c[2] + f[4 * k + 3] * c[3]);
+      }
       *target++ = sum;
     }
   }
@@ -101,31 +105,37 @@ ALI3_INLINED ali3_status eliminate_few(ali3_instance *in, real *block, int32_t f
   return ALI3_OK;
 }
 
-/* The same of one or two whole panels, which a column of the rest loses while it is in hand. */
-ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
+/* The same of whole panels, all of which a column of the rest loses while it is in hand. */
+ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t panels,
                                           int32_t n) {
   const real *panel = block + (int64_t)start * n;
-  const group *first_end = NULL, *end = (group *)in->local;
-  for (int32_t p = start; p < start + count; p += PANEL) {
+  const group *end[PANELS];
+  group *packed = (group *)in->local;
+#pragma clang loop unroll(full)
+  for (int32_t k = 0; k < panels; k++) {
+    const int32_t p = start + k * PANEL;
     real inverse[PANEL];
-    if (p > start) subtract_panels(block, panel, PANEL, n, p, p + PANEL, end, NULL);
+    if (k > 0) subtract_panels(block, panel, k, n, p, p + PANEL, end);
     const ali3_status status = inside_panel(in, block, first, p, PANEL, n, inverse);
     if (status != ALI3_OK) return status;
-    first_end = p > start ? end : NULL;
-    end = pack(block + (int64_t)p * n, n, ali3_by_fours_below(p + PANEL, n), (group *)end);
+    end[k] = packed = pack(block + (int64_t)p * n, n, ali3_by_fours_below(p + PANEL, n), packed);
     scale(block, p, PANEL, n, inverse);
   }
-  subtract_panels(block, panel, count, n, start + count, n, first_end == NULL ? end : first_end, end);
+  subtract_panels(block, panel, panels, n, start + panels * PANEL, n, end);
   return ALI3_OK;
 }
 
 ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int32_t n_pivot, int32_t n) {
   ali3_status status = ALI3_OK;
   int32_t p = 0;
-  for (; p + 2 * PANEL <= n_pivot && status == ALI3_OK; p += 2 * PANEL)
-    status = eliminate_panels(in, block, first, p, 2 * PANEL, n);
+  for (; p + PANELS * PANEL <= n_pivot && status == ALI3_OK; p += PANELS * PANEL)
+    status = eliminate_panels(in, block, first, p, PANELS, n);
+  if (p + 2 * PANEL <= n_pivot && status == ALI3_OK) {
+    status = eliminate_panels(in, block, first, p, 2, n);
+    p += 2 * PANEL;
+  }
   if (p + PANEL <= n_pivot && status == ALI3_OK) {
-    status = eliminate_panels(in, block, first, p, PANEL, n);
+    status = eliminate_panels(in, block, first, p, 1, n);
     p += PANEL;
   }
   if (status != ALI3_OK || p == n_pivot) return status;
