@@ -16,13 +16,6 @@ typedef ali3_four group;
 #endif
 enum { GROUP = sizeof(group) / sizeof(real) };
 
-/* The columns of a panel from entry `from` on, one group of each after the other. Returns the end. */
-ALI3_INLINED group *pack(const real *panel, int64_t n, int64_t from, group *packed) {
-  for (int64_t i = from; i < n; i += GROUP)
-    for (int32_t k = 0; k < PANEL; k++) *packed++ = *(const group *)(panel + k * n + i);
-  return packed;
-}
-
 /* Columns j to last - 1 lose L_jp times each unscaled column p of packed panels, whose ends are known: in one sum a
  * panel, one panel after the other, so that an entry is in hand once. `panel` has L. */
 ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels, int64_t n, int64_t j, int64_t last,
@@ -105,21 +98,52 @@ ALI3_INLINED ali3_status eliminate_few(ali3_instance *in, real *block, int32_t f
   return ALI3_OK;
 }
 
+/* The triangle of a panel from its first pivot on becomes that of L with 1/D; factor[p][k]: L_pk of its unscaled columns. */
+ALI3_INLINED ali3_status triangle(ali3_instance *in, int32_t pivot, real *panel, int64_t n, real factor[PANEL][PANEL]) {
+  for (int32_t p = 0; p < PANEL; p++) {
+    for (int32_t k = 0; k < p; k++) factor[p][k] = panel[k * n + p] * factor[k][k];
+    for (int32_t i = p; i < PANEL; i++)
+      for (int32_t k = 0; k < p; k++) panel[p * n + i] -= factor[p][k] * panel[k * n + i];
+    const ali3_status status = ali3_check_pivot(in, pivot + p, panel[p * n + p]);
+    if (status != ALI3_OK) return status;
+    factor[p][p] = 1.0 / panel[p * n + p];
+  }
+  return ALI3_OK;
+}
+
+/* The columns of a panel among themselves, in one pass: they go unscaled to `packed`, a group of each after the other,
+ * and scaled back. Returns the end of what is packed, NULL if a pivot is bad. */
+ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *panel, int32_t start, int64_t n,
+                                       group *packed, ali3_status *status) {
+  real factor[PANEL][PANEL];
+  *status = triangle(in, pivot, panel + start, n, factor);
+  if (*status != ALI3_OK) return packed;
+  for (int64_t i = ali3_by_fours_below(start + PANEL, n); i < n; i += GROUP, packed += PANEL)
+#pragma clang loop unroll(full)
+    for (int32_t p = 0; p < PANEL; p++) {
+      group *at = (group *)(panel + p * n + i);
+      packed[p] = *at;
+      for (int32_t k = 0; k < p; k++) packed[p] -= factor[p][k] * packed[k];
+      *at = packed[p] * factor[p][p];
+    }
+  for (int32_t p = 0; p < PANEL; p++) 
+    for (int32_t k = 0; k <= p; k++) panel[k * n + start + p] = factor[p][k];
+  return packed;
+}
+
 /* The same of whole panels, all of which a column of the rest loses while it is in hand. */
 ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t panels,
                                           int32_t n) {
-  const real *panel = block + (int64_t)start * n;
+  real *panel = block + (int64_t)start * n;
   const group *end[PANELS];
   group *packed = (group *)in->local;
 #pragma clang loop unroll(full)
   for (int32_t k = 0; k < panels; k++) {
     const int32_t p = start + k * PANEL;
-    real inverse[PANEL];
+    ali3_status status;
     if (k > 0) subtract_panels(block, panel, k, n, p, p + PANEL, end);
-    const ali3_status status = inside_panel(in, block, first, p, PANEL, n, inverse);
+    end[k] = packed = inside_whole_panel(in, first + p, block + (int64_t)p * n, p, n, packed, &status);
     if (status != ALI3_OK) return status;
-    end[k] = packed = pack(block + (int64_t)p * n, n, ali3_by_fours_below(p + PANEL, n), packed);
-    scale(block, p, PANEL, n, inverse);
   }
   subtract_panels(block, panel, panels, n, start + panels * PANEL, n, end);
   return ALI3_OK;
