@@ -124,12 +124,13 @@ ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const rea
 
 static inline real ali3_inner(int32_t n, const real *restrict a, const real *restrict b) {
   real even = {0}, odd = {0};
-  int32_t i = 0;
-  for (; i + 1 < n; i += 2) {
-    even += a[i] * b[i];
-    odd += a[i + 1] * b[i + 1];
+  int32_t i = 1;
+#pragma clang loop unroll_count(4)
+  for (; i < n; i += 2) {
+    even += a[i - 1] * b[i - 1];
+    odd += a[i] * b[i];
   }
-  if (i < n) even += a[i] * b[i];
+  if (i == n) even += a[i - 1] * b[i - 1];
   return even + odd;
 }
 
