@@ -5,20 +5,14 @@
 #include "../instance.h"
 #include "../rows/constraints.h"
 
-/* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v and `rounds` times
- * the round-off of each row; their sum, of the size *violation, stays in in->mu. */
+/* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v, or `rounds` times
+ * the round-off of rows; their sum, of the size *violation, stays in in->mu. */
 static truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double rounds,
                          real *violation) {
   const ali3_system *S = in->system;
   ali3_add(in->mu, b, S->size.nc);
   *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);
-  const real most = tolerance * ali3_largest(v, S->size.nq);
-  const truth below = *violation <= most;
-  if (rounds == 0.0 || !ali3_any(ali3_not(below))) return below;
-  truth above = {0};
-  for (int32_t k = 0; k < S->size.nc; k++)
-    above |= ali3_not(ali3_abs(in->mu[k]) * S->row_measure[k] <= most + rounds * S->row_round[k]);
-  return ali3_not(above);
+  return (*violation <= rounds * S->largest_round) | (*violation <= tolerance * ali3_largest(v, S->size.nq));
 }
 
 truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double rounds,
