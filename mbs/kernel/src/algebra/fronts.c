@@ -126,7 +126,7 @@ ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *p
       for (int32_t k = 0; k < p; k++) packed[p] -= factor[p][k] * packed[k];
       *at = packed[p] * factor[p][p];
     }
-  for (int32_t p = 0; p < PANEL; p++) 
+  for (int32_t p = 0; p < PANEL; p++)
     for (int32_t k = 0; k <= p; k++) panel[k * n + start + p] = factor[p][k];
   return packed;
 }

@@ -287,7 +287,8 @@ void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
       ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE, rule.rate, MAX_SWEEPS, true);
   ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->gamma);
   *in->at_work = *in->good;
-  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, 1.0 / c, MAX_SWEEPS, false);
+  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, 1.0 / c, MAX_SWEEPS,
+               false);
   work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);

@@ -32,16 +32,16 @@
 static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
   ali3_vectors *to = &in->next;
   return (ali3_force_call){.q = to->q,
-                                .qd = to->qd,
-                                .y_old = in->now.y,
-                                .h = h,
-                                .wC = in->rule.wC,
-                                .wK = in->rule.c,
-                                .tangent = tangent,
-                                .Q = in->Q,
-                                .y_new = to->y,
-                                .out = to->out,
-                                .potential = to->potential};
+                           .qd = to->qd,
+                           .y_old = in->now.y,
+                           .h = h,
+                           .wC = in->rule.wC,
+                           .wK = in->rule.c,
+                           .tangent = tangent,
+                           .Q = in->Q,
+                           .y_new = to->y,
+                           .out = to->out,
+                           .potential = to->potential};
 }
 
 /* Positions, rates, rows, forces and residual r = M (D - d0) + c (Phi_q' lam - Q) of (20) for the present D and lam. */
