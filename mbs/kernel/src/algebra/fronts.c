@@ -112,7 +112,7 @@ ALI3_INLINED ali3_status triangle(ali3_instance *in, int32_t pivot, real *panel,
 }
 
 /* The columns of a panel among themselves, in one pass: they go unscaled to `packed`, a group of each after the other,
- * and scaled back. Returns the end of what is packed, NULL if a pivot is bad. */
+ * and scaled back. Returns the end of what is packed. */
 ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *panel, int32_t start, int64_t n,
                                        group *packed, ali3_status *status) {
   real factor[PANEL][PANEL];
@@ -131,7 +131,7 @@ ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *p
   return packed;
 }
 
-/* The same of whole panels, all of which a column of the rest loses while it is in hand. */
+/* Whole panels of pivots from `start` on, all of which a column of the rest loses while it is in hand. */
 ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t panels,
                                           int32_t n) {
   real *panel = block + (int64_t)start * n;
