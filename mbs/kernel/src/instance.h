@@ -34,7 +34,7 @@ typedef struct {
   double *by_inputs; /* n_input_work: what jumps of inputs since the start added to the stored energy */
 } ali3_vectors;
 
-enum { ALI3_STAGES = 12, ALI3_RADAU = 3 }; /* of runge_kutta.c, radau.c */
+enum { ALI3_STAGES = 12, ALI3_RADAU = 3, ALI3_LOCAL = 12 }; /* of runge_kutta.c, radau.c, fronts.c */
 enum { ALI3_PAST = 4, ALI3_HISTORY_OWNER = 0, ALI3_HISTORY_COUNT, ALI3_HISTORY_TIME, ALI3_HISTORY = 2 + ALI3_PAST };
 
 /* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
@@ -106,7 +106,7 @@ struct ali3_instance {
   double *SB; /* one element: signals x coordinates */
   unsigned char *idle; /* ne: 1 where the last ali3_forces met no force and no tangent */
   double *correction_q, *step_q, *correction_lam, *step_lam; /* of the last iteration */
-  double *local; /* one front */
+  double *local; /* ALI3_LOCAL columns of a front */
   double *shifted; /* nq */
   double *flex, *flex_work; /* flexible bodies: at the last q prepared; scratch */
   ali3_tabled_work *tabled; /* at the last q prepared */

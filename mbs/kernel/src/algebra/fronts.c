@@ -1,47 +1,41 @@
 /* Multifrontal L D L' of the tangent: dense column-major fronts, no pivoting, Schur complements added into the parent.
  * In the columns of its pivots a factorised front holds L below the diagonal and 1/D on it. */
 #include "fronts.h"
+
 #include "../instance.h"
 #include "front_block.h"
 #include "processor.h"
 
+enum { PANELS = 3 };     /* that a column loses while it is in hand: twelve factors of sixteen registers */
 enum { FOUR_SUMS = 16 }; /* coordinates of a front from which on back substitution makes four sums */
 
-/* The next column, whose address is kept and not found again from that of the first. */
-ALI3_INLINED const real *next_column(const real *column, int64_t n) {
-  column += n;
-  ALI3_OPAQUE(column);
-  return column;
-}
+#ifdef ALI3_WIDTH
+typedef real group; /* neighbours in a column that are one number of an instruction */
+#else
+typedef ali3_four group;
+#endif
+enum { GROUP = sizeof(group) / sizeof(real) };
 
-/* target -= the multiples of four columns, `count` entries long, in one sum, so that an entry is in hand once. */
-ALI3_INLINED void subtract_four(real *restrict target, const real *restrict a, const real *restrict b,
-                                const real *restrict c, const real *restrict d, const real *f, int64_t count) {
-  ALI3_BY_FOURS
-  for (int64_t i = 0; i < count; i++) target[i] -= (f[0] * a[i] + f[1] * b[i]) + (f[2] * c[i] + f[3] * d[i]);
-}
-
-/* The same of the columns of two panels, one panel after the other. */
-ALI3_INLINED void subtract_eight(real *restrict target, const real *restrict a, const real *restrict b,
-                                 const real *restrict c, const real *restrict d, const real *restrict a1,
-                                 const real *restrict b1, const real *restrict c1, const real *restrict d1,
-                                 const real *f, int64_t count) {
-  ALI3_BY_FOURS
-  for (int64_t i = 0; i < count; i++)
-    target[i] = (target[i] - ((f[0] * a[i] + f[1] * b[i]) + (f[2] * c[i] + f[3] * d[i]))) -
-                ((f[4] * a1[i] + f[5] * b1[i]) + (f[6] * c1[i] + f[7] * d1[i]));
-}
-
-/* target -= the multiples of one or two panels of columns of length n, from entry `from` on. */
-ALI3_INLINED void subtract_panels(real *restrict target, const real *panel, int32_t count, int64_t n, const real *f,
-                                  int64_t from) {
-  const real *a = next_column(panel + from, 0), *b = next_column(a, n), *c = next_column(b, n), *d = next_column(c, n);
-  if (count == PANEL) {
-    subtract_four(target + from, a, b, c, d, f, n - from);
-    return;
+/* Columns j to last - 1 lose L_jp times each unscaled column p of packed panels, whose ends are known: in one sum a
+ * panel, one panel after the other, so that an entry is in hand once. `panel` has L. */
+ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels, int64_t n, int64_t j, int64_t last,
+                                  const group *const *end) {
+  for (; j < last; j++) {
+    const int64_t from = ali3_by_fours_below(j, n);
+    group *restrict target = (group *)(block + j * n + from);
+    real f[PANELS * PANEL];
+    for (int32_t k = 0; k < panels * PANEL; k++) f[k] = panel[k * n + j];
+    ALI3_SHORT
+    for (int64_t at = (from - n) / GROUP * PANEL; at < 0; at += PANEL) {
+      group sum = *target;
+#pragma clang loop unroll(full)
+      for (int32_t k = 0; k < panels; k++) {
+        const group *c = end[k] + at;
+        sum -= (f[4 * k] * c[0] + f[4 * k + 1] * c[1]) + (f[4 * k + 2] * c[2] + f[4 * k + 3] * c[3]);
+      }
+      *target++ = sum;
+    }
   }
-  const real *a1 = next_column(d, n), *b1 = next_column(a1, n), *c1 = next_column(b1, n), *d1 = next_column(c1, n);
-  subtract_eight(target + from, a, b, c, d, a1, b1, c1, d1, f, n - from);
 }
 
 /* target -= f[0] c + f[1] c1 + ... of less than a panel of columns of length n, in turn, from entry `from` on. */
@@ -89,59 +83,93 @@ ALI3_INLINED void scale(real *block, int32_t start, int32_t count, int32_t n, co
   }
 }
 
-/* Pivots `start` to start + count - 1: first the columns of the panel among themselves, then column j of the rest loses
- * L_jp times the unscaled column p, so that the inner loops run down columns. */
-ALI3_INLINED ali3_status eliminate_panel(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
-                                         int32_t n) {
+/* Pivots `start` to start + count - 1, less than a panel: first the columns among themselves, then column j of the rest
+ * loses L_jp times the unscaled column p, so that the inner loops run down columns. */
+ALI3_INLINED ali3_status eliminate_few(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t count,
+                                       int32_t n) {
   real *panel = block + (int64_t)start * n, inverse[PANEL], factor[PANEL];
   const ali3_status status = inside_panel(in, block, first, start, count, n, inverse);
   if (status != ALI3_OK) return status;
   for (int32_t j = start + count; j < n; j++) {
     factors(panel, inverse, count, n, j, factor);
-    if (count == PANEL)
-      subtract_panels(block + (int64_t)j * n, panel, PANEL, n, factor, ali3_by_fours_below(j, n));
-    else
-      subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
+    subtract(block + (int64_t)j * n, panel, n, factor, count, ali3_by_fours(j, n));
   }
   scale(block, start, count, n, inverse);
   return ALI3_OK;
 }
 
-/* Two whole panels, which a column of the rest loses while it is in hand. */
-ALI3_INLINED ali3_status eliminate_two(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t n) {
-  enum { BOTH = 2 * PANEL };
-  real *panel = block + (int64_t)start * n, inverse[BOTH], factor[BOTH];
-  ali3_status status = inside_panel(in, block, first, start, PANEL, n, inverse);
-  for (int32_t j = start + PANEL; j < start + BOTH && status == ALI3_OK; j++) {
-    factors(panel, inverse, PANEL, n, j, factor);
-    subtract_panels(block + (int64_t)j * n, panel, PANEL, n, factor, ali3_by_fours_below(j, n));
+/* The triangle of a panel from its first pivot on becomes that of L with 1/D; factor[p][k]: L_pk of its unscaled columns. */
+ALI3_INLINED ali3_status triangle(ali3_instance *in, int32_t pivot, real *panel, int64_t n, real factor[PANEL][PANEL]) {
+  for (int32_t p = 0; p < PANEL; p++) {
+    for (int32_t k = 0; k < p; k++) factor[p][k] = panel[k * n + p] * factor[k][k];
+    for (int32_t i = p; i < PANEL; i++)
+      for (int32_t k = 0; k < p; k++) panel[p * n + i] -= factor[p][k] * panel[k * n + i];
+    const ali3_status status = ali3_check_pivot(in, pivot + p, panel[p * n + p]);
+    if (status != ALI3_OK) return status;
+    factor[p][p] = 1.0 / panel[p * n + p];
   }
-  if (status == ALI3_OK) status = inside_panel(in, block, first, start + PANEL, PANEL, n, inverse + PANEL);
-  if (status != ALI3_OK) return status;
-  for (int32_t j = start + BOTH; j < n; j++) {
-    factors(panel, inverse, BOTH, n, j, factor);
-    subtract_panels(block + (int64_t)j * n, panel, BOTH, n, factor, ali3_by_fours_below(j, n));
+  return ALI3_OK;
+}
+
+/* The columns of a panel among themselves, in one pass: they go unscaled to `packed`, a group of each after the other,
+ * and scaled back. Returns the end of what is packed. */
+ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *panel, int32_t start, int64_t n,
+                                       group *packed, ali3_status *status) {
+  real factor[PANEL][PANEL];
+  *status = triangle(in, pivot, panel + start, n, factor);
+  if (*status != ALI3_OK) return packed;
+  for (int64_t i = ali3_by_fours_below(start + PANEL, n); i < n; i += GROUP, packed += PANEL)
+#pragma clang loop unroll(full)
+    for (int32_t p = 0; p < PANEL; p++) {
+      group *at = (group *)(panel + p * n + i);
+      packed[p] = *at;
+      for (int32_t k = 0; k < p; k++) packed[p] -= factor[p][k] * packed[k];
+      *at = packed[p] * factor[p][p];
+    }
+  for (int32_t p = 0; p < PANEL; p++)
+    for (int32_t k = 0; k <= p; k++) panel[k * n + start + p] = factor[p][k];
+  return packed;
+}
+
+/* Whole panels of pivots from `start` on, all of which a column of the rest loses while it is in hand. */
+ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_t first, int32_t start, int32_t panels,
+                                          int32_t n) {
+  real *panel = block + (int64_t)start * n;
+  const group *end[PANELS];
+  group *packed = (group *)in->local;
+#pragma clang loop unroll(full)
+  for (int32_t k = 0; k < panels; k++) {
+    const int32_t p = start + k * PANEL;
+    ali3_status status;
+    if (k > 0) subtract_panels(block, panel, k, n, p, p + PANEL, end);
+    end[k] = packed = inside_whole_panel(in, first + p, block + (int64_t)p * n, p, n, packed, &status);
+    if (status != ALI3_OK) return status;
   }
-  scale(block, start, BOTH, n, inverse);
+  subtract_panels(block, panel, panels, n, start + panels * PANEL, n, end);
   return ALI3_OK;
 }
 
 ALI3_INLINED ali3_status eliminate(ali3_instance *in, real *block, int32_t first, int32_t n_pivot, int32_t n) {
   ali3_status status = ALI3_OK;
   int32_t p = 0;
-  for (; p + 2 * PANEL <= n_pivot && status == ALI3_OK; p += 2 * PANEL) status = eliminate_two(in, block, first, p, n);
+  for (; p + PANELS * PANEL <= n_pivot && status == ALI3_OK; p += PANELS * PANEL)
+    status = eliminate_panels(in, block, first, p, PANELS, n);
+  if (p + 2 * PANEL <= n_pivot && status == ALI3_OK) {
+    status = eliminate_panels(in, block, first, p, 2, n);
+    p += 2 * PANEL;
+  }
   if (p + PANEL <= n_pivot && status == ALI3_OK) {
-    status = eliminate_panel(in, block, first, p, PANEL, n);
+    status = eliminate_panels(in, block, first, p, 1, n);
     p += PANEL;
   }
   if (status != ALI3_OK || p == n_pivot) return status;
   switch (n_pivot - p) {
   case 1:
-    return eliminate_panel(in, block, first, p, 1, n);
+    return eliminate_few(in, block, first, p, 1, n);
   case 2:
-    return eliminate_panel(in, block, first, p, 2, n);
+    return eliminate_few(in, block, first, p, 2, n);
   default:
-    return eliminate_panel(in, block, first, p, 3, n);
+    return eliminate_few(in, block, first, p, 3, n);
   }
 }
 

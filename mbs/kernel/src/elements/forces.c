@@ -84,9 +84,22 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
   ali3_active_signals(in, q, qd);
 }
 
-void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
+/* The elements at the signals of the last `ali3_forces`. */
+void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
+    double *f = in->element_force + S->el_sig_ptr[e];
+    const int32_t beside = S->el_beside[e];
+    if (beside < 0) local(in, e, u, ud);
+    in->idle[e] = ali3_element_forces(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside,
+                                      f, tangent);
+  }
+}
+
+void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
+  const ali3_system *S = in->system;
   double *Q = S->n_tabled > 0 ? in->extended_force : call->Q; /* with those on dependents behind */
   look(in, call->q, call->qd);
   memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
@@ -101,14 +114,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     in->wC = call->wC;
     in->wK = call->wK;
   }
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
-    double *f = in->element_force + S->el_sig_ptr[e];
-    const int32_t beside = S->el_beside[e];
-    if (beside < 0) local(in, e, u, ud);
-    in->idle[e] = ali3_element_forces(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside,
-                                      f, tangent);
-  }
+  ali3_elements_forces(in, call);
   ali3_add_forces(in, in->element_force, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
 }

@@ -10,6 +10,7 @@ typedef struct {
   double *Q, *y_new, *out, *potential;
 } ali3_force_call;
 void ali3_forces(ali3_instance *in, const ali3_force_call *call);
+void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call);
 void ali3_forces_tangent(ali3_instance *in, double *F);
 bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                          double *f, double *tangent);

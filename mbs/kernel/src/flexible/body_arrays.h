@@ -1,7 +1,11 @@
 /* A flexible body in the arrays of a System, and the loops that its files share. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
+#include <string.h>
+
+#include "../algebra/processor.h"
 #include "../algebra/real.h"
+#include "../algebra/stretch.h"
 #include "../instance.h"
 
 enum {
@@ -47,9 +51,59 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
   return f;
 }
 
-/* out += M x, M by columns; four columns at once. */
-static inline void ali3_accumulate(int32_t n, const double *restrict M, const real *restrict x, real *restrict out) {
+#ifndef ALI3_WIDTH
+enum { ALI3_FEW = 2, ALI3_MANY = 8 }; /* fours of rows that are worked on together */
+
+/* Rows i to i + 4 fours - 1 of start + M x go to out: their sums stay in registers, in the order of `ali3_add_product`. */
+ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const ali3_four *start, int fours, int64_t i,
+                            double *out) {
+  ali3_four sum[ALI3_MANY];
+#pragma clang loop unroll(full)
+  for (int t = 0; t < fours; t++) sum[t] = start[t];
+  const double *a = M + i, *b = a + n, *c = b + n, *d = c + n;
+  int64_t l = 0;
+  ALI3_SHORT
+  for (; l + 3 < n; l += 4) {
+#pragma clang loop unroll(full)
+    for (int t = 0; t < fours; t++)
+      sum[t] += (((const ali3_four *)a)[t] * x[l] + ((const ali3_four *)b)[t] * x[l + 1]) +
+                (((const ali3_four *)c)[t] * x[l + 2] + ((const ali3_four *)d)[t] * x[l + 3]);
+    a += 4 * n, b += 4 * n, c += 4 * n, d += 4 * n;
+  }
+  ALI3_SHORT
+  for (; l < n; l++, a += n)
+#pragma clang loop unroll(full)
+    for (int t = 0; t < fours; t++) sum[t] += ((const ali3_four *)a)[t] * x[l];
+#pragma clang loop unroll(full)
+  for (int t = 0; t < fours; t++) ((ali3_four *)(out + i))[t] = sum[t];
+}
+
+/* out = start + M x, M by columns; four columns at once. The last rows may be worked on twice. */
+ALI3_INLINED void ali3_add_product(int32_t n, const double *restrict M, const double *restrict x, const double *start,
+                                   double *out) {
+  const int32_t few = 4 * ALI3_FEW, many = 4 * ALI3_MANY;
+  ali3_four last[ALI3_FEW] = {{0}}; /* before `out`, which may be `start`, is written */
+  int32_t i = 0;
+  for (int t = 0; t < ALI3_FEW && n >= few; t++) last[t] = ((const ali3_four *)(start + n - few))[t];
+  for (; i + many <= n; i += many) ali3_tile(n, M, x, (const ali3_four *)(start + i), ALI3_MANY, i, out);
+  for (; i + few <= n; i += few) ali3_tile(n, M, x, (const ali3_four *)(start + i), ALI3_FEW, i, out);
+  if (i < n && n >= few) ali3_tile(n, M, x, last, ALI3_FEW, n - few, out);
+  for (; i < n && n < few; i++) {
+    double sum = start[i];
+    int32_t l = 0;
+    for (; l + 3 < n; l += 4)
+      sum += (M[l * n + i] * x[l] + M[(l + 1) * n + i] * x[l + 1]) +
+             (M[(l + 2) * n + i] * x[l + 2] + M[(l + 3) * n + i] * x[l + 3]);
+    for (; l < n; l++) sum += M[l * n + i] * x[l];
+    out[i] = sum;
+  }
+}
+#else
+/* out = start + M x, M by columns; four columns at once. */
+static inline void ali3_add_product(int32_t n, const double *restrict M, const real *restrict x, const real *start,
+                                    real *out) {
   int32_t l = 0;
+  if (out != start) memcpy(out, start, (size_t)n * sizeof *out);
   for (; l + 3 < n; l += 4) {
     const double *restrict c0 = M + (int64_t)l * n, *restrict c1 = c0 + n, *restrict c2 = c1 + n, *restrict c3 = c2 + n;
     const real x0 = x[l], x1 = x[l + 1], x2 = x[l + 2], x3 = x[l + 3];
@@ -61,15 +115,22 @@ static inline void ali3_accumulate(int32_t n, const double *restrict M, const re
     for (int32_t i = 0; i < n; i++) out[i] += column[i] * factor;
   }
 }
+#endif
+
+/* out += M x */
+ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const real *restrict x, real *out) {
+  ali3_add_product(n, M, x, out, out);
+}
 
 static inline real ali3_inner(int32_t n, const real *restrict a, const real *restrict b) {
   real even = {0}, odd = {0};
-  int32_t i = 0;
-  for (; i + 1 < n; i += 2) {
-    even += a[i] * b[i];
-    odd += a[i + 1] * b[i + 1];
+  int32_t i = 1;
+#pragma clang loop unroll_count(4)
+  for (; i < n; i += 2) {
+    even += a[i - 1] * b[i - 1];
+    odd += a[i] * b[i];
   }
-  if (i < n) even += a[i] * b[i];
+  if (i == n) even += a[i - 1] * b[i - 1];
   return even + odd;
 }
 

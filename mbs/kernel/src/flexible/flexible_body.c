@@ -18,17 +18,17 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
   real *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
   ali3_gather(9, f->frame + 3, q, f->A);
   ali3_gather(n, f->mode, q, eta);
-  memcpy(f->D, f->c, 9 * (size_t)n * sizeof *f->D);
-  for (int i = 0; i < 3; i++) ali3_accumulate(n, f->E + i * square, eta, f->D + 4 * i * n);
+  for (int i = 0; i < 3; i++) ali3_add_product(n, f->E + i * square, eta, f->c + 4 * i * n, f->D + 4 * i * n);
   for (int p = 0; p < 3; p++) { /* the pairs yz, zx, xy: sum m phi_i phi_k' = E - H, its transpose E + H */
     const int i = (p + 1) % 3, k = (p + 2) % 3;
     real *restrict ik = f->D + (3 * i + k) * n, *restrict ki = f->D + (3 * k + i) * n;
+    const real *c_ik = f->c + (3 * i + k) * n, *c_ki = f->c + (3 * k + i) * n;
     memset(even, 0, 2 * (size_t)n * sizeof *even);
     ali3_accumulate(n, f->E + (3 + p) * square, eta, even);
     ali3_accumulate(n, f->H + p * square, eta, odd);
     for (int32_t j = 0; j < n; j++) {
-      ik[j] += even[j] - odd[j];
-      ki[j] += even[j] + odd[j];
+      ik[j] = c_ik[j] + (even[j] - odd[j]);
+      ki[j] = c_ki[j] + (even[j] + odd[j]);
     }
   }
   for (int i = 0; i < 3; i++) {

@@ -20,15 +20,18 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
   return sum;
 }
 
+/* Four columns at a time, from where the first of them is worked on. */
 ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
-    for (int32_t j = 0; j < n; j++) {
-      const int32_t from = ali3_by_fours(j, n);
-      const int64_t first = S->front_off[f] + (int64_t)j * n + from;
-      ali3_copy_few(F + first, in->front_mass + first, n - from);
+    const int64_t n = S->front_ptr[f + 1] - S->front_ptr[f];
+    double *to = F + S->front_off[f];
+    const double *from = in->front_mass + S->front_off[f];
+    int64_t j = 0;
+    for (; j + 3 < n; j += 4, to += 4 * n, from += 4 * n) {
+      ALI3_EACH(ali3_by_fours(j, n), n, for (int k = 0; k < 4; k++) ALI3_AT(to + k * n) = ALI3_AT(from + k * n))
     }
+    for (; j < n; j++, to += n, from += n) ali3_copy_few(to, from, n);
   }
 }
 

@@ -65,7 +65,7 @@ static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   g->J_tangent = items(g, pool, (size_t)z->nnz_rows);
   g->F = items(g, pool, (size_t)z->front_size);
   g->F_new = items(g, pool, (size_t)z->front_size);
-  g->local = items(g, pool, (size_t)S->max_front);
+  g->local = items(g, pool, ALI3_LOCAL * (size_t)S->max_front);
   g->u = items(g, pool, (size_t)z->nsig);
   g->ud = items(g, pool, (size_t)z->nsig);
   g->S = items(g, pool, (size_t)S->el_S_off[z->ne]);

@@ -209,7 +209,6 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t itera
 
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
-  const bool flexible = in->system->n_flexible > 0;
   truth active = *in->lanes, kept = {0};
   real before = ali3_same(HUGE_VAL);
   *in->good = *in->singular = *in->iterations = kept;
@@ -220,14 +219,14 @@ static void newton(ali3_lane_group *in) {
     active &= ~*in->singular;
     active &= correct(in, active, kept, iteration);
     *in->iterations -= active;
-    evaluate(in, active, flexible);
+    evaluate(in, active, false);
     active &= judge(in);
     const truth ended = active & (*in->residual <= in->settings.tolerance_r) & closed(in);
     *in->good |= ended;
     active &= ~ended;
     kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4)) & (*in->residual <= KEPT_RESIDUAL * before);
     before = *in->residual;
-    if (!flexible && ali3_any(active & ~kept)) elements(in, active & ~kept, true);
+    if (ali3_any(active & ~kept)) elements(in, active & ~kept, true);
   }
 }
 
@@ -285,10 +284,11 @@ void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
   real kinetic, work = ali3_constraint_work(in, h, in->guides);
   *in->at_work = *in->good;
   *in->velocity_violation =
-      ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, true);
+      ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE, rule.rate, MAX_SWEEPS, true);
   ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->gamma);
   *in->at_work = *in->good;
-  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, MAX_SWEEPS, false);
+  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, 1.0 / c, MAX_SWEEPS,
+               false);
   work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);

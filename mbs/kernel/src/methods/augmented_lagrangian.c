@@ -28,21 +28,20 @@
 #include "quick_stop.h"
 #include "steps.h"
 
-/* Forces of the present iterate. */
-static void forces(ali3_instance *in, double h, bool tangent) {
+/* What forces of the present iterate are asked for with. */
+static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
   ali3_vectors *to = &in->next;
-  const ali3_force_call call = {.q = to->q,
-                                .qd = to->qd,
-                                .y_old = in->now.y,
-                                .h = h,
-                                .wC = in->rule.wC,
-                                .wK = in->rule.c,
-                                .tangent = tangent,
-                                .Q = in->Q,
-                                .y_new = to->y,
-                                .out = to->out,
-                                .potential = to->potential};
-  ali3_forces(in, &call);
+  return (ali3_force_call){.q = to->q,
+                           .qd = to->qd,
+                           .y_old = in->now.y,
+                           .h = h,
+                           .wC = in->rule.wC,
+                           .wK = in->rule.c,
+                           .tangent = tangent,
+                           .Q = in->Q,
+                           .y_new = to->y,
+                           .out = to->out,
+                           .potential = to->potential};
 }
 
 /* Positions, rates, rows, forces and residual r = M (D - d0) + c (Phi_q' lam - Q) of (20) for the present D and lam. */
@@ -56,7 +55,8 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
             ALI3_AT(w) = ALI3_AT(D) - ALI3_AT(d0))
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
-  forces(in, h, tangent);
+  const ali3_force_call call = call_of(in, h, tangent);
+  ali3_forces(in, &call);
   ali3_mass_times(in, w, r);
   ALI3_EACH(0, nq, ALI3_AT(r) -= c * ALI3_AT(Q))
 }
@@ -130,8 +130,6 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
   const int64_t most = limited ? in->iterations_end - in->report.iterations : settings->max_iterations;
-  const bool rigid =
-      in->system->n_flexible == 0; /* forces again are cheaper there than tangents that nothing asks for */
   bool kept = false;
   double before = HUGE_VAL;
   evaluate(in, h, true);
@@ -143,7 +141,7 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
     in->report.iterations++;
     in->report.last_iterations++;
     if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
-    evaluate(in, h, !rigid);
+    evaluate(in, h, false);
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
     if (!judge(in)) return ALI3_NOT_FINITE;
@@ -152,7 +150,9 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
     kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4) &&
            in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
     before = in->report.residual;
-    if (rigid && !kept) forces(in, h, true);
+    if (kept) continue;
+    const ali3_force_call call = call_of(in, h, true); /* cheaper than tangents that nothing asks for */
+    ali3_elements_forces(in, &call);
   }
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
@@ -217,16 +217,16 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   if (in->settings.project) {
     double kinetic, end, open, guides, work = ali3_constraint_work(in, h, &guides);
     in->report.velocity_violation =
-        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, true);
+        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, in->rule.rate, MAX_SWEEPS, true);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
-    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, MAX_SWEEPS, false);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, 1.0 / c, MAX_SWEEPS, false);
     /* with the work that the forces did in this step which the last (25) left without balance */
     work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
     const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
     ali3_guides_work(in, to, guides);
   } else {
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0, false);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0.0, 0, false);
   }
   ali3_work_step(in, 0.5);
   return ali3_accept(in);

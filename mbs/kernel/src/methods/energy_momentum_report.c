@@ -41,7 +41,7 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
   ali3_constraint_rate(in, v->q, v, in->Phit);
   memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
   for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
-    if (ali3_rates_closed(in, in->Phit, v->qd, VELOCITY_TOLERANCE, &violation)) break;
+    if (ali3_rates_closed(in, in->Phit, v->qd, VELOCITY_TOLERANCE, 0.0, &violation)) break;
     for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] *= weight;
     ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
     ali3_solve_lu(in, 1, in->F, in->x);
@@ -67,7 +67,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
     memcpy(v->qd, v->own, (size_t)S->size.nq * sizeof(double));
     ali3_constraint_rate(in, v->q, v, in->Phit);
     in->report.velocity_violation =
-        ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, MAX_SWEEPS, false);
+        ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, MAX_SWEEPS, false);
     scale(in, v);
     ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
     ali3_forces(in, &call);

@@ -303,9 +303,10 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   }
   const int32_t sweeps = in->settings.project ? SWEEPS : 0;
   ali3_constraint_rate(in, v->q, v, in->Phit);
-  in->report.velocity_violation = ali3_project(in, weight, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, sweeps, false);
+  in->report.velocity_violation =
+      ali3_project(in, weight, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, sweeps, false);
   ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  ali3_project(in, weight, in->gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, sweeps, false);
+  ali3_project(in, weight, in->gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, 0.0, sweeps, false);
   return ALI3_OK;
 }
 

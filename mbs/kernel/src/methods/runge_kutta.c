@@ -81,7 +81,8 @@ static ali3_status close(ali3_instance *in) {
     for (int32_t i = 0; i < S->size.nq; i++) v->q[i] -= in->x[i];
   }
   ali3_constraint_rate(in, v->q, v, in->Phit);
-  in->report.velocity_violation = ali3_project(in, ALPHA, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, SWEEPS, false);
+  in->report.velocity_violation =
+      ali3_project(in, ALPHA, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, SWEEPS, false);
   return ALI3_OK;
 }
 

@@ -406,12 +406,7 @@ ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, con
 
 ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
                                   real *out_y) {
-  const int32_t *ptr = S->row_ptr, *col = S->row_col;
-  if (S->n_flexible > 0) {
-    ali3_rows_times(S, J, x, out_x);
-    ali3_rows_times(S, J, y, out_y);
-    return;
-  }
+  const int32_t *ptr = S->row_ptr, *col = S->row_col, *stretch = S->n_flexible > 0 ? S->row_stretch : ptr + 1;
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum_x = {0}, sum_y = {0};
     int32_t i = ptr[k];
@@ -422,9 +417,13 @@ ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const rea
       sum_y = ali3_triple_sum(sum_y, J + i, y + col[i]);
     }
     ALI3_SHORT
-    for (; i < ptr[k + 1]; i++) {
+    for (; i < stretch[k]; i++) {
       sum_x += J[i] * x[col[i]];
       sum_y += J[i] * y[col[i]];
+    }
+    if (i < ptr[k + 1]) {
+      sum_x += ali3_product_from_far(J + i, x + col[i], ptr[k + 1] - i);
+      sum_y += ali3_product_from_far(J + i, y + col[i], ptr[k + 1] - i);
     }
     out_x[k] = sum_x, out_y[k] = sum_y;
   }

@@ -105,7 +105,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->u_at = ali3_pool_array(p, flexible ? (size_t)z->nsig : 0);
   in->element_force = ali3_pool_array(p, (size_t)s->el_sig_ptr[z->ne]);
   in->SB = ali3_pool_array(p, ali3_signal_work(s));
-  in->local = ali3_pool_array(p, ALI3_RADAU * (size_t)s->max_front);
+  in->local = ali3_pool_array(p, ALI3_LOCAL * (size_t)s->max_front);
 }
 
 /* Of radau.c, where stages inside a step need nothing but q, qd and the time. */

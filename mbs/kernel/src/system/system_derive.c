@@ -157,12 +157,14 @@ static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, 
 
 /* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
 static void derive_round(ali3_system *s) {
+  s->largest_round = 0.0;
   for (int32_t k = 0; k < s->size.nc; k++) {
     double sum = fabs(s->row_const[k]);
     for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) sum += fabs(s->row_lin[i] * s->q0[s->row_col[i]]);
     for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
       sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
     s->row_round[k] = 4.0 * DBL_EPSILON * sum * s->row_measure[k];
+    s->largest_round = fmax(s->largest_round, s->row_round[k]);
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
 }
