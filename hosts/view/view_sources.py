@@ -85,7 +85,17 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         told += words
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
+    _tell_other_grounds(made)
     return made, told
+
+
+def _tell_other_grounds(recordings: Sequence[Recording]) -> None:
+    """Note of each run that is a ghost on the ground of the first but ran on another."""
+    grounds = [(one, one.scene.get("roads", [])) for one in recordings if one.scene is not None]
+    for ghost, ground in grounds[1:]:
+        first, drawn = grounds[0]
+        if ground != drawn:
+            ghost.notes.append(f"It ran on another ground than {first.name}, whose ground is drawn.")
 
 
 def _no_kind(path: Path) -> str:

@@ -190,6 +190,23 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     assert f"{of_world} is the record of another line.road than that beside it" in notes_of([recording])[0]
 
 
+def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned: Path, tmp_path: Path) -> None:
+    fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
+    results = []
+    for name, size in (("one", 20.0), ("two", 30.0), ("like one", 20.0)):
+        folder = tmp_path / name
+        folder.mkdir()
+        world = folder / "w.toml"
+        world.write_text(f'kind = "world"\nname = "w"\nbounds = [0.0, 0.0, {size}, {size}]\nspacing = [0.5, 0.5]\n')
+        assert road([f"--world={world}", f"--out={folder}"]) == 0
+        results.append(folder / f"{name}.csv")
+        results[-1].write_text("time,height\n0,1\n1,2\n")
+        record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(folder / "w.road")}]}
+        results[-1].with_suffix(".json").write_text(json.dumps(record))
+    recordings, _ = recordings_of(results, None, RunWishes(None, None, None, Wishes([], [])))
+    assert notes_of(recordings) == ["two: It ran on another ground than one, whose ground is drawn."]
+
+
 def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = tmp_path / "Text.fmu"
     text.write_text("no archive")

@@ -8,11 +8,21 @@ import pytest
 from mbs import compile
 from mbs.scenes import bicycle, prototype_car
 from mbs.vehicle import load
+from tests.viewer.hand_scenes import floats
 from tests.viewer.hand_world import scenery, terrain
+from tests.viewer.test_drawing import RED, at, ball
+from tests.viewer.test_drawing import scene as scene_of
+from tests.viewer.test_worlds_drawn import level
 
 pytestmark = pytest.mark.slow
 
 MOST_CALLS, MOST_TRIANGLES = 60, 50_000
+_AS_THIN_AS_GIVEN = """() => {
+  const { radii, geometry } = view.parts.flexible[0].tubes;
+  radii.fill(5e-4);
+  geometry.attributes.thick.array.fill(5e-4);
+  geometry.attributes.thick.needsUpdate = true;
+}"""
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +51,19 @@ def _groups(mask, gap=2):
     """Runs of columns that are not farther apart than `gap`."""
     columns = np.flatnonzero(mask.any(axis=0))
     return [] if columns.size == 0 else np.split(columns, np.flatnonzero(np.diff(columns) > gap) + 1)
+
+
+def _red(picture):
+    red, green, _ = np.moveaxis(picture, 2, 0)
+    return (red > 1.5 * green) & (red > 60)
+
+
+def _is_a_line(drawn, seen, ends):
+    left, right = sorted(drawn.project(end)[0] for end in ends)
+    rows = seen[:, int(left) + 2 : int(right) - 1].sum(axis=0)
+    assert len(rows) > 40
+    assert rows.min() >= 1
+    assert rows.max() <= 4, "and no broader than a line"
 
 
 def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_places(drawn, car):
@@ -103,6 +126,31 @@ def test_cones_stand_where_they_are_in_a_draft(drawn, car):
     places = sorted(drawn.project([x, y, 0.25])[0] for x, y, _ in cones)
     assert len(groups) == len(places)
     assert np.abs([group.mean() - place for group, place in zip(groups, places, strict=True)]).max() < 1.5
+
+
+def test_a_tube_far_thinner_than_a_pixel_is_a_line_without_gaps_in_a_draft(drawn):
+    """Beside many balls, whose lattice would swallow it: in every column between its ends some pixel has its colour."""
+    ends = [[-0.5, -0.4, 0.2], [0.5, 0.4, 0.6]]
+    tube = {"kind": "tube", "points": [["body", end] for end in ends], "radius": 5e-4, "color": RED}
+    balls = [ball((0.0, 0.0, -0.5), 0.3) | {"color": "#808080"} for _ in range(60)]
+    drawn.show(scene_of(shapes=[*balls, tube], focus="body"), at(0, 0, 0), camera="side", quality="draft")
+    _is_a_line(drawn, _red(drawn.picture()), ends)
+
+
+def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
+    ends = [[-0.5, -0.4, 0.2], [0.5, 0.4, 0.6]]
+    beam = {"name": "beam", "frame": "body", "nodes": ends, "beams": [[0, 1]], "radii": [5e-4]}
+    beam |= {"amplitudes": ["q"], "modes": floats(np.zeros(6))}
+    ground = [level(0.0, "asphalt")]
+    drawn.show(
+        scene_of(flexible=[beam], roads=ground, focus="body"), at(0, 0, 1, q=0.0), camera="side", quality="draft"
+    )
+    drawn.ask(_AS_THIN_AS_GIVEN)
+    drawn.update(at(0, 0, 1, q=0.0))
+    with_it = drawn.picture()
+    drawn.ask("view.parts.flexible[0].object.geometry.setDrawRange(0, 0)")
+    ends = [[x, y, z + 1.0] for x, y, z in ends]
+    _is_a_line(drawn, np.abs(with_it - drawn.picture()).max(axis=2) > 12, ends)
 
 
 @pytest.mark.parametrize("quality", ["draft", "low"])

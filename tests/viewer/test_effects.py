@@ -62,22 +62,37 @@ def tyre(x: float, **more: float) -> dict[str, float]:
     return numbers | at(x, 0, 0.3) | more
 
 
-def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0) -> int:
+def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0, quality: str = "low") -> int:
     """Drive along x at 10 m/s; slip is a function of x."""
-    drawn.show(tyre_scene(surface), tyre(0.0), camera="top")
+    drawn.show(tyre_scene(surface), tyre(0.0), camera="top", quality=quality)
     rows = [[x / 10.0, 1, tyre(float(x), **{"wheel.slip": slip(x)})] for x in np.arange(0.0, end, 0.1)]
     count, problem = drawn.ask(_DRIVE, [rows, kind])
     assert problem == ""
     return int(count)
 
 
-def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn):
-    run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if x > 9.0 else 0.0)
+@pytest.mark.parametrize("quality", ["draft", "low"])
+def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn, quality):
+    run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if x > 9.0 else 0.0, quality=quality)
     picture = drawn.picture()
     on, before, beside = ((10.5, 0.0), (8.0, 0.0), (10.5, 1.0))
     dark, clean, other = (around(picture, drawn.project((*place, 0.0)), 0).mean() for place in (on, before, beside))
     assert dark < 0.6 * other
     assert clean > 0.8 * other
+
+
+def test_marks_of_a_draft_have_a_quarter_of_the_sections_and_the_same_ends(drawn):
+    def span(quality):
+        run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if 2.0 < x < 8.0 or x > 10.0 else 0.0, 30.0, quality)
+        return drawn.ask("effect.mesh.geometry.drawRange.count / 3")
+
+    fine, draft = span("low"), span("draft")
+    assert fine > 250
+    assert fine / 4 < draft < fine / 3.5
+    picture = drawn.picture()
+    middle = np.array([around(picture, drawn.project((x, 0.0, 0.0)), 0).mean() for x in (29.0, 28.7, 28.4, 28.1, 27.8)])
+    beside = around(picture, drawn.project((28.4, 1.0, 0.0)), 0).mean()
+    assert (middle < 0.6 * beside).all(), "no gap in a mark"
 
 
 def test_marks_do_not_appear_in_steady_driving_and_are_not_left_on_grass(drawn):

@@ -8,10 +8,23 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mbs import compile
+from mbs.vehicle import load
 from mbs.worlds import command as world_command
 from tests.viewer.test_drawing import at, ball, scene
 
 MOST_CALLS, MOST_TRIANGLES = 200, 1_500_000
+_ALL_MARKS = """() => {
+  const columns = new Proxy([], { get: (list, key) => (key === "includes" ? () => true : list[key]) });
+  window.marks = new ALi3Viewer.TyreMarks(view, { columns });
+  const side = [0, 0.1, 0];
+  const wheel = { touching: true, surface: "asphalt", use: 2, load: 4000, side, width: 0.2 };
+  for (let k = 0; k <= marks.most + 1; k++) {
+    const contacts = marks.wheels.list.map((_, w) => ({ ...wheel, at: [0.2 * k, w, 0] }));
+    marks.tracks.update(contacts, k, 1);
+  }
+  marks.update(() => 0, marks.most + 2, 1);
+}"""
 
 
 @pytest.fixture(scope="module")
@@ -43,3 +56,21 @@ def test_it_is_drawn_with_few_calls_and_triangles_from_everywhere(drawn, proving
     print(f"at most {max(calls)} calls and {max(triangles)} triangles")
     assert 10 < max(calls) < MOST_CALLS
     assert 10_000 < max(triangles) < MOST_TRIANGLES
+
+
+@pytest.mark.slow
+def test_its_draft_has_below_fifty_thousand_triangles_with_all_of_it_before_the_eye(drawn, proving_ground):
+    """With the car that has the most, whose tyres have left all the marks that are kept, and nothing left out."""
+    car = compile(load("prototype").model(fidelity="dynamic")).scene
+    world = {"roads": proving_ground["roads"], "scenery": proving_ground["scenery"]}
+    drawn.show(car | world, camera="chase", quality="draft")
+    drawn.ask(_ALL_MARKS)
+    costs = []
+    for place in proving_ground["places"]:
+        drawn.ask("([x, y]) => { view.origin = [x, y, 1]; view.render(); }", [place["x"], place["y"]])
+        drawn.ask("view.world.traverse((part) => (part.frustumCulled = false)), view.render()")
+        costs.append(drawn.ask("[view.renderer.info.render.calls, view.renderer.info.render.triangles]"))
+    calls, triangles = np.max(costs, axis=0)
+    print(f"at most {calls} calls and {triangles} triangles")
+    assert calls < 60
+    assert 25_000 < triangles < 50_000

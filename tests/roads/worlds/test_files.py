@@ -114,9 +114,9 @@ def car():
 CROSSED = [  # place, speeds, m/s, and how far ahead of it the car has then been, m
     ("kerbs", (4.0, 12.0, 20.0)),
     ("washboard", (6.0, 15.0, 25.0)),
-    ("ramp_0_3", (12.0, 20.0)),
-    ("ramp_0_5", (14.0, 20.0)),
-    ("ramp_1_0", (20.0, 30.0)),
+    ("ramp_30_cm", (12.0, 20.0)),
+    ("ramp_50_cm", (14.0, 20.0)),
+    ("ramp_1_m", (20.0, 30.0)),
     ("hill", (15.0, 25.0)),
     ("banked_curve", (12.0, 25.0)),
     ("two_frictions", (25.0,)),
@@ -149,7 +149,7 @@ def test_a_wheel_over_the_kerb_rises_by_80_mm_and_a_jump_leaves_the_ground(provi
     on = slow["chassis.z"][(x > 83.0) & (x < 84.0)]
     before = slow["chassis.z"][(x > 70.0) & (x < 75.0)]
     assert on.mean() - before.mean() == pytest.approx(0.08, abs=0.03)
-    jump = driven(car, proving_ground, "ramp_1_0", 22.0, 7.0)
+    jump = driven(car, proving_ground, "ramp_1_m", 22.0, 7.0)
     loads = sum(jump[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR"))
     assert (loads == 0.0).sum() * 0.002 > 0.5  # half a second in the air
     assert jump["chassis.z"].max() > 1.4

@@ -175,7 +175,7 @@ def test_the_slalom_has_cones_every_18_m(terrain):
 def test_places_lie_on_roads_and_scenery_stands_on_the_ground(terrain):
     places = terrain.world.places
     names = {place.name for place in places}
-    assert {"start", "steering_pad", "double_lane_change", "slalom", "kerbs", "ramp_1_0", "hill"} <= names
+    assert {"start", "steering_pad", "double_lane_change", "slalom", "kerbs", "ramp_1_m", "hill"} <= names
     assert {"washboard", "banked_curve", "two_frictions"} <= names
     for place in places:
         _, classes, _ = terrain.on_grid(np.array([place.at[0]]), np.array([place.at[1]]))

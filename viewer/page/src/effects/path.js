@@ -41,7 +41,7 @@ export class Path {
     this.geometry.setAttribute("position", new THREE.BufferAttribute(edges, 3));
     this.geometry.setAttribute("aside", new THREE.BufferAttribute(asides, 3));
     this.geometry.setIndex(points.slice(1).flatMap((_, k) => [2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3]));
-    const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide, toneMapped: false });
+    const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true, toneMapped: false });
     const viewport = { value: new THREE.Vector2(1, 1) };
     material.onBeforeCompile = (shader) => {
       widen(shader, viewport, { up: view.up, least, fainter: least === undefined });

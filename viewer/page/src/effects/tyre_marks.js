@@ -7,13 +7,15 @@ import { Wheels } from "./wheels.js";
 
 /** Sections of a wheel that are kept: 500 m of marks of each. */
 const MOST = 4096;
+/** One of so many sections within a mark is drawn in a draft. */
+const FEW = 4;
 /** Metres that the focus may be from where the marks are counted from. */
 const FAR = 500;
 
 /** Dark strips where tyres slide on what is hard; bounded: the oldest go. */
 export class TyreMarks {
   #base = null;
-  #drawn = -1;
+  #drawn = "";
 
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
@@ -57,9 +59,12 @@ export class TyreMarks {
     const { origin } = this.view;
     if (this.#base === null || Math.hypot(...subtract(origin, this.#base)) > FAR) {
       this.#base = [...origin];
-      this.#drawn = -1;
+      this.#drawn = "";
     }
-    if (this.#drawn !== this.tracks.changes) this.#draw();
+    const every = this.view.look.quality === "draft" ? FEW : 1;
+    const wanted = `${this.tracks.changes} ${every}`;
+    if (this.#drawn !== wanted) this.#draw(every);
+    this.#drawn = wanted;
     this.mesh.position.fromArray(subtract(this.#base, origin));
   }
 
@@ -68,13 +73,16 @@ export class TyreMarks {
     if (!this.problem) this.tracks.update(this.wheels.contacts(lookup), time, epoch);
   }
 
-  #draw() {
+  /** @param {number} every one of so many sections, beside the ends of marks */
+  #draw(every) {
     const { position, mark } = /** @type {Record<string, THREE.BufferAttribute>} */ (this.geometry.attributes);
     const index = this.geometry.index;
     const { up } = this.view;
     let [point, used] = [0, 0];
     for (const ring of this.tracks.rings) {
       for (let k = 0; k < ring.count; k++) {
+        const inside = (ring.first + k) % every !== 0 && k > 0 && k + 1 < ring.count && this.tracks.row(ring, k)[6] > 0;
+        if (inside && this.tracks.row(ring, k + 1)[6] > 0) continue;
         const [x, y, z, a, b, c, dark] = this.tracks.row(ring, k);
         for (const way of [-1, 1]) {
           const at = subtract([x + way * a, y + way * b, z + way * c], this.#base);
@@ -93,7 +101,6 @@ export class TyreMarks {
       buffer.needsUpdate = true;
     }
     this.geometry.setDrawRange(0, used);
-    this.#drawn = this.tracks.changes;
   }
 
   dispose() {
@@ -105,7 +112,7 @@ export class TyreMarks {
 
 /** Rubber: black, see-through, with the ribs of a tread. */
 function material() {
-  const made = new THREE.MeshBasicMaterial({ color: "#08080a", transparent: true, depthWrite: false, side: THREE.DoubleSide });
+  const made = new THREE.MeshBasicMaterial({ color: "#08080a", transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true });
   made.onBeforeCompile = (shader) => {
     shader.vertexShader = `attribute vec2 mark;\nvarying vec2 vMark;\n${shader.vertexShader}`.replace(
       "#include <begin_vertex>",

@@ -76,7 +76,7 @@ export function contactShadows(view) {
 }
 
 function material() {
-  const made = new THREE.MeshBasicMaterial({ color: "#05060a", transparent: true, depthWrite: false, side: THREE.DoubleSide });
+  const made = new THREE.MeshBasicMaterial({ color: "#05060a", transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true });
   made.onBeforeCompile = (shader) => {
     const head = "varying vec2 vCorner;\nvarying float vDark;\n";
     atEachPoint(shader, `attribute vec2 corner;\nattribute float dark;\n${head}`, "vCorner = corner;\nvDark = dark;");

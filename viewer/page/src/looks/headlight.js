@@ -9,7 +9,8 @@ varying float vLevel;
 varying vec3 vColour;
 #endif
 void main() {
-  vec4 at = vec4(position, 1.0);
+  #include <begin_vertex>
+  vec4 at = vec4(transformed, 1.0);
   vec3 outward = normal;
   #ifdef USE_INSTANCING
   mat3 turn = mat3(instanceMatrix);

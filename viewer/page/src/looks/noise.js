@@ -32,6 +32,29 @@ export function fractalNoise(x, y, cells, octaves, seed) {
   return sum / total;
 }
 
+/** One octave more for each halving of a level, so that cells of one size are the same at every level. */
+const SEED = 101;
+
+/**
+ * Patches whose mipmaps keep their contrast: at each level, cells of 4 to 32 points, the larger ones those of the level
+ * before. Looked up as usual, they are as wide as a few pixels are long, at every distance.
+ * @param {number} n points a side, a power of two @returns {Uint8Array}
+ */
+export function tonesOf(n) {
+  const cells = Math.max(1, n / 32);
+  const octaves = Math.max(1, Math.log2(n / 4 / cells) + 1);
+  const at = (k) => fractalNoise((k % n) / n, Math.floor(k / n) / n, cells, octaves, SEED + 7919 * Math.log2(cells));
+  return Uint8Array.from({ length: n * n }, (_, k) => 255 * at(k));
+}
+
+/** The patches of drafts, which look up no other layer for far ground. @returns {THREE.DataTexture} */
+export function tonesTexture() {
+  const levels = Array.from({ length: Math.log2(SIZE) + 1 }, (_, k) => SIZE >> k);
+  const texture = new THREE.DataTexture(null, SIZE, SIZE, THREE.RedFormat);
+  texture.mipmaps = levels.map((n) => ({ data: tonesOf(n), width: n, height: n }));
+  return repeated(sampled(texture, 1));
+}
+
 /** red: grain, green: patches, blue: clouds of tone, alpha: fine specks. @returns {THREE.DataTexture} */
 export function noiseTexture(anisotropy = 1) {
   const pixels = new Uint8Array(SIZE * SIZE * 4);
@@ -45,18 +68,27 @@ export function noiseTexture(anisotropy = 1) {
       pixels[k + 3] = 255 * Math.min(1, Math.max(0, 6 * (valueNoise(x, y, 128, 307) - 0.82)));
     }
   }
-  const texture = smoothTexture(pixels, SIZE, SIZE, anisotropy);
-  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-  return texture;
+  return repeated(smoothTexture(pixels, SIZE, SIZE, anisotropy));
 }
 
 /** Pixels that do not shimmer from afar. @param {Uint8Array} pixels @param {number} width @param {number} height @param {number} anisotropy */
 export function smoothTexture(pixels, width, height, anisotropy) {
   const texture = new THREE.DataTexture(pixels, width, height);
+  texture.generateMipmaps = true;
+  return sampled(texture, anisotropy);
+}
+
+/** @param {THREE.DataTexture} texture @param {number} anisotropy */
+function sampled(texture, anisotropy) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipmapLinearFilter;
-  texture.generateMipmaps = true;
   texture.anisotropy = anisotropy;
   texture.needsUpdate = true;
+  return texture;
+}
+
+/** @param {THREE.DataTexture} texture */
+function repeated(texture) {
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
   return texture;
 }

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
+import { tonesTexture } from "./noise.js";
 import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
 import { onTheEarth } from "./vertex_code.js";
 
@@ -29,6 +30,7 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     aTones: { value: new THREE.Vector2() },
     aSpot: { value: new THREE.Vector2() },
     aNoise: { value: noise },
+    aPatches: { value: null },
     aCoverA: { value: cover.textures[0] },
     aCoverB: { value: cover.textures[1] ?? null },
     aCover: { value: new THREE.Vector4(...cover.start, ...cover.size) },
@@ -43,7 +45,10 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     /** Of what is painted on it: the colour is an attribute. */
     paint: surfaceMaterial(shared, true),
     /** The same, lit at their points only. @param {Data} light of `lightOf` */
-    drafted: (light) => ({ ground: draftMaterial(shared, light, false), paint: draftMaterial(shared, light, true) }),
+    drafted(light) {
+      uniforms.aPatches.value ??= tonesTexture();
+      return { ground: draftMaterial(shared, light, false), paint: draftMaterial(shared, light, true) };
+    },
     /** @param {THREE.Texture} texture cube of the sky, which wet places mirror */
     mirror(texture) {
       uniforms.aSky.value = texture;

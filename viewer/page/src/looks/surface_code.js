@@ -15,7 +15,7 @@ uniform vec3 aX, aY, aSun;
 uniform vec2 aOffset[4];
 uniform vec2 aSpot, aTones;
 uniform vec4 aCover;
-uniform sampler2D aNoise, aCoverA;
+uniform sampler2D aNoise, aPatches, aCoverA;
 #ifdef A_SECOND
 uniform sampler2D aCoverB;
 #endif
@@ -103,11 +103,11 @@ float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
 `;
 
-/** The same from two layers of noise and one tone for all, for drafts: the mean colours are those above. */
+/** The same from grain and one tone for all, for drafts: the mean colours are those above. */
 export const DRAFT = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
 float grain = texture2D(aNoise, LAYER_0).r;
-float tone = texture2D(aNoise, LAYER_2).b;
+float tone = texture2D(aPatches, LAYER_2).r;
 vec2 at = ((plane + aSpot - aCover.yx) / aCover.wz).yx;
 vec4 first = texture2D(aCoverA, at, A_SHARPER);
 #ifdef A_SECOND
@@ -126,8 +126,7 @@ diffuseColor.rgb *= 0.72 + 0.3 * grain;
 vec3 mean = rest * ${mean("asphalt")} + first.x * ${mean("grass")} * mix(vec3(0.57, 0.785, 0.67), vec3(1.43, 1.215, 1.33), tone);
 mean += first.y * ${mean("wet")} + first.z * ${mean("gravel")} + first.w * ${mean("concrete")};
 mean += second.x * ${mean("ice")} + second.y * ${mean("paint")} + second.z * ${mean("dirt")};
-${DETAIL}
-diffuseColor.rgb *= detail * (0.5 + 0.55 * grain + 0.5 * tone) * mean / total;
+diffuseColor.rgb *= (0.325 + 0.55 * grain + 0.85 * tone) * mean / total;
 #endif
 `;
 

@@ -1,6 +1,7 @@
 // A flexible body: tubes that bend by the amplitudes of its modes, coloured by stress.
 import * as THREE from "three";
 import { colourTexture } from "../looks/colour_map.js";
+import { growing } from "../looks/draft/tubes.js";
 import { headlight } from "../looks/headlight.js";
 import { Bending } from "../scene/bending.js";
 import { FrameTubes } from "./frame_tubes.js";
@@ -20,6 +21,10 @@ export class Flexible {
     this.plain = materials.named("steel");
     this.map = colourTexture();
     this.coloured = headlight({ map: this.map });
+    /** Least radius of tubes in a draft, else 0, see `growing`. */
+    this.least = { value: 0 };
+    this.coloured.onBeforeCompile = (shader) => growing(shader, this.least);
+    this.coloured.customProgramCacheKey = () => "ali3-stress";
     this.object = new THREE.Mesh(this.tubes.geometry, this.plain);
     this.object.frustumCulled = false;
     this.object.userData.alone = true; // it bends

@@ -22,6 +22,8 @@ export class FrameTubes {
     for (const [name, size] of Object.entries({ position: 3, normal: 3, level: 1 })) {
       this.geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(count * size), size));
     }
+    const thick = [...radii.flatMap((radius) => Array(2 * AROUND).fill(radius)), ...this.thick.flatMap((radius) => Array(this.ball.length / 3).fill(radius))];
+    this.geometry.setAttribute("thick", new THREE.BufferAttribute(Float32Array.from(thick), 1));
     this.geometry.setIndex(this.#triangles(nodes.length, 1, ball.index));
     const kept = corners.index.map((k) => nearest(corners.points.slice(3 * k, 3 * k + 3), ball.points));
     /** Triangles of a draft, over the same points. */

@@ -4,6 +4,7 @@ import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 
 /**
  * Join the meshes under a group that moves as one; transparent ones stay single, so that they can be sorted.
+ * What is a tube, which drafts draw otherwise, stays apart from what is none; `tubes` of a mesh places those that it has.
  * @param {THREE.Group} carrier
  */
 export function join(carrier) {
@@ -12,7 +13,7 @@ export function join(carrier) {
   const kinds = new Map();
   carrier.traverse((part) => {
     if (!(part instanceof THREE.Mesh) || part.userData.alone || part.userData.cover || part.material.transparent) return;
-    const key = `${part.material.uuid} ${part.castShadow} ${part.receiveShadow}`;
+    const key = `${part.material.uuid} ${part.castShadow} ${part.receiveShadow} ${part.userData.tubes !== undefined}`;
     kinds.set(key, [...(kinds.get(key) ?? []), part]);
   });
   for (const meshes of kinds.values()) {
@@ -22,9 +23,11 @@ export function join(carrier) {
 
 function joined(meshes, toCarrier) {
   const { material, castShadow, receiveShadow } = meshes[0];
-  const pieces = meshes.map((mesh) => plain(mesh, new THREE.Matrix4().multiplyMatrices(toCarrier, mesh.matrixWorld)));
+  const places = meshes.map((mesh) => new THREE.Matrix4().multiplyMatrices(toCarrier, mesh.matrixWorld));
+  const pieces = meshes.map((mesh, k) => plain(mesh, places[k]));
   const whole = new THREE.Mesh(mergeGeometries(pieces), material);
   Object.assign(whole, { castShadow, receiveShadow });
+  if (meshes[0].userData.tubes) whole.userData.tubes = meshes.flatMap(({ userData }, k) => userData.tubes.map((tube) => places[k].clone().multiply(tube)));
   for (const piece of pieces) piece.dispose();
   for (const mesh of meshes) {
     mesh.removeFromParent();

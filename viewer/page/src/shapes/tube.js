@@ -7,8 +7,10 @@ const rod = (material) => new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 12,
 export function roundTubes(count, closed, radius, material) {
   const group = new THREE.Group();
   const rods = Array.from({ length: closed ? count : count - 1 }, () => rod(material));
+  for (const mesh of rods) mesh.userData.tubes = [new THREE.Matrix4()];
   const ball = new THREE.SphereGeometry(radius, 10, 6);
   const balls = Array.from({ length: count }, () => new THREE.Mesh(ball, material));
+  for (const mesh of balls) mesh.userData.tubes = []; // a draft has none
   group.add(...rods, ...balls);
   const place = (points) => {
     rods.forEach((mesh, i) => stretch(mesh, points[i], points[(i + 1) % count], radius));

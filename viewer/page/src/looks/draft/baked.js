@@ -2,9 +2,10 @@
 import * as THREE from "three";
 import { prelit } from "./prelit.js";
 import { within } from "./thinned.js";
+import { growing, prisms } from "./tubes.js";
 
 /** Triangles of all solid parts and of those that change their form together, at most; solid parts have half of them. */
-export const MOST = 15000;
+export const MOST = 12000;
 /** The finest lattice, beside the size of the drawing. */
 const FINEST = 1.5e-3;
 /** Cameras do not see this layer. */
@@ -13,14 +14,16 @@ const UNSEEN = 1;
 /** Whether a mesh is drawn by itself: see-through, or of a form or a look that changes. @param {THREE.Mesh} mesh */
 const stays = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone || mesh.userData.cover;
 
+const colourOf = (mesh) => /** @type {THREE.MeshStandardMaterial} */ (mesh.material).color.toArray();
+
 /** Numbers of a mesh in the axes of a group. @param {THREE.Mesh} mesh @param {THREE.Matrix4} toGroup */
 function surfaceOf(mesh, toGroup) {
   const geometry = mesh.geometry.clone().applyMatrix4(toGroup.multiply(mesh.matrixWorld));
   const { position, normal } = geometry.attributes;
-  const { r, g, b } = /** @type {THREE.MeshStandardMaterial} */ (mesh.material).color;
+  const colour = colourOf(mesh);
   const index = geometry.index ? [...geometry.index.array] : [...Array(position.count).keys()];
   geometry.dispose();
-  return { positions: [...position.array], normals: [...normal.array], colours: Array(position.count).fill([r, g, b]).flat(), index };
+  return { positions: [...position.array], normals: [...normal.array], colours: Array(position.count).fill(colour).flat(), index };
 }
 
 function together(surfaces) {
@@ -35,13 +38,17 @@ function together(surfaces) {
   return made;
 }
 
-function geometryOf({ positions, normals, colours, index }) {
+function geometryOf({ positions, normals, colours, index }, tubes) {
   const geometry = new THREE.BufferGeometry();
-  for (const [name, values] of Object.entries({ position: positions, normal: normals, color: colours })) {
-    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), 3));
+  const thicks = [...Array(positions.length / 3).fill(0), ...tubes.thicks];
+  const whole = together([{ positions, normals, colours, index }, tubes]);
+  for (const [name, values] of Object.entries({ position: whole.positions, normal: whole.normals, color: whole.colours, thick: thicks })) {
+    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), name === "thick" ? 1 : 3));
   }
-  return geometry.setIndex(index);
+  return geometry.setIndex(whole.index);
 }
+
+const sumOf = (surfaces, name) => surfaces.reduce((sum, surface) => sum + surface[name].length, 0);
 
 /**
  * @param {import("../../scene/parts.js").Parts} parts
@@ -67,28 +74,37 @@ export function baked(parts, light, extent) {
   for (const carrier of carriers) movers.push({ object: carrier, meshes: gather(carrier, true) });
   for (const { object, update } of parts.shapes) if (update) for (const mesh of gather(object, false)) movers.push({ object: mesh, meshes: [mesh] });
   const solid = movers.filter(({ meshes }) => meshes.length > 0);
-  const others = [...thinner].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0);
+  const tubes = solid.map(({ object, meshes }) => {
+    const inverse = object.matrixWorld.clone().invert();
+    const places = (mesh) => mesh.userData.tubes.map((tube) => inverse.clone().multiply(mesh.matrixWorld).multiply(tube));
+    const made = meshes.filter(({ userData }) => userData.tubes).map((mesh) => prisms(places(mesh), colourOf(mesh)));
+    return { ...together(made), thicks: made.flatMap(({ thicks }) => thicks) };
+  });
+  const others = [...thinner].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0) + sumOf(tubes, "index") / 3;
   const surfaces = within(solid.map(({ object, meshes }) => {
     const inverse = object.matrixWorld.clone().invert();
-    return together(meshes.map((mesh) => surfaceOf(mesh, inverse.clone())));
+    return together(meshes.filter(({ userData }) => !userData.tubes).map((mesh) => surfaceOf(mesh, inverse.clone())));
   }), Math.max(MOST / 2, MOST - others), FINEST * extent); // prettier-ignore
   for (const { meshes } of solid) hidden.push(...meshes);
-  const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k] })).filter(({ surface }) => surface.index.length > 0);
-  const [points, corners] = ["positions", "index"].map((name) => drawn.reduce((sum, { surface }) => sum + surface[name].length, 0));
-  const material = prelit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked");
+  const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k], tubes: tubes[k] })).filter(({ surface, tubes: { index } }) => surface.index.length + index.length > 0);
+  const [points, corners] = ["positions", "index"].map((name) => sumOf(surfaces, name) + sumOf(tubes, name));
+  const grown = (shader) => growing(shader, light.aLeast);
+  const material = prelit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked", grown);
   const batch = new THREE.BatchedMesh(Math.max(1, drawn.length), Math.max(3, points / 3), Math.max(3, corners), material);
   Object.assign(batch, { frustumCulled: false, perObjectFrustumCulled: false, sortObjects: false });
-  for (const mover of drawn) mover.id = batch.addInstance(batch.addGeometry(geometryOf(mover.surface)));
+  for (const mover of drawn) mover.id = batch.addInstance(batch.addGeometry(geometryOf(mover.surface, mover.tubes)));
   const twins = new Map();
   for (const own of new Set(single.values())) {
     const { color, opacity, side, transparent, depthWrite } = own;
     twins.set(own, prelit(light, { color, opacity, side, transparent, depthWrite }, `single ${transparent}`));
   }
+  const steel = new Map(parts.flexible.map((body) => [body, prelit(light, { color: body.plain.color }, "steel", grown)]));
   return {
     mesh: batch,
     /** Draw this in place of the parts, or the parts again. @param {boolean} on */
     show(on) {
       batch.visible = on;
+      if (!on) for (const { least } of parts.flexible) least.value = 0;
       for (const mesh of hidden) mesh.layers.set(on ? UNSEEN : 0);
       for (const [mesh, own] of single) mesh.material = on ? twins.get(own) : own;
       for (const mesh of thinner) {
@@ -105,6 +121,10 @@ export function baked(parts, light, extent) {
         if (twin.transparent !== transparent) twin.needsUpdate = true;
         Object.assign(twin, { opacity, transparent, depthWrite });
       }
+      for (const [body, plain] of steel) {
+        body.least.value = light.aLeast.value;
+        if (body.object.material === body.plain) body.object.material = plain;
+      }
       for (const { id, object } of drawn) {
         let shown = true;
         for (let at = object; at !== null && at !== parts.group; at = at.parent) shown &&= at.visible;
@@ -115,7 +135,7 @@ export function baked(parts, light, extent) {
     dispose() {
       batch.dispose();
       material.dispose();
-      for (const twin of twins.values()) twin.dispose();
+      for (const twin of [...twins.values(), ...steel.values()]) twin.dispose();
       batch.removeFromParent();
     },
   };

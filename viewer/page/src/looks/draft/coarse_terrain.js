@@ -10,7 +10,7 @@ const [CELLS, PIECES, POINTS] = [64, 14, 60000];
 /** Error of the heights that may be seen, m: near as paint is drawn above the ground, and so much more a metre away. */
 const [LEAST, ERROR] = [8e-3, 2.5e-3];
 /** Triangles of all parts at most: where there would be more, those that are far are coarser by so much, again and again. */
-const [MOST, COARSER] = [17500, 1.25];
+const [MOST, COARSER] = [15000, 1.25];
 /** Metres that the eye goes before levels are chosen again. */
 const STEP = 15;
 

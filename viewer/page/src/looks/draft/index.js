@@ -1,6 +1,7 @@
 // The draft quality: one call for what moves, no shadow map, ground lit at its points; for machines without a card.
 import { baked } from "./baked.js";
 import { lightOf } from "./prelit.js";
+import { leastOf } from "./tubes.js";
 
 /**
  * @param {Data} view the SceneView
@@ -28,7 +29,9 @@ export function makeDraft(view, sun) {
     },
     /** After the parts have their places. */
     follow() {
-      if (this.on) made.follow();
+      if (!this.on) return;
+      light.aLeast.value = leastOf(view.renderer.domElement.height);
+      made.follow();
     },
     dispose() {
       made?.dispose();

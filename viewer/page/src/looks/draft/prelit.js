@@ -18,7 +18,7 @@ vLit = max(dot(facing, aTo), 0.0) * aLight + ${SKY} * (0.75 + 0.25 * dot(facing,
 /** The light of a picture for such materials. @param {THREE.DirectionalLight} sun @param {number[]} up */
 export function lightOf(sun, up) {
   const strength = new THREE.Vector3(sun.color.r, sun.color.g, sun.color.b).multiplyScalar(sun.intensity / Math.PI);
-  return { aTo: { value: sun.position.clone().normalize() }, aLight: { value: strength }, aUp: { value: new THREE.Vector3(...up) } };
+  return { aTo: { value: sun.position.clone().normalize() }, aLight: { value: strength }, aUp: { value: new THREE.Vector3(...up) }, aLeast: { value: 0 } };
 }
 
 /**

@@ -1,0 +1,56 @@
+// Tubes of a draft: prisms that are never thinner in the picture than a line without gaps.
+import * as THREE from "three";
+
+/** Sides of a prism, and the least radius of a tube in pixels: its narrowest side is a pixel wide. */
+const [SIDES, LEAST] = [4, 0.75];
+
+const GROW = /* glsl */ `
+mat4 stands = modelMatrix;
+#ifdef USE_BATCHING
+stands = modelMatrix * batchingMatrix;
+#endif
+float radius = length(mat3(stands) * (normal * thick));
+float least = aLeast * (projectionMatrix * viewMatrix * stands * vec4(position, 1.0)).w / projectionMatrix[1][1];
+if (radius > 0.0) transformed += normal * thick * max(0.0, least / radius - 1.0);`;
+
+/** `aLeast` of a picture: the least radius over half of its height. @param {number} height pixels */
+export const leastOf = (height) => (2 * LEAST) / height;
+
+/**
+ * Points whose attribute `thick` is not 0 lie so far from the middle of a tube along their normal.
+ * @param {Data} shader of three.js @param {{value: number}} least see `leastOf`; 0: tubes are as thick as they are
+ */
+export function growing(shader, least) {
+  shader.uniforms.aLeast = least;
+  shader.vertexShader = `attribute float thick;\nuniform float aLeast;\n${shader.vertexShader}`.replace(
+    "#include <begin_vertex>",
+    `#include <begin_vertex>\n${GROW}`,
+  );
+}
+
+/**
+ * @param {THREE.Matrix4[]} places of cylinders about y of radius 1 and height 1 @param {number[]} colour
+ * @returns {import("./thinned.js").Surface & {thicks: number[]}}
+ */
+export function prisms(places, colour) {
+  const made = { positions: [], normals: [], colours: [], thicks: [], index: [] };
+  for (const place of places) {
+    const from = made.thicks.length;
+    for (let k = 0; k < SIDES; k++) {
+      const angle = (2 * Math.PI * k) / SIDES;
+      const [x, z] = [Math.cos(angle), Math.sin(angle)];
+      const ends = [-0.5, 0.5].map((y) => new THREE.Vector3(x, y, z).applyMatrix4(place));
+      const outward = ends[0].clone().sub(new THREE.Vector3(0, -0.5, 0).applyMatrix4(place));
+      const thick = outward.length();
+      for (const end of ends) {
+        made.positions.push(...end.toArray());
+        made.normals.push(...outward.toArray().map((value) => value / thick));
+        made.colours.push(...colour);
+        made.thicks.push(thick);
+      }
+      const [a, b] = [from + 2 * k, from + 2 * ((k + 1) % SIDES)];
+      made.index.push(a, a + 1, b, b, a + 1, b + 1);
+    }
+  }
+  return made;
+}
