@@ -20,6 +20,7 @@ import pytest
 from fmu_src.native.more_platforms import add_platforms
 from fmu_src.native.platforms import PLATFORMS
 from fmu_src.native.universal import universal
+from tests.sanitize import OBJECTS
 from tests.unoptimised import unoptimised
 
 # pytest imports this folder's files by path
@@ -169,7 +170,8 @@ def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, k
     fmu = build("crane", kind)
     folder = native.unpack(fmu, tmp_path / "fmu")
     shutil.rmtree(folder / "binaries")
-    code = f"from fmpy.build import build_platform_binary as b; b({str(folder)!r})"
+    # without optimisation, in half the time
+    code = f"from fmpy.build import build_platform_binary as b; b({str(folder)!r}, configuration='Debug')"
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
     compiled = fmpy.simulate_fmu(str(folder), stop_time=0.5, start_values={"torque": 2.5}, output=["rod.angle"])
     packed = fmpy.simulate_fmu(str(fmu), stop_time=0.5, start_values={"torque": 2.5}, output=["rod.angle"])
@@ -200,9 +202,15 @@ def stress_run(fmu: Path, folder: Path, objects: Path, system: str, output: str)
 
 
 @pytest.fixture(scope="session")
-def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory, shared: Path) -> Callable[..., str]:
+def objects(shared: Path) -> Path:
+    """Where sanitized objects are kept."""
+    return Path(os.environ.get(OBJECTS, shared / "objects"))
+
+
+@pytest.fixture(scope="session")
+def stress(build: Callable[..., Path], tmp_path_factory: pytest.TempPathFactory, objects: Path) -> Callable[..., str]:
     folder = tmp_path_factory.mktemp("stress")
-    return stress_run(build("crane", "native"), folder, shared / "objects", "system_0.ali3", "rod.x")
+    return stress_run(build("crane", "native"), folder, objects, "system_0.ali3", "rod.x")
 
 
 @pytest.mark.slow
@@ -213,11 +221,11 @@ def test_stress(stress: Callable[[str, int], str], what: str, count: int) -> Non
 
 @pytest.fixture(scope="session")
 def flexible_stress(
-    kerb_fmus: Path, tmp_path_factory: pytest.TempPathFactory, shared: Path
+    kerb_fmus: Path, tmp_path_factory: pytest.TempPathFactory, objects: Path
 ) -> Callable[[str, int], str]:
     """A car with a flexible chassis and several fidelities."""
     folder = tmp_path_factory.mktemp("flexible_stress")
-    return stress_run(kerb_fmus / "native.fmu", folder, shared / "objects", "system_3.ali3", "bending_moment.SG1")
+    return stress_run(kerb_fmus / "native.fmu", folder, objects, "system_3.ali3", "bending_moment.SG1")
 
 
 @pytest.mark.proof  # the same C as above; what is of flexible bodies alone the sanitized kernel runs
