@@ -99,14 +99,12 @@ class Fmu(Closing):
                 f"{path} is an FMU of FMI {description.fmiVersion}{kind}; this host drives co-simulation of "
                 "FMI 2.0 and 3.0."
             )
-        self.path = path
-        self.description = description
+        self.path, self.description = path, description
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
         folder = Path(tempfile.mkdtemp(prefix="fmu_"))
-        # also where nobody closes it, as in a script or a notebook
-        self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # also where nobody closes it
         try:
             unpack(path, folder)
             self._instance = Instance(description, folder, path.stem, self._log)
@@ -145,9 +143,8 @@ class Fmu(Closing):
             if name not in settable:
                 some = f"it has {len(settable)}, such as {', '.join(sorted(settable)[:6]) or 'none'}"
                 raise HostError(f"The FMU has no parameter or input {brief(name)}{did_you_mean(name, settable, some)}")
-        values = {self._places[name]: self._fitting(name, value) for name, value in start.items()}
         try:
-            self._instance.initialise(values, start_time)
+            self._instance.initialise({self._places[n]: self._fitting(n, v) for n, v in start.items()}, start_time)
         except FMICallException as error:
             raise StartRefusedError(f"The FMU could not be initialised: {self._last_message() or error}") from None
 
