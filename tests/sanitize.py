@@ -9,13 +9,17 @@ An error ends the process that ran the test, with the line of the kernel, and th
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from ali3.cores import available_cores
 from mbs.kernel import build
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,7 +35,10 @@ TESTS = [
     "tests/simulation/test_assembly_modes.py",
 ]
 LEFT_OUT = {"tests/kernel/test_elementary.py"}  # compiles a library of its own
-FLAGS = ["-g", "-O1", "-std=c11", "-fPIC", "-shared", "-fvisibility=hidden", "-ffp-contract=off"]
+FLAGS = ["-g", "-O1", "-std=c11", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror"]
+ADDRESSES = ["-fsanitize=address", "-DALI3_GAPS"]
+OBJECTS = "ALI3_SANITIZED_OBJECTS"
+"""Names a folder in which objects are kept, so that the kernel and an FMU are compiled once for both."""
 UNDEFINED = ["-fsanitize=undefined", "-fno-sanitize-recover=all"]
 OPTIONS = {
     "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1",  # Python itself leaks; files may ask for too much
@@ -49,6 +56,30 @@ def runtimes(compiler: str) -> list[str]:
     return found if all(Path(path).is_file() for path in found) else []
 
 
+def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> list[str]:
+    """Compile what a folder does not hold, by what the preprocessor makes of it: wherever the sources lie.
+
+    Raises
+    ------
+    subprocess.CalledProcessError
+        The compiler refuses a source.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    words = " ".join(part for part in command if "-I" not in part).encode()
+
+    def made(source: Path) -> str:
+        text = subprocess.run([*command, "-E", "-P", source], capture_output=True, check=True).stdout
+        file = folder / f"{hashlib.sha256(words + text).hexdigest()}.o"
+        if not file.is_file():
+            part = file.with_suffix(f".{os.getpid()}")  # whole at once: other processes look for it too
+            subprocess.run([*command, "-c", source, "-o", part], check=True)
+            part.replace(file)
+        return str(file)
+
+    with ThreadPoolExecutor(available_cores()) as pool:
+        return list(pool.map(made, sources))
+
+
 def compiled(library: Path) -> tuple[str, dict[str, str]]:
     """Compile the kernel; what is checked, and the environment for it."""
     for compiler in filter(shutil.which, ("gcc", "clang") if sys.platform == "linux" else ()):
@@ -56,10 +87,11 @@ def compiled(library: Path) -> tuple[str, dict[str, str]]:
         if not preload:
             continue
         shared = [] if "gcc" in compiler else ["-shared-libsan"]
-        flags = [*FLAGS, "-fsanitize=address", "-DALI3_GAPS", *UNDEFINED, *shared]
-        subprocess.run([compiler, *flags, "-o", library, *build.sources(), "-lm"], check=True)
+        command = [compiler, *FLAGS, *ADDRESSES, *UNDEFINED]
+        made = objects(command, build.sources(), Path(os.environ.get(OBJECTS, library.parent / "objects")))
+        subprocess.run([*command, *shared, "-shared", "-o", library, *made, "-lm"], check=True)
         return f"addresses and undefined behaviour ({compiler})", OPTIONS | {"LD_PRELOAD": ":".join(preload)}
-    flags = [*FLAGS, *UNDEFINED, "-fsanitize-trap=undefined"]
+    flags = [*FLAGS, "-shared", *UNDEFINED, "-fsanitize-trap=undefined"]
     subprocess.run(
         [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags, "-o", library, *build.sources()]
         + (["-lm"] if sys.platform != "win32" else []),

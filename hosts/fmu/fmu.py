@@ -6,6 +6,7 @@ import math
 import shutil
 import sys
 import tempfile
+import weakref
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -99,29 +100,29 @@ class Fmu(Closing):
                 f"{path} is an FMU of FMI {description.fmiVersion}{kind}; this host drives co-simulation of "
                 "FMI 2.0 and 3.0."
             )
-        self.path = path
-        self.description = description
+        self.path, self.description = path, description
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
-        self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
+        folder = Path(tempfile.mkdtemp(prefix="fmu_"))
+        self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # also where nobody closes it
         try:
-            unpack(path, self._folder)
-            self._instance = Instance(description, self._folder, path.stem, self._log)
+            unpack(path, folder)
+            self._instance = Instance(description, folder, path.stem, self._log)
             self._slave = self._instance.slave
         except BaseException as error:
-            shutil.rmtree(self._folder, ignore_errors=True)
+            self._remove()
             if isinstance(error, MemoryError) or not isinstance(error, Exception):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
-                raise HostError(f"{path} cannot be unpacked into {self._folder}: {reason(error)}.") from None
+                raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
             why = self._last_message() or f"{error}{memory_words()}"
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
 
     def close(self) -> None:
         """Free the instance and what was unpacked."""
         self._slave.freeInstance()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        self._remove()
 
     def names(self, causality: str) -> list[str]:
         """Names of the real and whole variables of a causality."""

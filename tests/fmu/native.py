@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import hashlib
-import os
 import shutil
 import struct
 import subprocess
 import sys
 import zipfile
-from collections.abc import Sequence
 from pathlib import Path
 
 import fmpy
 
 from fmu_src.native.sources import HERE as FMI_HEADERS
 from mbs.kernel import build
+from tests import sanitize
 
 ROOT = Path(__file__).parents[2]
 C_FOLDER = Path(__file__).parent / "c"
@@ -41,23 +39,6 @@ def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SO
     return program
 
 
-def _objects(compiler: Sequence[str], sources: Sequence[Path], folder: Path) -> list[str] | None:
-    """Compile what `folder` does not hold from another FMU; None where the compiler refuses."""
-    headers = sorted({h for s in sources for h in s.parent.glob("*.h")})
-    common = b"".join(h.read_bytes() for h in headers) + " ".join(c for c in compiler if "-I" not in c).encode()
-    folder.mkdir(exist_ok=True)
-    made = []
-    for source in sources:
-        name = hashlib.sha256(common + source.name.encode() + source.read_bytes()).hexdigest()
-        if not (folder / name).is_file():
-            part = folder / f"{name}.{os.getpid()}"  # whole at once: other processes look for it too
-            if subprocess.run([*compiler, "-c", source, "-o", part], capture_output=True, check=False).returncode:
-                return None
-            part.replace(folder / name)
-        made.append(str(folder / name))
-    return made
-
-
 def compile_stress(fmu_folder: Path, program: Path, objects: Path) -> None:
     """Link `stress.c` with the FMU's own sources; with sanitizers where the system's gcc has them.
 
@@ -68,22 +49,20 @@ def compile_stress(fmu_folder: Path, program: Path, objects: Path) -> None:
     program : Path
         The file to write.
     objects : Path
-        Folder of what gcc compiled, for the next FMU.
+        Folder of what gcc compiled, for the next FMU and the kernel of `tests.sanitize`.
     """
     sources = [C_FOLDER / "stress.c", *sorted((fmu_folder / "sources").rglob("*.c"))]
-    include = [f"-I{fmu_folder / 'sources'}"]
-    flags = ["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]
+    include = f"-I{fmu_folder / 'sources'}"
     libraries = ["-lm", *([] if sys.platform == "win32" else ["-lpthread"])]
     gcc = shutil.which("gcc") if sys.platform == "linux" else None
-    if gcc is not None:
-        sanitize = ["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]
-        made = _objects([gcc, *flags, *sanitize, *include], sources, objects)
-        link = [gcc, *sanitize, "-o", str(program), *(made or []), *libraries]
-        if made and subprocess.run(link, capture_output=True, check=False).returncode == 0:
-            return
-    trapped = ["-fsanitize=undefined", "-fsanitize-trap=undefined"]
-    command = [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags, *trapped]
-    subprocess.run([*command, *include, "-o", str(program), *map(str, sources), *libraries], check=True)
+    if gcc is not None and sanitize.runtimes("gcc"):
+        command = ["gcc", *sanitize.FLAGS, *sanitize.ADDRESSES, *sanitize.UNDEFINED]
+        made = sanitize.objects([*command, include], sources, objects)
+        subprocess.run([*command, "-o", program, *made, *libraries], check=True)
+        return
+    flags = [*sanitize.FLAGS, *sanitize.UNDEFINED, "-fsanitize-trap=undefined"]
+    command = [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags]
+    subprocess.run([*command, include, "-o", str(program), *map(str, sources), *libraries], check=True)
 
 
 def guid_of(folder: Path) -> str:

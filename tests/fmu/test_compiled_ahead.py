@@ -15,6 +15,7 @@ from fmu_src.native import ahead
 from fmu_src.native.ahead import compiled_ahead
 from mbs.kernel import build
 from tests.fmu import scenes
+from tests.unoptimised import unoptimised
 
 PLATFORM = fmpy.platform
 
@@ -77,8 +78,8 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
 
 
 @pytest.mark.slow
+@unoptimised()
 def test_a_second_model_compiles_its_table_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(build, "FLAGS", ["-O0", "-fno-sanitize=undefined", *build.FLAGS[1:]])  # is soon compiled
     usual = build_fmu(mbs.compile(scenes.crane()), "crane", tmp_path / "usual", [PLATFORM]).read_bytes()
     monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "cache"))
     build.cache_directory.cache_clear()

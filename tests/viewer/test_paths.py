@@ -99,7 +99,7 @@ FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -
 
 
 @pytest.mark.parametrize("road", [{"kind": "flat"}, FAR_KERB])
-def test_the_path_is_seen_at_every_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
+def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
     made = run("straight", roads=[road], extent=3.8)
     yaw = 0.03 * np.sin(5.0 * T)  # another camera at each instant
@@ -108,7 +108,7 @@ def test_the_path_is_seen_at_every_instant(opened: Callable[..., Opened], road: 
     made.columns |= {f"body.{name}": column for name, column in values.items()}
     page = opened(made, camera="chase")
     seen = []
-    for t in np.arange(1.0, 3.0, 1.0 / 15.0):
+    for t in np.arange(1.0, 3.0, 2.0 / 15.0):
         page.seek(float(t))
         seen.append(yellow(page, [20.0 * t - 0.9, 0.0, 0.0]))
     assert all(seen), seen

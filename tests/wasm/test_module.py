@@ -31,6 +31,7 @@ from mbs.kernel import build as kernel_build
 from mbs.kernel.binding import load_library
 from mbs.kernel.binding.errors import status_text
 from mbs.roads import write_road
+from tests.unoptimised import unoptimised
 
 STACK = 1 << 20
 HELPERS = {"memory", "_initialize", "malloc", "free"}
@@ -185,6 +186,7 @@ def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callab
 
 
 @pytest.mark.slow
+@unoptimised()
 def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: Path) -> None:
     """The sign of a damper is turned in the FMU's sources: the module has it, the library of this machine has not."""
     plan = Plan({"torque": 2.0}, ["torque"], [{"h": 0.01, "inputs": [2.0]}] * 20)
@@ -273,6 +275,7 @@ def test_sources_for_a_file_system_leave_the_room_out() -> None:
 
 
 @pytest.mark.slow
+@unoptimised()
 def test_the_kernel_alone_is_a_module_too(tmp_path: Path) -> None:
     import wasmtime
 

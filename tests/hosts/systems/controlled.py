@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -13,6 +12,7 @@ from pythonfmu import FmuBuilder
 from hosts.common.numbers import Value
 from hosts.systems import CoupledFmus
 from hosts.systems.coupled import Inputs, Order
+from tests.hosts.systems.trailer import passing_folder
 from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.test_ports import WHEELS
 
@@ -120,7 +120,7 @@ SYSTEMS = {
 def controller_fmu(name: str) -> Path:
     """A controller whose state can be saved, built by PythonFMU once a process."""
     file = CONTROLLERS / f"{name}.py"
-    return Path(FmuBuilder.build_FMU(file, dest=tempfile.mkdtemp(), canGetAndSetFMUstate=True))
+    return Path(FmuBuilder.build_FMU(file, dest=passing_folder(), canGetAndSetFMUstate=True))
 
 
 def parts_of(case: Controlled) -> dict[str, Path]:

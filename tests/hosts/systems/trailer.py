@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import shutil
 import tempfile
 from dataclasses import replace
 from functools import cache
@@ -97,12 +99,19 @@ def with_trailer() -> mbs.System:
     return mbs.compile(m)
 
 
+def passing_folder() -> Path:
+    """A folder that goes with the process."""
+    folder = tempfile.mkdtemp()
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
+
+
 @cache
 def fmus() -> dict[str, Path]:
     """FMUs of the car and the trailer, built once a process."""
     made = {}
     for name, model in (("car", car_with_hitch().model()), ("trailer", trailer())):
-        folder = Path(tempfile.mkdtemp())
+        folder = passing_folder()
         build_fmu(mbs.compile(model), name, folder, [platform])
         made[name] = next(folder.glob("*.fmu"))
     return made

@@ -94,7 +94,7 @@ CASES = {
 @cache
 def partner_fmu(name: str) -> Path:
     """The FMU of a script, built by PythonFMU once a process."""
-    return Path(FmuBuilder.build_FMU(FMUS / f"{name}.py", dest=tempfile.mkdtemp(), canGetAndSetFMUstate=True))
+    return Path(FmuBuilder.build_FMU(FMUS / f"{name}.py", dest=trailer.passing_folder(), canGetAndSetFMUstate=True))
 
 
 @cache
