@@ -106,14 +106,15 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   }
   ali3_lane_elements_accept(g, l);
   if (ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
-  const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l]);
+  const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l], *square = g->squares + l;
+  const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l], weight);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);
   ali3_guides_work(in, &in->next, g->guides[l]);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
   in->t_now = step->t;
-  ali3_balance_step(in, step->h);
+  ali3_balance_motion(in, step->h, square[0], square[g->width], square[2 * g->width]);
   return ALI3_OK;
 }
 

@@ -136,9 +136,10 @@ static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.solves,
                          &g->report.negative_pivots};
   real **numbers[] = {&g->residual, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end, &g->open,
-                      &g->size,     &g->guides};
+                      &g->size,     &g->guides,    &g->gravity_const,      &g->weight};
   for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = items(g, pool, 1);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = items(g, pool, 1);
+  g->squares = items(g, pool, 3);
 }
 
 static void place(ali3_lane_group *g, ali3_pool *pool) {
@@ -216,6 +217,7 @@ void ali3_group_parameters(ali3_lane_group *g) {
   PUT(g, g->mass_floor, z->nq, in, in->mass_floor);
   PUT(g, g->mass_floor_inverse, z->nq, in, in->mass_floor_inverse);
   PUT(g, g->gravity_force, z->nq, in, in->gravity_force);
+  PUT(g, g->gravity_const, 1, in, &in->gravity_const);
   PUT(g, g->flex_P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
   PUT(g, g->flex_c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
   PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->el_real);

@@ -306,6 +306,9 @@ static void step(ali3_lane_group *in) {
   work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);
+  *in->weight = *in->gravity_const;
+  for (int32_t i = 0; i < nq; i++) *in->weight -= in->gravity_force[i] * in->next.q[i];
+  ali3_speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
   watch(in);
 }
 #endif

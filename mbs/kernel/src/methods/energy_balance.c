@@ -8,17 +8,18 @@
 #include "../instance.h"
 #include "coarse_event.h"
 #include "energy_balance.h"
+#include "energy_watch.h"
 #include "quick_load.h"
 #include "quick_stop.h"
 
 static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
 
-/* Potential energy of v; flexible bodies prepared at its position. */
-static double potential(const ali3_instance *in, const ali3_vectors *v) {
+/* Potential energy of v; flexible bodies prepared at its position. `weight`: that of gravity, NULL: it is not known. */
+static double potential(const ali3_instance *in, const ali3_vectors *v, const double *weight) {
   const ali3_system *S = in->system;
-  double gravity = in->gravity_const, elastic = 0.0;
-  ali3_bodies_energy(in, v->q, &gravity, &elastic);
-  for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
+  double gravity = weight != NULL ? *weight : in->gravity_const, elastic = 0.0;
+  if (weight == NULL) ali3_bodies_energy(in, v->q, &gravity, &elastic);
+  for (int32_t i = 0; weight == NULL && i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
   for (int32_t e = 0; e < S->size.ne; e++) elastic += v->potential[e];
   return gravity + elastic;
 }
@@ -39,13 +40,14 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   for (int32_t i = 0; i < in->system->size.nq; i++)
     in->report.energy_floor += in->settings.tolerance_r * fabs(in->gravity_force[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
-  kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now));
+  kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }
 
-/* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. */
-void ali3_balance_energy(ali3_instance *in, double error, double kinetic) {
+/* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. `weight`:
+ * the energy of gravity there where it is known, of a System without flexible and tabled bodies; else NULL. */
+void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight) {
   ali3_report *r = &in->report;
-  const double energy = kinetic + potential(in, &in->next);
+  const double energy = kinetic + potential(in, &in->next, weight);
   r->energy_error += error;
   r->work += fabs(energy - r->energy - error);
   kinetic_energy(r, kinetic, energy);
@@ -63,37 +65,10 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
   ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
 }
 
-/* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
-static void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a, const double *v1,
-                            double out[3]) {
-  const double *m = in->mass_floor;
-  const int32_t nq = in->system->size.nq;
-  ali3_four speed = {0}, change = {0}, miss = {0};
-  int32_t i = 0;
-  ALI3_SHORT
-  for (; i + 3 < nq; i += 4) {
-    const ali3_four w = *(const ali3_four *)(m + i), v = *(const ali3_four *)(v1 + i);
-    const ali3_four d = v - *(const ali3_four *)(v0 + i), e = d - h * *(const ali3_four *)(a + i);
-    speed += w * v * v;
-    change += w * d * d;
-    miss += w * e * e;
-  }
-  out[0] = (speed[0] + speed[1]) + (speed[2] + speed[3]);
-  out[1] = (change[0] + change[1]) + (change[2] + change[3]);
-  out[2] = (miss[0] + miss[1]) + (miss[2] + miss[3]);
-  ALI3_SHORT
-  for (; i < nq; i++) {
-    const double d = v1[i] - v0[i], e = d - h * a[i];
-    out[0] += m[i] * v1[i] * v1[i];
-    out[1] += m[i] * d * d;
-    out[2] += m[i] * e * e;
-  }
-}
-
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   double square[3];
-  balance_squares(in, h, v0, a, v1, square);
+  ali3_speed_squares(in, h, v0, a, v1, square);
   ali3_balance_motion(in, h, square[0], square[1], square[2]);
 }
 

@@ -4,24 +4,12 @@
 
 #include "../../include/ali3.h"
 
-enum { MANY = 16 }; /* times from which on it is worth while to guess */
-
-static bool below(const ali3_input_table *x, int64_t i, double t, bool or_at) {
-  return or_at ? x->time[i] <= t : x->time[i] < t;
-}
-
-/* Number of times below `t`, or not above it; looked for first where it is when times are evenly apart. */
+/* Number of times below `t`, or not above it. */
 static int64_t count(const ali3_input_table *x, double t, bool or_at) {
   int64_t low = 0, high = x->n;
-  const double place = x->n < MANY ? 0.0 : (t - x->time[0]) / (x->time[x->n - 1] - x->time[0]) * (double)(x->n - 1);
-  if (place >= 1.0 && place < (double)(x->n - 2)) {
-    const int64_t guess = (int64_t)place;
-    if (below(x, guess - 1, t, or_at)) low = guess;
-    if (!below(x, guess + 2, t, or_at)) high = guess + 2;
-  }
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
-    if (below(x, middle, t, or_at))
+    if (or_at ? x->time[middle] <= t : x->time[middle] < t)
       low = middle + 1;
     else
       high = middle;
