@@ -62,6 +62,8 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_entry_signal = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_local = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_value = ali3_pool_items(p, n_entry, sizeof(double));
+  s->el_entry_first = ali3_pool_items(p, n_entry, 1);
+  s->el_clear = ali3_pool_items(p, ne, 1);
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
@@ -403,6 +405,28 @@ static void derive_element(ali3_system *s, int32_t e) {
   s->el_coordinate_ptr[e + 1] = start + unique;
 }
 
+/* Which entries of an element are the first ones of their coordinates, in the order in which its tangent meets them:
+ * those of a triple three at a time. */
+static void derive_first(const ali3_system *s, int32_t e) {
+  enum { UNMET = 2 };
+  const int32_t begin = s->el_entry_ptr[e], n = s->el_entry_ptr[e + 1] - begin, *local = s->el_entry_local + begin;
+  unsigned char *first = s->el_entry_first + begin;
+  memset(first, UNMET, (size_t)n);
+  for (int32_t i = s->el_sig_ptr[e], k = 0; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t count = s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]], rows = s->el_triple[i] ? 3 : 1;
+    for (int32_t j = k; j < k + count; j++)
+      for (int32_t at = j; at < j + rows * count; at += count) {
+        bool met = false;
+        for (int32_t x = 0; x < n; x++) met |= first[x] != UNMET && local[x] == local[at];
+        first[at] = !met;
+        s->el_clear[e] |= first[at] != first[j];
+      }
+    k += rows * count;
+    i += rows - 1;
+  }
+  if (s->el_clear[e]) memset(first, 0, (size_t)n);
+}
+
 static void derive_elements(ali3_system *s) {
   const int32_t ne = s->size.ne;
   s->el_S_off[0] = s->el_entry_ptr[0] = s->el_coordinate_ptr[0] = 0;
@@ -426,6 +450,7 @@ static void derive_elements(ali3_system *s) {
     s->el_beside[e] = n > 0 ? s->el_sig[first] : -1;
     for (int32_t i = 1; i < n; i++)
       if (s->el_sig[first + i] != s->el_sig[first] + i) s->el_beside[e] = -1;
+    derive_first(s, e);
   }
 }
 
