@@ -136,6 +136,8 @@ struct ali3_system {
                                    triples the terms of three entries in turn */
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
+  int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
+  unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */
   unsigned char *row_wide; /* 1: the row fills most of its front */
   unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives

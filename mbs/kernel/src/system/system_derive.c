@@ -28,6 +28,10 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_stretch = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
+  s->column_ptr = ali3_pool_items(p, nq + 1, sizeof(int32_t));
+  s->column_entry = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->column_row = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->column_triple = ali3_pool_items(p, nq, 1);
   s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
@@ -341,6 +345,31 @@ static void derive_mass_rows(ali3_system *s) {
   }
 }
 
+/* Whether the entries of coordinates i and i + 1 stand side by side in the same rows. */
+static bool columns_follow(const ali3_system *s, int32_t i) {
+  const int32_t *a = s->column_entry + s->column_ptr[i], *b = s->column_entry + s->column_ptr[i + 1];
+  const int32_t n = s->column_ptr[i + 1] - s->column_ptr[i];
+  bool follow = s->column_ptr[i + 2] - s->column_ptr[i + 1] == n;
+  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1;
+  return follow;
+}
+
+static void derive_columns(ali3_system *s) {
+  int32_t *end = s->column_ptr + 1; /* of a coordinate; first its begin, which moves on with each entry */
+  const int32_t nq = s->size.nq;
+  for (int64_t i = 0; i < s->n_row_col; i++)
+    if (s->row_col[i] + 1 < nq) end[s->row_col[i] + 1]++;
+  for (int32_t i = 1; i < nq; i++) end[i] += end[i - 1];
+  for (int32_t k = 0; k < s->size.nc; k++)
+    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
+      const int32_t at = end[s->row_col[i]]++;
+      s->column_entry[at] = i;
+      s->column_row[at] = k;
+    }
+  for (int32_t i = 0; i + 2 < nq; i++)
+    if (columns_follow(s, i) && columns_follow(s, i + 1)) s->column_triple[i] = 1, i += 2;
+}
+
 static void derive_fronts(ali3_system *s) {
   for (int32_t f = 0; f < s->size.nf; f++) {
     const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], n_pivot = s->front_col[f + 1] - s->front_col[f];
@@ -502,6 +531,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_round(s);
   derive_hessian(s);
   derive_stretches(s);
+  derive_columns(s);
   derive_fronts(s);
   derive_mass(s);
   derive_elements(s);
