@@ -106,7 +106,8 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   }
   ali3_lane_elements_accept(g, l);
   if (ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
-  const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l], *square = g->squares + l;
+  const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l];
+  const double *square = g->squares + l;
   const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l], weight);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);

@@ -151,8 +151,8 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
 }
 
 /* Columns of S B at three coordinates, or their first part where nothing stands there yet, of entries v, w, u. */
-ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, const place *p, double v, double w, double u,
-                                bool first) {
+ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, const place *p, double v, double w,
+                                double u, bool first) {
   const real none = {0};
   ALI3_SHORT
   for (int32_t i = 0; i < p->n; i++, row += p->n, to += p->m) {

@@ -175,7 +175,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
       const ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                      \
       vector[l] = from;                                                                                                \
     }                                                                                                                  \
-    (g)->code->spread(to, vector, n);                                                                                             \
+    (g)->code->spread(to, vector, n);                                                                                  \
   } while (0)
 
 /* To the lanes in group->good. */
@@ -186,7 +186,7 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
       ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                            \
       vector[l] = (g)->good[l] ? (to) : (g)->discarded;                                                                \
     }                                                                                                                  \
-    (g)->code->collect(vector, from, n);                                                                                          \
+    (g)->code->collect(vector, from, n);                                                                               \
   } while (0)
 
 /* The end of the elements from e on that are all computed in vectors, or all one by one. */
