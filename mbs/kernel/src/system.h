@@ -127,6 +127,7 @@ struct ali3_system {
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
+  bool by_columns; /* more than two thirds of the entries of Phi_q are in columns of triples, and no row has modes */
   bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;

@@ -17,9 +17,13 @@ static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its
 /* Potential energy of v; flexible bodies prepared at its position. `weight`: that of gravity, NULL: it is not known. */
 static double potential(const ali3_instance *in, const ali3_vectors *v, const double *weight) {
   const ali3_system *S = in->system;
-  double gravity = weight != NULL ? *weight : in->gravity_const, elastic = 0.0;
-  if (weight == NULL) ali3_bodies_energy(in, v->q, &gravity, &elastic);
-  for (int32_t i = 0; weight == NULL && i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
+  double gravity = in->gravity_const, elastic = 0.0;
+  if (weight == NULL) {
+    ali3_bodies_energy(in, v->q, &gravity, &elastic);
+    for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
+  } else {
+    gravity = *weight;
+  }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += v->potential[e];
   return gravity + elastic;
 }

@@ -435,9 +435,9 @@ ALI3_BY_PROCESSOR(S, void, rows_times_both,
                   (const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y),
                   (S, J, x, y, out_x, out_y))
 
-/* Row by row, as rows end with modes side by side. */
-ALI3_INLINED void transposed_by_rows(const ali3_system *S, const real *J, const real *w, real *out) {
-  const int32_t *ptr = S->row_ptr, *col = S->row_col;
+/* Row by row. `stretches`: rows end with modes side by side. */
+ALI3_INLINED void transposed_by_rows(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
+  const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
   memset(out, 0, (size_t)S->size.nq * sizeof *out);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real weight = w[k];
@@ -446,8 +446,8 @@ ALI3_INLINED void transposed_by_rows(const ali3_system *S, const real *J, const 
     ALI3_SHORT
     for (; i < triples; i += 3) ali3_triple_add(out + col[i], J + i, weight);
     ALI3_SHORT
-    for (; i < S->row_stretch[k]; i++) out[col[i]] += J[i] * weight;
-    if (i < ptr[k + 1]) ali3_add_multiple(out + col[i], J + i, weight, ptr[k + 1] - i);
+    for (; i < stretch[k]; i++) out[col[i]] += J[i] * weight;
+    if (stretches && i < end[k]) ali3_add_multiple(out + col[i], J + i, weight, end[k] - i);
   }
 }
 
@@ -473,10 +473,12 @@ ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, con
 }
 
 ALI3_INLINED void rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
-  if (S->n_flexible > 0)
-    transposed_by_rows(S, J, w, out);
-  else
+  if (S->by_columns)
     transposed_by_columns(S, J, w, out);
+  else if (S->n_flexible > 0)
+    transposed_by_rows(S, J, w, out, true);
+  else
+    transposed_by_rows(S, J, w, out, false);
 }
 
 ALI3_BY_PROCESSOR(S, void, rows_transposed, (const ali3_system *S, const real *J, const real *w, real *out),

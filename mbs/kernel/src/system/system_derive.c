@@ -366,8 +366,14 @@ static void derive_columns(ali3_system *s) {
       s->column_entry[at] = i;
       s->column_row[at] = k;
     }
-  for (int32_t i = 0; i + 2 < nq; i++)
-    if (columns_follow(s, i) && columns_follow(s, i + 1)) s->column_triple[i] = 1, i += 2;
+  int32_t in_triples = 0;
+  for (int32_t i = 0; i + 2 < nq; i++) {
+    if (!columns_follow(s, i) || !columns_follow(s, i + 1)) continue;
+    s->column_triple[i] = 1;
+    in_triples += s->column_ptr[i + 3] - s->column_ptr[i];
+    i += 2;
+  }
+  s->by_columns = s->n_flexible == 0 && 3 * (int64_t)in_triples > 2 * s->n_row_col;
 }
 
 static void derive_fronts(ali3_system *s) {
