@@ -162,17 +162,12 @@ ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, con
   }
 }
 
-/* The same at one coordinate. */
-ALI3_INLINED void one_column(real *restrict to, const real *restrict row, const place *p, double v, bool first) {
-  const real none = {0};
-  for (int32_t i = 0; i < p->n; i++) to[i * p->m] = (first ? none : to[i * p->m]) + row[i * p->n] * v;
-}
-
 /* SB = S B of element e: a row per signal, a column per coordinate. */
 ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, const real *T, real *restrict SB) {
-  const int32_t n = p->n, begin = S->el_sig_ptr[e];
+  const int32_t n = p->n, m = p->m, begin = S->el_sig_ptr[e];
   const double *value = S->el_entry_value;
-  if (S->el_clear[e]) memset(SB, 0, (size_t)(n * p->m) * sizeof *SB);
+  const real none = {0};
+  if (S->el_clear[e]) memset(SB, 0, (size_t)(n * m) * sizeof *SB);
   for (int32_t s = 0, k = S->el_entry_ptr[e]; s < n; s++) {
     const int32_t signal = S->el_sig[begin + s], count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
     const bool triple = S->el_triple[begin + s];
@@ -180,14 +175,12 @@ ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p,
       real *restrict to = SB + S->el_entry_local[k];
       const double v = value[k];
       const bool first = S->el_entry_first[k];
-      if (triple && first)
-        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], true);
-      else if (triple)
-        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], false);
+      if (!triple)
+        for (int32_t i = 0; i < n; i++) to[i * m] = (first ? none : to[i * m]) + T[i * n + s] * v;
       else if (first)
-        one_column(to, T + s, p, v, true);
+        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], true);
       else
-        one_column(to, T + s, p, v, false);
+        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], false);
     }
     if (triple) k += 2 * count, s += 2;
   }

@@ -80,7 +80,7 @@ typedef struct ali3_lane_group {
   } report;
   real *residual, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
   real *gravity_const, *weight; /* energy of gravity without its linear part; at the end of a step */
-  real *squares; /* 3, of ali3_speed_squares */
+  real *squares; /* 3, of balance_squares */
 } ali3_lane_group;
 
 extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lanes_8;

@@ -58,7 +58,6 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_constraint_work ALI3_LANED(constraint_work)
 #define ali3_projection_work ALI3_LANED(projection_work)
 #define ali3_energy_size ALI3_LANED(energy_size)
-#define ali3_speed_squares ALI3_LANED(speed_squares)
 #define ali3_lagrange ALI3_LANED(lagrange)
 #define ali3_work_ways ALI3_LANED(work_ways)
 #define ali3_tabled_table ALI3_LANED(tabled_table)

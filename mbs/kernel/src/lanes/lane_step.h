@@ -277,6 +277,32 @@ static void watch(ali3_lane_group *in) {
   }
 }
 
+/* What balance_squares of methods/energy_balance.c sums, in its order. */
+static void speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
+                          real out[3]) {
+  enum { FOUR = 4 };
+  const real *m = in->mass_floor;
+  const int32_t nq = in->system->size.nq;
+  real speed[FOUR] = {0}, change[FOUR] = {0}, miss[FOUR] = {0};
+  int32_t i = 0;
+  for (; i + FOUR <= nq; i += FOUR)
+    for (int k = 0; k < FOUR; k++) {
+      const real w = m[i + k], v = v1[i + k], d = v - v0[i + k], e = d - h * a[i + k];
+      speed[k] += w * v * v;
+      change[k] += w * d * d;
+      miss[k] += w * e * e;
+    }
+  out[0] = (speed[0] + speed[1]) + (speed[2] + speed[3]);
+  out[1] = (change[0] + change[1]) + (change[2] + change[3]);
+  out[2] = (miss[0] + miss[1]) + (miss[2] + miss[3]);
+  for (; i < nq; i++) {
+    const real d = v1[i] - v0[i], e = d - h * a[i];
+    out[0] += m[i] * v1[i] * v1[i];
+    out[1] += m[i] * d * d;
+    out[2] += m[i] * e * e;
+  }
+}
+
 static void step(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;
@@ -308,7 +334,7 @@ static void step(ali3_lane_group *in) {
   *in->size = ali3_energy_size(in, h, kinetic);
   *in->weight = *in->gravity_const;
   for (int32_t i = 0; i < nq; i++) *in->weight -= in->gravity_force[i] * in->next.q[i];
-  ali3_speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
+  speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
   watch(in);
 }
 #endif

@@ -113,28 +113,3 @@ real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
   if (i < in->system->size.nq) even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
   return kinetic + 0.5 * (even + odd);
 }
-
-/* Sums over coordinates, weighted by their masses: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
-void ali3_speed_squares(const ali3_instance *in, double h, const real *v0, const real *a, const real *v1, real out[3]) {
-  enum { FOUR = 4 }; /* sums, so that additions need not wait for each other */
-  const real *m = in->mass_floor;
-  const int32_t nq = in->system->size.nq;
-  real speed[FOUR] = {0}, change[FOUR] = {0}, miss[FOUR] = {0};
-  int32_t i = 0;
-  for (; i + FOUR <= nq; i += FOUR)
-    for (int k = 0; k < FOUR; k++) {
-      const real w = m[i + k], v = v1[i + k], d = v - v0[i + k], e = d - h * a[i + k];
-      speed[k] += w * v * v;
-      change[k] += w * d * d;
-      miss[k] += w * e * e;
-    }
-  out[0] = (speed[0] + speed[1]) + (speed[2] + speed[3]);
-  out[1] = (change[0] + change[1]) + (change[2] + change[3]);
-  out[2] = (miss[0] + miss[1]) + (miss[2] + miss[3]);
-  for (; i < nq; i++) {
-    const real d = v1[i] - v0[i], e = d - h * a[i];
-    out[0] += m[i] * v1[i] * v1[i];
-    out[1] += m[i] * d * d;
-    out[2] += m[i] * e * e;
-  }
-}

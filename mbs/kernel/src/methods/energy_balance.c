@@ -8,7 +8,6 @@
 #include "../instance.h"
 #include "coarse_event.h"
 #include "energy_balance.h"
-#include "energy_watch.h"
 #include "quick_load.h"
 #include "quick_stop.h"
 
@@ -69,10 +68,37 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
   ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
 }
 
+/* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
+static void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a, const double *v1,
+                            double out[3]) {
+  const double *m = in->mass_floor;
+  const int32_t nq = in->system->size.nq;
+  ali3_four speed = {0}, change = {0}, miss = {0};
+  int32_t i = 0;
+  ALI3_SHORT
+  for (; i + 3 < nq; i += 4) {
+    const ali3_four w = *(const ali3_four *)(m + i), v = *(const ali3_four *)(v1 + i);
+    const ali3_four d = v - *(const ali3_four *)(v0 + i), e = d - h * *(const ali3_four *)(a + i);
+    speed += w * v * v;
+    change += w * d * d;
+    miss += w * e * e;
+  }
+  out[0] = (speed[0] + speed[1]) + (speed[2] + speed[3]);
+  out[1] = (change[0] + change[1]) + (change[2] + change[3]);
+  out[2] = (miss[0] + miss[1]) + (miss[2] + miss[3]);
+  ALI3_SHORT
+  for (; i < nq; i++) {
+    const double d = v1[i] - v0[i], e = d - h * a[i];
+    out[0] += m[i] * v1[i] * v1[i];
+    out[1] += m[i] * d * d;
+    out[2] += m[i] * e * e;
+  }
+}
+
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   double square[3];
-  ali3_speed_squares(in, h, v0, a, v1, square);
+  balance_squares(in, h, v0, a, v1, square);
   ali3_balance_motion(in, h, square[0], square[1], square[2]);
 }
 

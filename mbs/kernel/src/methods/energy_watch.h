@@ -7,7 +7,6 @@
 real ali3_constraint_work(ali3_instance *in, double h, real *guides);
 real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides);
 real ali3_energy_size(const ali3_instance *in, double h, real kinetic);
-void ali3_speed_squares(const ali3_instance *in, double h, const real *v0, const real *a, const real *v1, real out[3]);
 ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double size, double end, double open,
                               const double *weight);
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open);
