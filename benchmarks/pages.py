@@ -15,6 +15,7 @@ from typing import Any
 from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.car.pages import car_blocks, function_blocks, instruction_blocks
+from benchmarks.car.speed_pages import peer_blocks, real_time_blocks, throughput_blocks
 from benchmarks.car.trust import COLUMNS, trust_blocks
 from benchmarks.methods.pages import (
     control_blocks,
@@ -39,7 +40,7 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in (*DATA, "instructions", "functions"):
+    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
@@ -74,6 +75,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= instruction_blocks(_read(o.instructions)[0]["rows"])
     if o.functions:
         blocks |= function_blocks(_read(o.functions)[0]["rows"])
+    if o.throughput:
+        blocks |= throughput_blocks(_read(o.throughput))
+    if o.car_peers:
+        blocks |= peer_blocks(_read(o.car_peers)[0])
+    if o.real_time:
+        blocks |= real_time_blocks(_read(o.real_time))
     for page in PAGES:
         file = o.docs / page
         write_text(file, replace(file.read_text(encoding="utf-8"), blocks))

@@ -127,6 +127,7 @@ struct ali3_system {
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
+  bool by_columns; /* more than two thirds of the entries of Phi_q are in columns of triples, and no row has modes */
   bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
@@ -137,6 +138,8 @@ struct ali3_system {
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
   double largest_round; /* of these */
+  int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
+  unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */
   unsigned char *row_wide; /* 1: the row fills most of its front */
   unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
@@ -177,6 +180,8 @@ struct ali3_system {
   int32_t *el_entry_signal,
       *el_entry_local; /* per entry: signal within the element, its coordinate within the element */
   double *el_entry_value;
+  unsigned char *el_entry_first; /* 1: no entry before it has its coordinate, nor of a triple one of the three */
+  unsigned char *el_clear; /* ne: of a triple some have and some have not; then all are 0 */
   int32_t *el_coordinate_ptr; /* ne+1 */
   int32_t *el_coordinate_loc; /* local index in the front, ascending */
   int32_t *active_signal; /* signals that elements use */

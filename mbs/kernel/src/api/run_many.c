@@ -28,17 +28,16 @@ struct ali3_many {
   ali3_lane_group group;
   const ali3_system *base; /* as loaded */
   bool apart; /* the lanes have not all the same axes of wheels */
-  ali3_lane_step *step;
   void (*release)(void *block);
 };
 
 int32_t ali3_widest_lanes(void) { return ali3_processor_lanes(); }
 
-static ali3_lane_step *step_of(int32_t width) {
+static const ali3_lane_code *code_of(int32_t width) {
 #if defined(__x86_64__)
-  if (width > 2) return width == 4 ? ali3_step_lanes_4 : ali3_step_lanes_8;
+  if (width > 2) return width == 4 ? &ali3_code_lanes_4 : &ali3_code_lanes_8;
 #endif
-  return width == 2 ? ali3_step_lanes_2 : NULL;
+  return width == 2 ? &ali3_code_lanes_2 : NULL;
 }
 
 size_t ali3_many_size(const ali3_system *s, int32_t width) {
@@ -53,10 +52,10 @@ ali3_status ali3_many_new(const ali3_system *s, int32_t width, ali3_many **out) 
   if (block == NULL) return ALI3_NO_MEMORY;
   ali3_many *many = (ali3_many *)block;
   many->release = s->memory.release;
-  many->step = step_of(width);
   many->base = s;
   many->group.system = ali3_widest_system(s);
   many->group.width = width;
+  many->group.code = code_of(width);
   ali3_group_place(&many->group, block + sizeof *many);
   *out = many;
   return ALI3_OK;
@@ -103,19 +102,20 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
     in->next.history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
     ali3_predict_rates(in, step->h);
   } else {
-    ali3_history_append(in, step->h, in->x);
+    ali3_history_shift(in, step->h);
   }
-  ali3_group_multipliers(g, l);
   ali3_lane_elements_accept(g, l);
   if (ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
-  const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l]);
+  const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l];
+  const double *square = g->squares + l;
+  const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l], weight);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);
   ali3_guides_work(in, &in->next, g->guides[l]);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
   in->t_now = step->t;
-  ali3_balance_step(in, step->h);
+  ali3_balance_motion(in, step->h, square[0], square[g->width], square[2 * g->width]);
   return ALI3_OK;
 }
 
@@ -143,7 +143,7 @@ static void step_together(ali3_many *many, int32_t n, const bool *going, bool ap
   for (int32_t l = 0; l < g->width; l++) g->good[l] = 0;
   if (entered > 1) {
     ali3_group_from(g);
-    many->step(g);
+    g->code->step(g);
     ali3_group_to(g);
   }
   for (int32_t l = 0; l < n; l++) {

@@ -150,27 +150,37 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
   }
 }
 
+/* Columns of S B at three coordinates, or their first part where nothing stands there yet, of entries v, w, u. */
+ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, const place *p, double v, double w,
+                                double u, bool first) {
+  const real none = {0};
+  ALI3_SHORT
+  for (int32_t i = 0; i < p->n; i++, row += p->n, to += p->m) {
+    to[0] = (first ? none : to[0]) + row[0] * v;
+    to[1] = (first ? none : to[1]) + row[1] * w;
+    to[2] = (first ? none : to[2]) + row[2] * u;
+  }
+}
+
 /* SB = S B of element e: a row per signal, a column per coordinate. */
 ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, const real *T, real *restrict SB) {
-  const int32_t n = p->n, m = p->m, first = S->el_sig_ptr[e];
+  const int32_t n = p->n, m = p->m, begin = S->el_sig_ptr[e];
   const double *value = S->el_entry_value;
-  memset(SB, 0, (size_t)(n * m) * sizeof *SB);
+  const real none = {0};
+  if (S->el_clear[e]) memset(SB, 0, (size_t)(n * m) * sizeof *SB);
   for (int32_t s = 0, k = S->el_entry_ptr[e]; s < n; s++) {
-    const int32_t signal = S->el_sig[first + s], count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
-    const bool triple = S->el_triple[first + s];
+    const int32_t signal = S->el_sig[begin + s], count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
+    const bool triple = S->el_triple[begin + s];
     for (; k < end; k++) {
       real *restrict to = SB + S->el_entry_local[k];
       const double v = value[k];
-      for (int32_t i = 0; !triple && i < n; i++) to[i * m] += T[i * n + s] * v;
-      if (!triple) continue;
-      const double w = value[k + count], u = value[k + 2 * count];
-      const real *row = T + s;
-      ALI3_SHORT
-      for (int32_t i = 0; i < n; i++, row += n, to += m) {
-        to[0] += row[0] * v;
-        to[1] += row[1] * w;
-        to[2] += row[2] * u;
-      }
+      const bool first = S->el_entry_first[k];
+      if (!triple)
+        for (int32_t i = 0; i < n; i++) to[i * m] = (first ? none : to[i * m]) + T[i * n + s] * v;
+      else if (first)
+        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], true);
+      else
+        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], false);
     }
     if (triple) k += 2 * count, s += 2;
   }

@@ -136,9 +136,10 @@ static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.solves,
                          &g->report.negative_pivots};
   real **numbers[] = {&g->residual, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end, &g->open,
-                      &g->size,     &g->guides};
+                      &g->size,     &g->guides,    &g->gravity_const,      &g->weight};
   for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = items(g, pool, 1);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = items(g, pool, 1);
+  g->squares = items(g, pool, 3);
 }
 
 static void place(ali3_lane_group *g, ali3_pool *pool) {
@@ -166,39 +167,6 @@ void ali3_group_place(ali3_lane_group *g, void *block) {
   place(g, &pool);
 }
 
-/* n numbers of the lanes become those of the group, and back, all lanes of a number at once. */
-static inline void spread(real *restrict to, const double *const lane[], int32_t n, int32_t width) {
-  const double *from[ALI3_MOST_LANES];
-  for (int32_t l = 0; l < width; l++) from[l] = lane[l];
-  for (int32_t i = 0; i < n; i++)
-    for (int32_t l = 0; l < width; l++) to[i * width + l] = from[l][i];
-}
-
-static inline void collect(double *const lane[], const real *restrict from, int32_t n, int32_t width) {
-  double *to[ALI3_MOST_LANES];
-  for (int32_t l = 0; l < width; l++) to[l] = lane[l];
-  for (int32_t i = 0; i < n; i++)
-    for (int32_t l = 0; l < width; l++) to[l][i] = from[i * width + l];
-}
-
-static void put(const ali3_lane_group *g, real *to, const double *const from[], int32_t n) {
-  if (g->width == 8)
-    spread(to, from, n, 8);
-  else if (g->width == 4)
-    spread(to, from, n, 4);
-  else
-    spread(to, from, n, 2);
-}
-
-static void take(const ali3_lane_group *g, double *const to[], const real *from, int32_t n) {
-  if (g->width == 8)
-    collect(to, from, n, 8);
-  else if (g->width == 4)
-    collect(to, from, n, 4);
-  else
-    collect(to, from, n, 2);
-}
-
 /* A vector of each lane; those that are empty have that of the first. */
 #define PUT(g, to, n, in, from)                                                                                        \
   do {                                                                                                                 \
@@ -207,7 +175,7 @@ static void take(const ali3_lane_group *g, double *const to[], const real *from,
       const ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                      \
       vector[l] = from;                                                                                                \
     }                                                                                                                  \
-    put(g, to, vector, n);                                                                                             \
+    (g)->code->spread(to, vector, n);                                                                                  \
   } while (0)
 
 /* To the lanes in group->good. */
@@ -218,8 +186,15 @@ static void take(const ali3_lane_group *g, double *const to[], const real *from,
       ali3_instance *in = (g)->lane[l < (g)->used ? l : 0];                                                            \
       vector[l] = (g)->good[l] ? (to) : (g)->discarded;                                                                \
     }                                                                                                                  \
-    take(g, vector, from, n);                                                                                          \
+    (g)->code->collect(vector, from, n);                                                                               \
   } while (0)
+
+/* The end of the elements from e on that are all computed in vectors, or all one by one. */
+static int32_t same_way(const ali3_lane_group *g, int32_t e) {
+  int32_t end = e + 1;
+  while (end < g->system->size.ne && g->by_law[end] == g->by_law[e]) end++;
+  return end;
+}
 
 static void roads(ali3_lane_group *g) {
   for (int32_t r = 0; r < g->system->nr; r++) {
@@ -242,6 +217,7 @@ void ali3_group_parameters(ali3_lane_group *g) {
   PUT(g, g->mass_floor, z->nq, in, in->mass_floor);
   PUT(g, g->mass_floor_inverse, z->nq, in, in->mass_floor_inverse);
   PUT(g, g->gravity_force, z->nq, in, in->gravity_force);
+  PUT(g, g->gravity_const, 1, in, &in->gravity_const);
   PUT(g, g->flex_P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
   PUT(g, g->flex_c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
   PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->el_real);
@@ -272,8 +248,9 @@ void ali3_group_from(ali3_lane_group *g) {
     PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
   }
   PUT(g, g->input, S->size.nu, in, in->force_input);
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[e + 1] - first;
+  for (int32_t e = 0, end; e < S->size.ne; e = end) {
+    end = same_way(g, e);
+    const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[end] - first;
     if (g->by_law[e] && n > 0) PUT(g, g->now.y + first * g->width, n, in, in->now.y + first);
   }
   for (int32_t l = 0; l < g->used; l++) {
@@ -302,42 +279,46 @@ static void counts(const ali3_lane_group *g, int32_t l) {
   r->velocity_violation = g->velocity_violation[l];
 }
 
-/* What Newton's loop and its counters left: in->next, its multipliers those of the loop, in->x the mean acceleration. */
+/* What the step and its counters left: in->next, of rigid Systems with its part of the past: the mean acceleration and
+ * the multipliers of Newton's loop, before (25). */
 void ali3_group_to(const ali3_lane_group *g) {
   const ali3_system *S = g->system;
   const int32_t nq = S->size.nq;
   TAKE(g, in, in->next.q, g->next.q, nq);
   TAKE(g, in, in->next.qd, g->next.qd, nq);
   TAKE(g, in, in->next.qdd, g->next.qdd, nq);
-  TAKE(g, in, in->next.lam, g->newton_lam, S->size.nc);
-  TAKE(g, in, in->D, g->D, nq);
-  TAKE(g, in, in->x, g->mean_a, nq);
+  TAKE(g, in, in->next.lam, g->next.lam, S->size.nc);
+  if (S->n_flexible > 0) {
+    TAKE(g, in, in->D, g->D, nq);
+  } else {
+    TAKE(g, in, in->next.past_a, g->mean_a, nq);
+    TAKE(g, in, in->next.past_lam, g->newton_lam, S->size.nc);
+  }
   for (int32_t b = 0; b < S->n_flexible; b++) { /* axes and moments, for the energy of their weight */
     const int32_t at = ALI3_FLEX_COUPLING * b + ALI3_FLEX_OF_MODE * S->flex_mode_ptr[b];
     TAKE(g, in, in->flex + at, g->flex + at * g->width, ALI3_FLEX_COUPLING);
   }
   if (S->n_tabled_base > 0) /* for the energy of their weight */
     TAKE(g, in, (double *)in->tabled_base, (const double *)g->tabled_base, S->n_tabled_base * BASE_NUMBERS);
-  for (int32_t e = 0; e < S->size.ne; e++) {
-    const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[e + 1] - state;
-    const int32_t out = S->el_out_ptr[e], n_out = S->el_out_ptr[e + 1] - out;
+  for (int32_t e = 0, end; e < S->size.ne; e = end) {
+    end = same_way(g, e);
+    const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[end] - state;
+    const int32_t out = S->el_out_ptr[e], n_out = S->el_out_ptr[end] - out;
     if (!g->by_law[e]) continue;
     if (n_state > 0) TAKE(g, in, in->next.y + state, g->next.y + state * g->width, n_state);
     if (n_out > 0) TAKE(g, in, in->next.out + out, g->out + out * g->width, n_out);
-    TAKE(g, in, in->next.potential + e, g->potential + e * g->width, 1);
+    TAKE(g, in, in->next.potential + e, g->potential + e * g->width, end - e);
   }
   TAKE(g, in, in->next.step_way, g->ways, S->n_work_force);
-  for (int32_t k = 0; k < S->n_work; k++) {
-    const int32_t e = S->work_element[k], force = S->n_work + S->work_ptr[k], first = S->el_sig_ptr[e];
+  for (int32_t k = 0, end; k < S->n_work; k = end) {
+    const int32_t e = S->work_element[k], first = S->el_sig_ptr[e], way = S->n_work + S->work_ptr[k];
+    for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1 &&
+                      g->by_law[S->work_element[end]] == g->by_law[e];)
+      end++;
     if (!g->by_law[e]) continue;
-    TAKE(g, in, in->watched + k, g->power + k * g->width, 1);
-    TAKE(g, in, in->watched + force, g->element_force + first * g->width, S->el_sig_ptr[e + 1] - first);
+    TAKE(g, in, in->watched + k, g->power + k * g->width, end - k);
+    TAKE(g, in, in->watched + way, g->element_force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
   }
   for (int32_t l = 0; l < g->used; l++)
     if (g->good[l]) counts(g, l);
-}
-
-/* The multipliers after (25), which the history does not take. */
-void ali3_group_multipliers(const ali3_lane_group *g, int32_t l) {
-  for (int32_t k = 0; k < g->system->size.nc; k++) g->lane[l]->next.lam[k] = g->next.lam[k * g->width + l];
 }

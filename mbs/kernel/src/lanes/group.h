@@ -31,8 +31,18 @@ typedef struct ali3_lane_road {
   real *numbers, *friction_factor;
 } ali3_lane_road;
 
+/* What is compiled for a number of lanes. */
+typedef struct ali3_lane_code {
+  /* A step of the lanes in group->lanes to group->next; group->good has those that converged. */
+  void (*step)(struct ali3_lane_group *group);
+  /* n numbers of each lane become those of the group, and back. */
+  void (*spread)(double *to, const double *const lane[], int32_t n);
+  void (*collect)(double *const lane[], const double *from, int32_t n);
+} ali3_lane_code;
+
 typedef struct ali3_lane_group {
   const ali3_system *system;
+  const ali3_lane_code *code;
   int32_t width, used; /* lanes, and how many of them have an instance */
   ali3_instance *lane[ALI3_MOST_LANES];
   ali3_settings settings; /* those of all lanes */
@@ -69,13 +79,11 @@ typedef struct ali3_lane_group {
     ali3_mask *factorizations, *solves, *negative_pivots;
   } report;
   real *residual, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
+  real *gravity_const, *weight; /* energy of gravity without its linear part; at the end of a step */
+  real *squares; /* 3, of balance_squares */
 } ali3_lane_group;
 
-/* A step of the lanes in group->lanes to group->next; group->good has those that converged. */
-typedef void ali3_lane_step(ali3_lane_group *group);
-void ali3_step_lanes_2(ali3_lane_group *group);
-void ali3_step_lanes_4(ali3_lane_group *group);
-void ali3_step_lanes_8(ali3_lane_group *group);
+extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lanes_8;
 
 /* Element e of the lanes in group->evaluated, one by one; f: its forces. */
 void ali3_lane_element(ali3_lane_group *group, int32_t e, real *f, bool tangent);

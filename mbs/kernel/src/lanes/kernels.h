@@ -103,7 +103,10 @@ void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
 }
 
+#include "lane_copies.h"
 #include "lane_step.h"
+
+const ali3_lane_code ALI3_LANED(ali3_code) = {.step = step, .spread = put_side_by_side, .collect = take_apart};
 
 #if defined(__clang__) && defined(ALI3_INSTRUCTIONS)
 #pragma clang attribute pop

@@ -36,7 +36,8 @@ static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int3
   g->idle[e * width + l] = idle ? -1 : 0;
   real *to = g->S + (int64_t)S->el_S_off[e] * width + l;
   for (int32_t i = 0; i < n; i++) forces[i * width + l] = f[i];
-  for (int32_t i = 0; wanted && i < n * n; i++) to[i * width] = T[i];
+  if (wanted && !(idle && S->n_flexible == 0)) /* nobody reads it there */
+    for (int32_t i = 0; i < n * n; i++) to[i * width] = T[i];
 }
 
 void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent) {

@@ -120,31 +120,40 @@ static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   for (int32_t i = 0; i < S->size.nq; i++) r[i] -= c * Q[i];
 }
 
-/* The largest so far with its number; a NaN stays. */
-static void take_larger(real size, int32_t number, real *largest, truth *worst) {
-  const truth larger = ~(size <= *largest) & (*largest == *largest);
-  *largest = ali3_where(larger, size, *largest);
-  *worst = (larger & number) | (~larger & *worst);
+/* Of n sizes |x| factor the largest, infinite where one is NaN; *worst becomes the first that has it, if it is not 0. The
+ * factors are numbers of the lanes or the same for all. */
+static inline real largest_of(const real *x, const real *of_lanes, const double *of_all, int32_t n, truth *worst) {
+  enum { CHAINS = 4 }; /* a comparison waits for the last one of its chain */
+  real most[CHAINS] = {0};
+  truth bad = {0};
+#define ALI3_SIZE(i) (ali3_abs(x[i]) * (of_all == NULL ? of_lanes[i] : ali3_same(of_all[i])))
+  for (int32_t i = 0; i < n; i += CHAINS)
+    for (int32_t k = 0; k < CHAINS && i + k < n; k++) {
+      const real size = ALI3_SIZE(i + k);
+      bad |= size != size;
+      most[k] = ali3_where(size > most[k], size, most[k]);
+    }
+  for (int k = 1; k < CHAINS; k++) most[0] = ali3_where(most[k] > most[0], most[k], most[0]);
+  const truth any = most[0] > 0.0;
+  for (int32_t i = n - 1; i >= 0; i--) {
+    const truth is = (ALI3_SIZE(i) == most[0]) & any;
+    *worst = (is & i) | (~is & *worst);
+  }
+#undef ALI3_SIZE
+  return ali3_where(bad, ali3_same(HUGE_VAL), most[0]);
 }
 
 /* Residual with the multipliers, and violation; returns the lanes where both are finite. */
 static truth judge(ali3_lane_group *in) {
   const ali3_system *S = in->system;
-  const double c = in->rule.c, *row_measure = S->row_measure;
-  const real *r = in->r, *inverse = in->mass_floor_inverse, *Phi = in->Phi;
-  real *x = in->x, residual = {0}, violation = {0};
-  truth coordinate = *in->worst_coordinate, row = *in->worst_row;
+  const double c = in->rule.c;
+  const real *r = in->r;
+  real *x = in->x;
   ali3_rows_transposed(S, in->J, in->next.lam, x);
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    x[i] = r[i] + c * x[i];
-    take_larger(ali3_abs(x[i]) * inverse[i], i, &residual, &coordinate);
-  }
-  for (int32_t k = 0; k < S->size.nc; k++) take_larger(ali3_abs(Phi[k]) * row_measure[k], k, &violation, &row);
-  *in->worst_coordinate = coordinate;
-  *in->worst_row = row;
-  *in->residual = residual;
-  *in->violation = violation;
-  return (residual < 1e300) & (violation < 1e300);
+  for (int32_t i = 0; i < S->size.nq; i++) x[i] = r[i] + c * x[i];
+  *in->residual = largest_of(x, in->mass_floor_inverse, NULL, S->size.nq, in->worst_coordinate);
+  *in->violation = largest_of(in->Phi, NULL, S->row_measure, S->size.nc, in->worst_row);
+  return (*in->residual < 1e300) & (*in->violation < 1e300);
 }
 
 static truth closed(const ali3_lane_group *in) {
@@ -180,9 +189,14 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
     ali3_tabled_elements_tangent(in, F);
   }
   ali3_factorise(in, F);
-  for (int32_t i = 0; i < S->size.nnz_rows; i++)
-    in->J_tangent[i] = first ? in->J[i] : ali3_where(lanes, in->J[i], in->J_tangent[i]);
-  for (int32_t i = 0; !first && i < S->size.front_size; i++) in->F[i] = ali3_where(lanes, F[i], in->F[i]);
+  if (first) { /* the next iterate makes all of J */
+    real *here = in->J;
+    in->J = in->J_tangent;
+    in->J_tangent = here;
+    return;
+  }
+  for (int32_t i = 0; i < S->size.nnz_rows; i++) in->J_tangent[i] = ali3_where(lanes, in->J[i], in->J_tangent[i]);
+  for (int32_t i = 0; i < S->size.front_size; i++) in->F[i] = ali3_where(lanes, F[i], in->F[i]);
 }
 
 /* One Newton correction (21) and the multiplier update of the lanes that are not finished; returns where it is finite. */
@@ -262,7 +276,33 @@ static void watch(ali3_lane_group *in) {
   }
 }
 
-void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
+/* What balance_squares of methods/energy_balance.c sums, in its order. */
+static void speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
+                          real out[3]) {
+  enum { FOUR = 4 };
+  const real *m = in->mass_floor;
+  const int32_t nq = in->system->size.nq;
+  real speed[FOUR] = {0}, change[FOUR] = {0}, miss[FOUR] = {0};
+  int32_t i = 0;
+  for (; i + FOUR <= nq; i += FOUR)
+    for (int k = 0; k < FOUR; k++) {
+      const real w = m[i + k], v = v1[i + k], d = v - v0[i + k], e = d - h * a[i + k];
+      speed[k] += w * v * v;
+      change[k] += w * d * d;
+      miss[k] += w * e * e;
+    }
+  out[0] = (speed[0] + speed[1]) + (speed[2] + speed[3]);
+  out[1] = (change[0] + change[1]) + (change[2] + change[3]);
+  out[2] = (miss[0] + miss[1]) + (miss[2] + miss[3]);
+  for (; i < nq; i++) {
+    const real d = v1[i] - v0[i], e = d - h * a[i];
+    out[0] += m[i] * v1[i] * v1[i];
+    out[1] += m[i] * d * d;
+    out[2] += m[i] * e * e;
+  }
+}
+
+static void step(ali3_lane_group *in) {
   const int32_t nq = in->system->size.nq;
   const double h = in->h;
   const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
@@ -292,6 +332,9 @@ void ALI3_LANED(ali3_step)(ali3_lane_group *in) {
   work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);
+  *in->weight = *in->gravity_const;
+  for (int32_t i = 0; i < nq; i++) *in->weight -= in->gravity_force[i] * in->next.q[i];
+  speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
   watch(in);
 }
 #endif

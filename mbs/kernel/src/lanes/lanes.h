@@ -8,5 +8,4 @@ void ali3_group_place(ali3_lane_group *group, void *block);
 void ali3_group_parameters(ali3_lane_group *group);
 void ali3_group_from(ali3_lane_group *group);
 void ali3_group_to(const ali3_lane_group *group);
-void ali3_group_multipliers(const ali3_lane_group *group, int32_t lane);
 #endif

@@ -13,12 +13,16 @@
 
 static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
 
-/* Potential energy of v; flexible bodies prepared at its position. */
-static double potential(const ali3_instance *in, const ali3_vectors *v) {
+/* Potential energy of v; flexible bodies prepared at its position. `weight`: that of gravity, NULL: it is not known. */
+static double potential(const ali3_instance *in, const ali3_vectors *v, const double *weight) {
   const ali3_system *S = in->system;
   double gravity = in->gravity_const, elastic = 0.0;
-  ali3_bodies_energy(in, v->q, &gravity, &elastic);
-  for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
+  if (weight == NULL) {
+    ali3_bodies_energy(in, v->q, &gravity, &elastic);
+    for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
+  } else {
+    gravity = *weight;
+  }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += v->potential[e];
   return gravity + elastic;
 }
@@ -39,13 +43,14 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   for (int32_t i = 0; i < in->system->size.nq; i++)
     in->report.energy_floor += in->settings.tolerance_r * fabs(in->gravity_force[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
-  kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now));
+  kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }
 
-/* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. */
-void ali3_balance_energy(ali3_instance *in, double error, double kinetic) {
+/* A step to in->next with the kinetic energy there and an error of the energy: what else has changed is work. `weight`:
+ * the energy of gravity there where it is known, of a System without flexible and tabled bodies; else NULL. */
+void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight) {
   ali3_report *r = &in->report;
-  const double energy = kinetic + potential(in, &in->next);
+  const double energy = kinetic + potential(in, &in->next, weight);
   r->energy_error += error;
   r->work += fabs(energy - r->energy - error);
   kinetic_energy(r, kinetic, energy);

@@ -69,8 +69,9 @@ void ali3_history_predict(const ali3_instance *in, double when, int32_t most, do
   ali3_extrapolate(in, when, n, a, lam);
 }
 
-/* in->next goes on from in->now with the step h just made: its mean acceleration a, its multipliers in->next.lam. */
-void ali3_history_append(ali3_instance *in, double h, const double *a) {
+/* in->next goes on from in->now with the step h just made, whose mean acceleration and multipliers the caller puts
+ * before those of the past. */
+void ali3_history_shift(ali3_instance *in, double h) {
   const ali3_vectors *from = &in->now, *to = &in->next;
   const size_t nq = (size_t)in->system->size.nq, nc = (size_t)in->system->size.nc;
   const int32_t n = past(from, ALI3_PAST);
@@ -79,10 +80,15 @@ void ali3_history_append(ali3_instance *in, double h, const double *a) {
   to->history[ALI3_HISTORY_TIME] = -0.5 * h;
   for (int32_t k = 1; k < ALI3_PAST; k++)
     to->history[ALI3_HISTORY_TIME + k] = from->history[ALI3_HISTORY_TIME + k - 1] - h;
-  memcpy(to->past_a, a, nq * sizeof *a);
-  memcpy(to->past_lam, to->lam, nc * sizeof *a);
-  memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof *a);
-  memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof *a);
+  memcpy(to->past_a + nq, from->past_a, (ALI3_PAST - 1) * nq * sizeof(double));
+  memcpy(to->past_lam + nc, from->past_lam, (ALI3_PAST - 1) * nc * sizeof(double));
+}
+
+/* The same with mean acceleration a and multipliers in->next.lam. */
+void ali3_history_append(ali3_instance *in, double h, const double *a) {
+  ali3_history_shift(in, h);
+  memcpy(in->next.past_a, a, (size_t)in->system->size.nq * sizeof *a);
+  memcpy(in->next.past_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *a);
 }
 
 /* Velocity at the end of the step for the states of elements: the straight line through the mean rates of this step

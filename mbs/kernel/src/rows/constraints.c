@@ -434,7 +434,8 @@ ALI3_BY_PROCESSOR(S, void, rows_times_both,
                   (const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y),
                   (S, J, x, y, out_x, out_y))
 
-ALI3_INLINED void transposed(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
+/* Row by row. `stretches`: rows end with modes side by side. */
+ALI3_INLINED void transposed_by_rows(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
   memset(out, 0, (size_t)S->size.nq * sizeof *out);
   for (int32_t k = 0; k < S->size.nc; k++) {
@@ -449,11 +450,34 @@ ALI3_INLINED void transposed(const ali3_system *S, const real *J, const real *w,
   }
 }
 
+/* Coordinate by coordinate, in the order of the rows: a sum stays in hand. */
+ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, const real *w, real *restrict out) {
+  const int32_t *ptr = S->column_ptr, *entry = S->column_entry, *row = S->column_row;
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const int32_t end = ptr[i + 1];
+    int32_t k = ptr[i];
+    if (S->column_triple[i]) {
+      ali3_three three = {0};
+      ALI3_SHORT
+      for (; k < end; k++) ali3_three_add(&three, J + entry[k], w[row[k]]);
+      ali3_three_put(out + i, three);
+      i += 2;
+      continue;
+    }
+    real sum = {0};
+    ALI3_SHORT
+    for (; k < end; k++) sum += J[entry[k]] * w[row[k]];
+    out[i] = sum;
+  }
+}
+
 ALI3_INLINED void rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
-  if (S->n_flexible > 0)
-    transposed(S, J, w, out, true);
+  if (S->by_columns)
+    transposed_by_columns(S, J, w, out);
+  else if (S->n_flexible > 0)
+    transposed_by_rows(S, J, w, out, true);
   else
-    transposed(S, J, w, out, false);
+    transposed_by_rows(S, J, w, out, false);
 }
 
 ALI3_BY_PROCESSOR(S, void, rows_transposed, (const ali3_system *S, const real *J, const real *w, real *out),

@@ -28,6 +28,10 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_stretch = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
+  s->column_ptr = ali3_pool_items(p, nq + 1, sizeof(int32_t));
+  s->column_entry = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->column_row = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->column_triple = ali3_pool_items(p, nq, 1);
   s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
@@ -62,6 +66,8 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_entry_signal = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_local = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_value = ali3_pool_items(p, n_entry, sizeof(double));
+  s->el_entry_first = ali3_pool_items(p, n_entry, 1);
+  s->el_clear = ali3_pool_items(p, ne, 1);
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
@@ -341,6 +347,37 @@ static void derive_mass_rows(ali3_system *s) {
   }
 }
 
+/* Whether the entries of coordinates i and i + 1 stand side by side in the same rows. */
+static bool columns_follow(const ali3_system *s, int32_t i) {
+  const int32_t *a = s->column_entry + s->column_ptr[i], *b = s->column_entry + s->column_ptr[i + 1];
+  const int32_t n = s->column_ptr[i + 1] - s->column_ptr[i];
+  bool follow = s->column_ptr[i + 2] - s->column_ptr[i + 1] == n;
+  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1;
+  return follow;
+}
+
+static void derive_columns(ali3_system *s) {
+  int32_t *end = s->column_ptr + 1; /* of a coordinate; first its begin, which moves on with each entry */
+  const int32_t nq = s->size.nq;
+  for (int64_t i = 0; i < s->n_row_col; i++)
+    if (s->row_col[i] + 1 < nq) end[s->row_col[i] + 1]++;
+  for (int32_t i = 1; i < nq; i++) end[i] += end[i - 1];
+  for (int32_t k = 0; k < s->size.nc; k++)
+    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
+      const int32_t at = end[s->row_col[i]]++;
+      s->column_entry[at] = i;
+      s->column_row[at] = k;
+    }
+  int32_t in_triples = 0;
+  for (int32_t i = 0; i + 2 < nq; i++) {
+    if (!columns_follow(s, i) || !columns_follow(s, i + 1)) continue;
+    s->column_triple[i] = 1;
+    in_triples += s->column_ptr[i + 3] - s->column_ptr[i];
+    i += 2;
+  }
+  s->by_columns = s->n_flexible == 0 && 3 * (int64_t)in_triples > 2 * s->n_row_col;
+}
+
 static void derive_fronts(ali3_system *s) {
   for (int32_t f = 0; f < s->size.nf; f++) {
     const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], n_pivot = s->front_col[f + 1] - s->front_col[f];
@@ -405,6 +442,28 @@ static void derive_element(ali3_system *s, int32_t e) {
   s->el_coordinate_ptr[e + 1] = start + unique;
 }
 
+/* Which entries of an element are the first ones of their coordinates, in the order in which its tangent meets them:
+ * those of a triple three at a time. */
+static void derive_first(const ali3_system *s, int32_t e) {
+  enum { UNMET = 2 };
+  const int32_t begin = s->el_entry_ptr[e], n = s->el_entry_ptr[e + 1] - begin, *local = s->el_entry_local + begin;
+  unsigned char *first = s->el_entry_first + begin;
+  memset(first, UNMET, (size_t)n);
+  for (int32_t i = s->el_sig_ptr[e], k = 0; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t count = s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]], rows = s->el_triple[i] ? 3 : 1;
+    for (int32_t j = k; j < k + count; j++)
+      for (int32_t at = j; at < j + rows * count; at += count) {
+        bool met = false;
+        for (int32_t x = 0; x < n; x++) met |= first[x] != UNMET && local[x] == local[at];
+        first[at] = !met;
+        s->el_clear[e] |= first[at] != first[j];
+      }
+    k += rows * count;
+    i += rows - 1;
+  }
+  if (s->el_clear[e]) memset(first, 0, (size_t)n);
+}
+
 static void derive_elements(ali3_system *s) {
   const int32_t ne = s->size.ne;
   s->el_S_off[0] = s->el_entry_ptr[0] = s->el_coordinate_ptr[0] = 0;
@@ -428,6 +487,7 @@ static void derive_elements(ali3_system *s) {
     s->el_beside[e] = n > 0 ? s->el_sig[first] : -1;
     for (int32_t i = 1; i < n; i++)
       if (s->el_sig[first + i] != s->el_sig[first] + i) s->el_beside[e] = -1;
+    derive_first(s, e);
   }
 }
 
@@ -479,6 +539,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_round(s);
   derive_hessian(s);
   derive_stretches(s);
+  derive_columns(s);
   derive_fronts(s);
   derive_mass(s);
   derive_elements(s);
