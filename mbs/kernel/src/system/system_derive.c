@@ -352,7 +352,8 @@ static bool columns_follow(const ali3_system *s, int32_t i) {
   const int32_t *a = s->column_entry + s->column_ptr[i], *b = s->column_entry + s->column_ptr[i + 1];
   const int32_t n = s->column_ptr[i + 1] - s->column_ptr[i];
   bool follow = s->column_ptr[i + 2] - s->column_ptr[i + 1] == n;
-  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1;
+  const int32_t *rows = s->column_row + s->column_ptr[i];
+  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1 && rows[k] == rows[k + n];
   return follow;
 }
 
