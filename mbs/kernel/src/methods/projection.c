@@ -23,10 +23,9 @@ truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double 
 
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
  * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
- * range. The violation is judged at the converged position,
- * where rates of rows are known to `rounds` times their round-off. Returns it. With accelerations in v, lam (or NULL) takes
- * the multipliers along: T x = Phi_q' mu is (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). `begun`:
- * in->mu has Phi_q v. */
+ * range. The violation is judged at the converged position, where rates of rows are known to `rounds` times their
+ * round-off. Returns it. With accelerations in v, lam (or NULL) takes the multipliers along: T x = Phi_q' mu is
+ * (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). `begun`: in->mu has Phi_q v. */
 real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance, double rounds,
                   int32_t sweeps, bool begun) {
   const ali3_system *S = in->system;
