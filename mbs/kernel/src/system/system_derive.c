@@ -351,8 +351,9 @@ static void derive_mass_rows(ali3_system *s) {
 static bool columns_follow(const ali3_system *s, int32_t i) {
   const int32_t *a = s->column_entry + s->column_ptr[i], *b = s->column_entry + s->column_ptr[i + 1];
   const int32_t n = s->column_ptr[i + 1] - s->column_ptr[i];
+  const int32_t *row = s->column_row + s->column_ptr[i]; /* an entry may be the last of its row, the next one's first */
   bool follow = s->column_ptr[i + 2] - s->column_ptr[i + 1] == n;
-  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1;
+  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1 && row[k] == row[n + k];
   return follow;
 }
 
