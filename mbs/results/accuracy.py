@@ -152,13 +152,10 @@ def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
 
 
 def drift(report: Report) -> float:
-    """Energy balance times (1 + radians that the motion has turned): what a wrong energy does to the place adds up; 0
-    where its error is that of a standing weight.
-    """
-    if abs(report.energy_error) <= report.energy_floor:
-        return 0.0
+    """Energy balance times (1 + radians that the motion has turned): what a wrong energy does to the place adds up."""
+    balance = report.energy_balance if abs(report.energy_error) > report.energy_floor else 0.0
     turned = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
-    return report.energy_balance * (1.0 + turned)
+    return balance * (1.0 + turned)
 
 
 def divisor(steps: int, halvings: int) -> int:
@@ -260,7 +257,7 @@ def balance_text(report: Report) -> str:
     """The energy balance in a sentence."""
     return (
         f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
-        f"of the {report.energy_size:.3g} J in the motion; they should do none."
+        f"of the {abs(report.energy_error) / report.energy_balance:.3g} J in the motion; they should do none."
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import re
 import shutil
 
@@ -120,7 +121,7 @@ def test_pragmas_of_clang_are_read_by_clang_alone():
     found = []
     for file in sorted((build.HERE / "src").rglob("*.[ch]")):
         lines = file.read_text(encoding="utf-8").splitlines()
-        for before, line in zip(lines, lines[1:], strict=False):
+        for before, line in itertools.pairwise(lines):
             if line.lstrip().startswith("#pragma clang") and "__clang__" not in before:
                 found.append(f"{file.name}: {line}")
     assert not found
