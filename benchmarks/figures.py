@@ -14,10 +14,9 @@ from collections.abc import Callable, Sequence
 
 import mbs
 from ali3.running import run_command
-from benchmarks import handling
 from benchmarks.car import accuracy, edge_answers, road_faces, tabled_cars, trust, tyre_formulas
 from benchmarks.car.frame_stiffness import stiffness
-from benchmarks.car.measures import measure
+from benchmarks.car.measures import measure, measure_table
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
 from benchmarks.methods import honesty, pages, stability, stability_margins
 from benchmarks.paper import double_four_bar, flexible_tables, puma
@@ -101,7 +100,7 @@ def car() -> list[Again]:
 def handled() -> list[Again]:
     """Ride, understeer and performance of two cars."""
     measured = {name: measure(load(name)) for name in ("hatchback", "prototype")}
-    return [Again("docs/cars.md", handling.measure_table(measured), "handling", ("measure",))]
+    return [Again("docs/cars.md", measure_table(measured), "handling", ("measure",))]
 
 
 def drawn() -> list[Again]:

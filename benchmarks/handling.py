@@ -7,31 +7,17 @@ have links. Each number stands beside what cars of the small class have; what it
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from ali3.running import run_command
-from benchmarks.car.measures import MEASURES, Measure, measure
+from benchmarks.car.measures import MEASURES, measure, usual_words
 from benchmarks.car.rig import kinematics
 from benchmarks.car.rig_chart import draw
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.machine import describe
-from benchmarks.shared.pages import table
 from benchmarks.shared.tables import print_table
 from mbs import Settings
 from mbs.vehicle import car_names, load
-
-
-def measure_table(measured: Mapping[str, Mapping[str, float]]) -> str:
-    """The table of the page on cars: a row a measure, a column a car."""
-    rows = []
-    for m in MEASURES:
-        name = m.name.replace("_", " ") + ("" if m.unit == "1" else f", {m.unit}")
-        rows.append({"measure": name, **{car: f[m.name] for car, f in measured.items()}, "usual": _usual(m)})
-    return table(rows, {"measure": "", **dict.fromkeys(measured, ".2f"), "usual": ""})
-
-
-def _usual(m: Measure) -> str:
-    return "-" if m.usual is None else f"{m.usual[0]:g} to {m.usual[1]:g}"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -46,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     rows = []
     for m in MEASURES:
         values = {name: found[m.name] for name, found in measured.items()}
-        rows.append({"measure": m.name, "unit": m.unit, **values, "usual": _usual(m), "meaning": m.meaning})
+        rows.append({"measure": m.name, "unit": m.unit, **values, "usual": usual_words(m), "meaning": m.meaning})
     print_table(rows, {"measure": "", "unit": "", **dict.fromkeys(cars, ".2f"), "usual": "", "meaning": ""})
     save_rows(options.json, describe("handling", Settings(), kinematics={n: kinematics(cars[n]) for n in cars}), rows)
     if options.chart:

@@ -6,12 +6,13 @@ Definitions after ISO 8855 and, for the steady turn, ISO 4138 (constant speed, s
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from benchmarks.car.rig import NEUTRAL, kinematics
+from benchmarks.shared.pages import table
 from mbs import Pose, Simulation, System, compile, linearise
 from mbs.analysis.linear_model import LinearModel, Mode
 from mbs.elements.road import PlaneRoad
@@ -208,3 +209,17 @@ def _stop(system: System, pedal: float) -> dict[str, float]:
         "brake_share_front": 100.0 * float(settled[:, :2].sum() / settled.sum()),
         "dive_gradient": math.degrees(float(np.mean(pitches[len(pitches) // 2 :])) - level) / deceleration,
     }
+
+
+def measure_table(measured: Mapping[str, Mapping[str, float]]) -> str:
+    """The table of the page on cars: a row a measure, a column a car."""
+    rows = []
+    for m in MEASURES:
+        name = m.name.replace("_", " ") + ("" if m.unit == "1" else f", {m.unit}")
+        rows.append({"measure": name, **{car: f[m.name] for car, f in measured.items()}, "usual": usual_words(m)})
+    return table(rows, {"measure": "", **dict.fromkeys(measured, ".2f"), "usual": ""})
+
+
+def usual_words(m: Measure) -> str:
+    """What cars of the small class have."""
+    return "-" if m.usual is None else f"{m.usual[0]:g} to {m.usual[1]:g}"

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+_ROUNDING = 1e-9  # of the unit of a signal: less than any sensor tells
+
 
 @dataclass(frozen=True)
 class Deviations:
@@ -58,5 +60,8 @@ def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> De
 
 
 def is_constant(values: NDArray[np.float64]) -> bool:
-    """Whether a signal moves by no more than rounding errors."""
-    return bool(np.ptp(values) <= 1e-12 * max(float(np.max(np.abs(values))), 1e-300))
+    """Whether a signal moves by no more than rounding errors, of its size or of the motion from which it comes.
+
+    A car that goes straight has lateral accelerations of 1e-11 m/s2, which differ in any two runs.
+    """
+    return bool(np.ptp(values) <= max(1e-12 * float(np.max(np.abs(values))), _ROUNDING))

@@ -104,7 +104,7 @@ class Fmu(Closing):
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
-        folder = Path(tempfile.mkdtemp(prefix="fmu_"))
+        folder = self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
         self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # also where nobody closes it
         try:
             unpack(path, folder)

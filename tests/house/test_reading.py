@@ -20,7 +20,7 @@ MOST = {
     "simulator, all of it": 16085,
     "check": 5943,
     "catalogue": 8439,
-    "compare": 9791,
+    "compare": 9796,
     "study": 5918,
     "study --run": 8328,
     "study, all of it": 15366,

@@ -42,6 +42,15 @@ def test_constant_signals_have_no_correlation_and_say_so() -> None:
     assert math.isnan(rating(0.0 * T, T).overall)
 
 
+def test_rounding_errors_of_a_straight_drive_are_constant() -> None:
+    rounding = 1e-11 * np.sin(40.0 * T)
+    found = deviations(T, rounding, 0.5 * rounding)
+    assert "the measured and the simulated signal is constant" in found.note
+    assert math.isnan(found.correlation)
+    assert math.isnan(rating(rounding, -rounding).overall)
+    assert deviations(T, 1e3 * rounding, 2e3 * rounding).correlation == pytest.approx(1.0)
+
+
 def test_equal_signals_have_one_everywhere() -> None:
     y = np.sin(9.0 * T)
     assert rating(y, y) == Rating(1.0, 1.0, 1.0, 1.0, 1.0)
