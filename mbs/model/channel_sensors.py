@@ -156,8 +156,7 @@ class ChannelSensorVocabulary(SensorBase):
         kind : str
             "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
             "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
-            "energy_balance" (the same over the largest kinetic energy and the work) and "capped" (steps that ended
-            at `Settings.step_iterations`).
+            "energy_balance" (see `Report`) and "capped" (steps that ended at `Settings.step_iterations`).
         """
         one_of(kind, SOLVER, f"The kind of solver sensor '{name}'")
         value = SolverValue[kind.upper()]

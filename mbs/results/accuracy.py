@@ -153,8 +153,9 @@ def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
 
 def drift(report: Report) -> float:
     """Energy balance times (1 + radians that the motion has turned): what a wrong energy does to the place adds up."""
+    balance = report.energy_balance if abs(report.energy_error) > report.energy_floor else 0.0
     turned = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
-    return report.energy_balance * (1.0 + turned)
+    return balance * (1.0 + turned)
 
 
 def divisor(steps: int, halvings: int) -> int:
@@ -254,10 +255,9 @@ def balance_says(report: Report, method: str, driven: bool) -> bool:
 
 def balance_text(report: Report) -> str:
     """The energy balance in a sentence."""
-    size = report.kinetic_peak + report.work
     return (
         f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
-        f"of the {size:.3g} J in the motion; they should do none."
+        f"of the {abs(report.energy_error) / report.energy_balance:.3g} J in the motion; they should do none."
     )
 
 

@@ -125,8 +125,8 @@ class Report:
 
     @property
     def energy_balance(self) -> float:
-        """``|energy_error|`` over the energy that was in the motion, `kinetic_peak` and `work`; 0 where none was."""
-        size = self.kinetic_peak + self.work
+        """``|energy_error|`` over `kinetic_peak` and `work`, at least `energy_floor`; 0 where nothing moved."""
+        size = max(self.kinetic_peak + self.work, self.energy_floor)
         return abs(self.energy_error) / size if size > 0.0 else 0.0
 
     @property

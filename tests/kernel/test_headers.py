@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import re
 import shutil
 
 import pytest
 
-from mbs.kernel import read_headers
+from mbs.kernel import build, read_headers
 from mbs.kernel.binding import library, load_library
 from mbs.kernel.header import limits
 from mbs.kernel.header.enumerations import (
@@ -113,3 +114,14 @@ def test_a_header_that_cannot_be_read_is_refused(monkeypatch, tmp_path, text, wh
     (tmp_path / "some.h").write_text(text)
     with pytest.raises(ValueError, match=what):
         read_headers.enumeration("some.h", "ALI3_ONE", "ALI3_")
+
+
+def test_pragmas_of_clang_are_read_by_clang_alone():
+    """Others warn of them, and warnings are errors in the kernel with checks (tests/sanitize.py)."""
+    found = []
+    for file in sorted((build.HERE / "src").rglob("*.[ch]")):
+        lines = file.read_text(encoding="utf-8").splitlines()
+        for before, line in itertools.pairwise(lines):
+            if line.lstrip().startswith("#pragma clang") and "__clang__" not in before:
+                found.append(f"{file.name}: {line}")
+    assert not found

@@ -303,6 +303,21 @@ def test_double_four_bar_follows_its_exact_reduction() -> None:
     assert 3.6 < error[1] / error[2] < 4.4
 
 
+def test_two_pendulums_in_neighbouring_rows_move_as_each_alone() -> None:
+    """The last entry of a row and the first of the next belong to neighbouring coordinates here, in different rows."""
+
+    def swung(angles: list[float]) -> np.ndarray:
+        n = len(angles)
+        rows = [distance_row((0.0, 0.0), (2 * i, 2 * i + 1), 1.0, True) for i in range(n)]
+        places = np.ravel([[np.cos(a), np.sin(a)] for a in angles])
+        instance = start(SystemBuilder(np.eye(2 * n), places, gravity=[0.0, -GRAVITY] * n, rows=rows))
+        instance.run(0.01, 50)
+        return np.array(instance.get_state()[0])
+
+    together, alone = swung([3.1, -1.0]), [*swung([3.1]), *swung([-1.0])]
+    assert together == pytest.approx(alone, abs=1e-9)
+
+
 def test_a_linear_oscillator_takes_one_iteration_a_step() -> None:
     """Its tangent is exact, damping too, and Newton's method solves a linear equation at once."""
     b = SystemBuilder(np.eye(1), [0.5], [1.0])

@@ -76,7 +76,11 @@ def test_what_the_tolerance_leaves_open_is_no_violation_of_the_balance():
     assert simulation.report.energy_floor == pytest.approx(1e-9 * gravity, rel=1e-12)
     for error, floor, wrong in ((1e-9, 0.0, True), (-1e-9, 6e-7, False), (1e-6, 6e-7, True), (-1e-6, 6e-7, True)):
         numbers = {"steps": 500, "energy_error": error, "kinetic_peak": 8e-9, "energy_floor": floor}
-        assert replace(simulation.report, work=0.0, **numbers).balance_wrong == wrong
+        report = replace(simulation.report, work=0.0, **numbers)
+        assert report.balance_wrong == wrong
+        assert report.energy_balance == pytest.approx(abs(error) / max(8e-9, floor), rel=1e-15)
+        balance = simulation.instance._library.ali3_energy_balance(byref(ReportFields(**numbers)))
+        assert balance == pytest.approx(report.energy_balance, rel=1e-15)
         kernel = simulation.instance._library.ali3_run_doubt(byref(ReportFields(**numbers)))
         assert kernel == (Doubt.BALANCE if wrong else Doubt.NONE)
 

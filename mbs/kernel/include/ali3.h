@@ -328,8 +328,8 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| over the energy that was in the motion: largest kinetic energy and work. Above ALI3_BALANCE_WRONG, at
- * any time, no run was right that was tried; below it a run may be wrong. */
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. Above
+ * ALI3_BALANCE_WRONG, at any time, no run was right that was tried; below it a run may be wrong. */
 #define ALI3_BALANCE_WRONG 0.036
 ALI3_API double ali3_energy_balance(const ali3_report *report);
 /* Signs of a wrong run that need no repeated run: none; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a

@@ -138,6 +138,7 @@ struct ali3_system {
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
   double largest_round; /* of these */
+  double fall; /* acceleration of coordinates by their weight: root of the mean square, m/s2 */
   int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
   unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */
   unsigned char *row_wide; /* 1: the row fills most of its front */

@@ -28,7 +28,7 @@ ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels
     ALI3_SHORT
     for (int64_t at = (from - n) / GROUP * PANEL; at < 0; at += PANEL) {
       group sum = *target;
-#pragma clang loop unroll(full)
+      ALI3_UNROLLED
       for (int32_t k = 0; k < panels; k++) {
         const group *c = end[k] + at;
         sum -= (f[4 * k] * c[0] + f[4 * k + 1] * c[1]) + (f[4 * k + 2] * c[2] + f[4 * k + 3] * c[3]);
@@ -118,14 +118,15 @@ ALI3_INLINED group *inside_whole_panel(ali3_instance *in, int32_t pivot, real *p
   real factor[PANEL][PANEL];
   *status = triangle(in, pivot, panel + start, n, factor);
   if (*status != ALI3_OK) return packed;
-  for (int64_t i = ali3_by_fours_below(start + PANEL, n); i < n; i += GROUP, packed += PANEL)
-#pragma clang loop unroll(full)
+  for (int64_t i = ali3_by_fours_below(start + PANEL, n); i < n; i += GROUP, packed += PANEL) {
+    ALI3_UNROLLED
     for (int32_t p = 0; p < PANEL; p++) {
       group *at = (group *)(panel + p * n + i);
       packed[p] = *at;
       for (int32_t k = 0; k < p; k++) packed[p] -= factor[p][k] * packed[k];
       *at = packed[p] * factor[p][p];
     }
+  }
   for (int32_t p = 0; p < PANEL; p++)
     for (int32_t k = 0; k <= p; k++) panel[k * n + start + p] = factor[p][k];
   return packed;
@@ -137,7 +138,7 @@ ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_
   real *panel = block + (int64_t)start * n;
   const group *end[PANELS];
   group *packed = (group *)in->local;
-#pragma clang loop unroll(full)
+  ALI3_UNROLLED
   for (int32_t k = 0; k < panels; k++) {
     const int32_t p = start + k * PANEL;
     ali3_status status;

@@ -13,6 +13,13 @@
 #define ALI3_SHORT
 #endif
 
+/* Before a loop of constant length whose numbers stay in registers. */
+#if defined(__clang__)
+#define ALI3_UNROLLED _Pragma("clang loop unroll(full)")
+#else
+#define ALI3_UNROLLED
+#endif
+
 /* Before a loop over few numbers, four of which are one instruction of AVX2 and two of others. */
 #if defined(__clang__) && !defined(ALI3_WIDTH)
 #define ALI3_BY_FOURS _Pragma("clang loop vectorize_width(4) interleave_count(1)")

@@ -58,23 +58,24 @@ enum { ALI3_FEW = 2, ALI3_MANY = 8 }; /* fours of rows that are worked on togeth
 ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const ali3_four *start, int fours, int64_t i,
                             double *out) {
   ali3_four sum[ALI3_MANY];
-#pragma clang loop unroll(full)
+  ALI3_UNROLLED
   for (int t = 0; t < fours; t++) sum[t] = start[t];
   const double *a = M + i, *b = a + n, *c = b + n, *d = c + n;
   int64_t l = 0;
   ALI3_SHORT
   for (; l + 3 < n; l += 4) {
-#pragma clang loop unroll(full)
+    ALI3_UNROLLED
     for (int t = 0; t < fours; t++)
       sum[t] += (((const ali3_four *)a)[t] * x[l] + ((const ali3_four *)b)[t] * x[l + 1]) +
                 (((const ali3_four *)c)[t] * x[l + 2] + ((const ali3_four *)d)[t] * x[l + 3]);
     a += 4 * n, b += 4 * n, c += 4 * n, d += 4 * n;
   }
   ALI3_SHORT
-  for (; l < n; l++, a += n)
-#pragma clang loop unroll(full)
+  for (; l < n; l++, a += n) {
+    ALI3_UNROLLED
     for (int t = 0; t < fours; t++) sum[t] += ((const ali3_four *)a)[t] * x[l];
-#pragma clang loop unroll(full)
+  }
+  ALI3_UNROLLED
   for (int t = 0; t < fours; t++) ((ali3_four *)(out + i))[t] = sum[t];
 }
 
@@ -125,7 +126,9 @@ ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const rea
 static inline real ali3_inner(int32_t n, const real *restrict a, const real *restrict b) {
   real even = {0}, odd = {0};
   int32_t i = 1;
+#ifdef __clang__
 #pragma clang loop unroll_count(4)
+#endif
   for (; i < n; i += 2) {
     even += a[i - 1] * b[i - 1];
     odd += a[i] * b[i];

@@ -321,13 +321,14 @@ static void step(ali3_lane_group *in) {
   }
   memcpy(in->newton_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *in->newton_lam);
   ali3_constraint_rate(in, in->next.q, &in->next, in->Phit);
+  const double left = ali3_round_left(in->system, c);
   real kinetic, work = ali3_constraint_work(in, h, in->guides);
   *in->at_work = *in->good;
-  *in->velocity_violation =
-      ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE, rule.rate, MAX_SWEEPS, true);
+  *in->velocity_violation = ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE,
+                                         left * rule.rate, MAX_SWEEPS, true);
   ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->gamma);
   *in->at_work = *in->good;
-  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, 1.0 / c, MAX_SWEEPS,
+  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS,
                false);
   work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
   *in->work = work;

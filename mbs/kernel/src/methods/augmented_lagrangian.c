@@ -215,11 +215,12 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);
   if (in->settings.project) {
+    const double left = ali3_round_left(S, c);
     double kinetic, end, open, guides, work = ali3_constraint_work(in, h, &guides);
     in->report.velocity_violation =
-        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, in->rule.rate, MAX_SWEEPS, true);
+        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, left * in->rule.rate, MAX_SWEEPS, true);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
-    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, 1.0 / c, MAX_SWEEPS, false);
+    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
     /* with the work that the forces did in this step which the last (25) left without balance */
     work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
     const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);

@@ -5,34 +5,34 @@
 #include "../instance.h"
 #include "../rows/constraints.h"
 
-/* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v, or `rounds` times
- * the round-off of rows; their sum, of the size *violation, stays in in->mu. */
-static truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double rounds,
+/* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v, or below `known`;
+ * their sum, of the size *violation, stays in in->mu. */
+static truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
                          real *violation) {
   const ali3_system *S = in->system;
   ali3_add(in->mu, b, S->size.nc);
   *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);
-  return (*violation <= rounds * S->largest_round) | (*violation <= tolerance * ali3_largest(v, S->size.nq));
+  return (*violation <= known) | (*violation <= tolerance * ali3_largest(v, S->size.nq));
 }
 
-truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double rounds,
+truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
                         real *violation) {
   ali3_rows_times(in->system, in->J, v, in->mu);
-  return rates_below(in, b, v, tolerance, rounds, violation);
+  return rates_below(in, b, v, tolerance, known, violation);
 }
 
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
  * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
- * range. The violation is judged at the converged position, where rates of rows are known to `rounds` times their
- * round-off. Returns it. With accelerations in v, lam (or NULL) takes the multipliers along: T x = Phi_q' mu is
+ * range. The violation is judged at the converged position, where positions tell rates of rows to `known`. Returns it.
+ * With accelerations in v, lam (or NULL) takes the multipliers along: T x = Phi_q' mu is
  * (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). `begun`: in->mu has Phi_q v. */
-real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance, double rounds,
+real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance, double known,
                   int32_t sweeps, bool begun) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   real violation = {0}, *mu = in->mu, *x = in->x, *along = in->lam;
   if (!begun) ali3_rows_times(S, in->J, v, mu);
-  truth open = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, v, tolerance, rounds, &violation)));
+  truth open = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, v, tolerance, known, &violation)));
   for (int32_t sweep = 0; sweep < sweeps && ali3_any(open); sweep++) {
     ALI3_AT_WORK(in, open);
     ALI3_EACH(0, nc, ALI3_AT(mu) *= factor)
@@ -45,7 +45,7 @@ real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real
                 ALI3_AT(lam) =
                     ALI3_OF_LANES(open, ALI3_AT(lam) + (ALI3_AT(mu) - factor * ALI3_AT(along)), ALI3_AT(lam)))
     }
-    open &= ali3_not(ali3_rates_closed(in, b, v, tolerance, rounds, &violation));
+    open &= ali3_not(ali3_rates_closed(in, b, v, tolerance, known, &violation));
   }
   return violation;
 }

@@ -20,7 +20,7 @@ ali3_status ali3_run_status(const ali3_report *report) {
 }
 
 double ali3_energy_balance(const ali3_report *r) {
-  const double size = r != NULL ? r->kinetic_peak + r->work : 0.0;
+  const double size = r != NULL ? fmax(r->kinetic_peak + r->work, r->energy_floor) : 0.0;
   return size > 0.0 ? fabs(r->energy_error) / size : 0.0;
 }
 

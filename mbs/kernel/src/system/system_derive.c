@@ -163,16 +163,16 @@ static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, 
 
 /* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
 static void derive_round(ali3_system *s) {
-  s->largest_round = 0.0;
   for (int32_t k = 0; k < s->size.nc; k++) {
     double sum = fabs(s->row_const[k]);
     for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) sum += fabs(s->row_lin[i] * s->q0[s->row_col[i]]);
     for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
       sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
     s->row_round[k] = 4.0 * DBL_EPSILON * sum * s->row_measure[k];
-    s->largest_round = fmax(s->largest_round, s->row_round[k]);
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
+  s->largest_round = 0.0;
+  for (int32_t k = 0; k < s->size.nc; k++) s->largest_round = fmax(s->largest_round, s->row_round[k]);
 }
 
 /* Whether the coordinates of row k are triples of neighbours, of which each has as many terms as the others. */
@@ -351,9 +351,9 @@ static void derive_mass_rows(ali3_system *s) {
 static bool columns_follow(const ali3_system *s, int32_t i) {
   const int32_t *a = s->column_entry + s->column_ptr[i], *b = s->column_entry + s->column_ptr[i + 1];
   const int32_t n = s->column_ptr[i + 1] - s->column_ptr[i];
+  const int32_t *row = s->column_row + s->column_ptr[i]; /* an entry may be the last of its row, the next one's first */
   bool follow = s->column_ptr[i + 2] - s->column_ptr[i + 1] == n;
-  const int32_t *rows = s->column_row + s->column_ptr[i];
-  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1 && rows[k] == rows[k + n];
+  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1 && row[k] == row[n + k];
   return follow;
 }
 
@@ -397,6 +397,13 @@ static void derive_mass(ali3_system *s) {
     s->diagonal_pos[i] = s->front_off[f] + local * n + local;
   }
   ali3_mass_in_fronts(s, s->mass_val, s->front_mass, s->mass_floor, s->mass_floor_inverse, s->mass_missing);
+  double square = 0.0, mass = 0.0;
+  for (int32_t i = 0; i < s->size.nq; i++) {
+    if (s->gravity_force[i] == 0.0) continue;
+    square += s->gravity_force[i] * s->gravity_force[i] * s->mass_floor_inverse[i];
+    mass += s->mass_floor[i];
+  }
+  s->fall = mass > 0.0 ? sqrt(square / mass) : 0.0;
 }
 
 static void derive_flexible(ali3_system *s) {
