@@ -178,8 +178,9 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
 
     A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
     repeated with half the step, and where that leaves the verdict near its limit, with a quarter; where these two
-    differ so much that the verdict may change, with an eighth. With `Repeats.extents` no longer steps are tried, with
-    `Repeats.twin` half the step alone.
+    differ so much that the verdict may change, with an eighth. Of these the first is shorter, and the others with it,
+    where steps were halved or do not see a peak or a jump of an input. With `Repeats.extents` no longer steps are
+    tried, with `Repeats.twin` the first of the shorter ones alone.
 
     Parameters
     ----------

@@ -61,6 +61,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     },
     dispose() {
       for (const version of Object.values(made)) version.dispose();
+      materials.dispose();
       for (const texture of cover.textures) texture.dispose();
     },
   };
