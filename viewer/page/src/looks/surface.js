@@ -61,7 +61,6 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
       uniforms.aTones.value.set(modulo(a, TONES), modulo(b, TONES));
       uniforms.aSpot.value.set(a - corner[0], b - corner[1]);
     },
-    dispose: () => uniforms.aPatches.value?.dispose(),
   };
 }
 

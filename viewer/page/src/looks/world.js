@@ -61,7 +61,6 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     },
     dispose() {
       for (const version of Object.values(made)) version.dispose();
-      materials.dispose();
       for (const texture of cover.textures) texture.dispose();
     },
   };
