@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -14,6 +14,7 @@ from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding import Instance
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
+Table: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def unit_text(unit: str) -> str:
@@ -145,14 +146,21 @@ class InputSignals:
             raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
 
 
-def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _table(signal: Signal) -> Table:
     """Times and values of a signal that is not a function; a constant has one point."""
     if isinstance(signal, tuple):
         return np.array(signal[0], float), np.array(signal[1], float)
     return np.zeros(1), np.array([signal], float)
 
 
-def _stairs(table: tuple[ArrayLike, ArrayLike]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def tables_of(signals: Mapping[str, Signal] | None, declared: Sequence[Mapping[str, Any]]) -> list[Table]:
+    """Times and values of the tables among checked signals as they are followed, see `InputSignals`."""
+    whole = {d["name"] for d in declared if d.get("whole")}
+    tables = [(name, signal) for name, signal in (signals or {}).items() if isinstance(signal, tuple)]
+    return [_stairs(table) if name in whole else _table(table) for name, table in tables]
+
+
+def _stairs(table: tuple[ArrayLike, ArrayLike]) -> Table:
     """The table that keeps each value until the next time, where it jumps."""
     times, values = _table(table)
     return np.repeat(times, 2)[1:], np.repeat(values, 2)[:-1]
