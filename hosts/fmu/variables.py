@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.decimal_number import parse_number
@@ -120,7 +119,7 @@ class Variable:
                 told = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
                 raise HostError(f"{source}: '{self.name}' is {told}; it must be {kind_words(self.kind)}.")
             return value
-        if not isinstance(value, (bool, np.bool_)) and not is_finite(value):
+        if not isinstance(value, bool) and not is_finite(value):
             raise HostError(f"{source}: '{self.name}' is {brief(value)}; only finite numbers can be used.")
         if not self.low <= value <= self.high or (self.items and value not in self.items.values()):
             raise HostError(f"{source}: '{self.name}' is {self.with_unit(value)}; its range is {self.range}.")

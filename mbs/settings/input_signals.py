@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -57,14 +57,12 @@ class InputSignals:
         """Numbers of the inputs that have a signal."""
         return list(self._signals)
 
-    def check(self, index: int, t: float, value: float) -> None:
-        """Look at the value of an input at time `t`, s.
+    def tables(self) -> list[Table]:
+        """Times and values of those that are tables, as they are followed."""
+        return [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
 
-        Raises
-        ------
-        ValueError
-            It is not finite, not whole where it must be, or not within the limits.
-        """
+    def check(self, index: int, t: float, value: float) -> None:
+        """A `ValueError` where an input is not finite, not whole as it must be or beyond its limits at time `t`, s."""
         self._check(index, np.array([t]), np.array([value]))
 
     def at(self, t: NDArray[np.float64], tolerance: float, after_jump: bool = False) -> NDArray[np.float64]:
@@ -151,13 +149,6 @@ def _table(signal: Signal) -> Table:
     if isinstance(signal, tuple):
         return np.array(signal[0], float), np.array(signal[1], float)
     return np.zeros(1), np.array([signal], float)
-
-
-def tables_of(signals: Mapping[str, Signal] | None, declared: Sequence[Mapping[str, Any]]) -> list[Table]:
-    """Times and values of the tables among checked signals as they are followed, see `InputSignals`."""
-    whole = {d["name"] for d in declared if d.get("whole")}
-    tables = [(name, signal) for name, signal in (signals or {}).items() if isinstance(signal, tuple)]
-    return [_stairs(table) if name in whole else _table(table) for name, table in tables]
 
 
 def _stairs(table: tuple[ArrayLike, ArrayLike]) -> Table:

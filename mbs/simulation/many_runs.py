@@ -24,7 +24,7 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.input_signals import InputSignals, Signal, tables_of
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
     check_end,
@@ -172,8 +172,7 @@ class _Run:
         told = list(self.told_at_start)
         report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
         end = self.t0 + self.steps * self.h
-        tables = tables_of(self.variant.inputs, self.system.meta["inputs"])
-        missed = missed_peak(tables, self.t0, end, self.h) < math.inf
+        missed = missed_peak(self.signals.tables(), self.t0, end, self.h) < math.inf
         doubt = accuracy.doubt(report, report.steps, report.halvings, method)
         if missed or doubt or accuracy.balance_decides(report, method, driven):
             judged = judged_run(

@@ -14,7 +14,7 @@ SEEN_BY = 6.0  # steps within a peak: by fewer its impulse is off by more than 3
 FEWEST_SEEN_BY = 2.0  # by fewer it may not be seen at all
 FINEST = 64  # times finer than the run, at most, is a repeat that shall see it
 QUICK = 0.125  # steps, in which a change is a jump
-AT_END = 1e-6  # steps: a point so near to the end of one is seen, before and behind a jump
+AT_END = 1e-6  # steps: behind a jump where one begins, before it where it ends, which see both sides of it
 ON_TIME = 0.01  # steps: a jump so near to the end of one is at it
 JUMP_PARTS = 4  # of a step where a jump comes within one: of half of it run and repeat may be off alike
 
@@ -26,9 +26,7 @@ def missed_peak(tables: Iterable[Table], t0: float, t_end: float, h: float) -> f
     found = math.inf
     for t, x in tables:
         phase = (t - t0) / h
-        begin = t0 + h * np.floor(phase)
-        inner = begin + AT_END * h, begin + h - AT_END * h  # behind a jump where a step begins, before it where it ends
-        ends = np.array([np.interp(end, t, x) for end in inner])
+        ends = np.array([np.interp(t0 + h * (np.floor(phase) + part), t, x) for part in (AT_END, 1.0 - AT_END)])
         beyond = np.maximum(x - ends.max(axis=0), ends.min(axis=0) - x) > LEAST * np.ptp(x)
         beyond &= np.abs(phase - np.round(phase)) > AT_END
         lasting = np.diff(t, prepend=-math.inf) + np.diff(t, append=math.inf)

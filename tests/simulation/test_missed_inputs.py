@@ -11,7 +11,7 @@ import pytest
 import mbs
 from benchmarks.methods import random_mechanisms
 from mbs.results.glance import QUICK, TWICE, glances
-from mbs.settings.input_signals import tables_of
+from mbs.settings.input_signals import InputSignals
 from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 
 H, SPAN = 0.02, 1.0
@@ -99,8 +99,9 @@ def by_many(system: mbs.System, inputs: dict[str, Table]) -> mbs.Trajectory:
 def test_a_whole_number_holds_until_the_next(whole: bool, lasting: float) -> None:
     """A lever that is pulled for 10 ms; as a table of points it would rise from the start on."""
     lever = np.array([0.0, 0.305, 0.315]), np.array([0.0, 1.0, 0.0])
-    tables = tables_of({"lever": lever, "other": 3.0}, [{"name": "lever", "whole": whole}, {"name": "other"}])
-    assert missed_peak(tables, 0.0, SPAN, H) == pytest.approx(lasting)
+    declared = [{"name": n, "unit": "1", "min": None, "max": None, "whole": whole} for n in ("lever", "other")]
+    signals = InputSignals({"lever": lever, "other": 3.0}, declared)
+    assert missed_peak(signals.tables(), 0.0, SPAN, H) == pytest.approx(lasting)
 
 
 RUNS: dict[str, Callable[[mbs.System, dict[str, Table]], mbs.Trajectory]] = {
