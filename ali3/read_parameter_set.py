@@ -15,7 +15,6 @@ from ali3.xml_memory import is_lack_of_memory
 LARGEST = 10_000_000
 """Bytes that a file may have."""
 
-
 _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 
 

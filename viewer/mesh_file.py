@@ -50,7 +50,6 @@ def read_mesh(
         ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``.
     scale : float
         Metres per unit of the file: 0.001 for millimetres, 0.0254 for inches.
-
     most_triangles : int
         A finer mesh is thinned by merging points that are close to each other; a warning says by how much they move.
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.columns import some_of
+
 _SIDE = 2  # neighbours on either side
 _SPREADS = 4.0  # of the neighbours among themselves
 _USUAL = 30.0  # median distances of a sample from its neighbours
@@ -55,9 +57,6 @@ def spike_words(what: str, unit: str, time: NDArray[np.float64], values: NDArray
     time, values : ndarray of shape (k,)
         Of the spikes, k > 0; s.
     """
-    shown = ", ".join(
-        f"{v:.4g} {unit} at {t:.6g} s".replace(" 1 at", " at") for t, v in zip(time[:3], values[:3], strict=True)
-    )
-    more = f" and {len(time) - 3} more" if len(time) > 3 else ""
+    each = (f"{v:.4g} {unit} at {t:.6g} s".replace(" 1 at", " at") for t, v in zip(time, values, strict=True))
     samples = "sample" if len(time) == 1 else "samples"
-    return f"{len(time)} {samples} of {what} that no neighbour supports left out: {shown}{more}."
+    return f"{len(time)} {samples} of {what} that no neighbour supports left out: {some_of(each, 3)}."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import shutil
 import sys
 import tempfile
@@ -104,8 +105,13 @@ class Fmu(Closing):
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
+<<<<<<< HEAD
         folder = self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
         self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # also where nobody closes it
+=======
+        folder, own = Path(tempfile.mkdtemp(prefix="fmu_")), os.getpid()  # which it goes with, not with forked ones
+        self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else shutil.rmtree(folder, True))
+>>>>>>> w-revp
         try:
             unpack(path, folder)
             self._instance = Instance(description, folder, path.stem, self._log)
@@ -120,9 +126,10 @@ class Fmu(Closing):
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
 
     def close(self) -> None:
-        """Free the instance and what was unpacked."""
-        self._slave.freeInstance()
-        self._remove()
+        """Free the instance and what was unpacked, unless that is done."""
+        if self._remove.alive:
+            self._slave.freeInstance()
+            self._remove()
 
     def names(self, causality: str) -> list[str]:
         """Names of the real and whole variables of a causality."""
@@ -199,10 +206,8 @@ class Fmu(Closing):
 
         def set_slopes(slopes: Sequence[float]) -> None:
             buffer[:] = list(slopes)
-            try:
+            with self._told("A derivative of an input was refused"):
                 slave.fmi2SetRealInputDerivatives(slave.component, references, count, orders, buffer)
-            except FMICallException as error:
-                raise HostError(f"A derivative of an input was refused: {self._last_message() or error}") from None
 
         return set_slopes
 

@@ -17,7 +17,6 @@ from ali3.unit_definition import KINDS
 ANNOTATION = "org.ali3.elements"
 """Type of the annotation of an array that holds the names of its elements, with blanks between them."""
 
-
 TEXTS = ("String", "Binary")
 """Types whose start values are elements of XML."""
 

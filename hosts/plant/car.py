@@ -213,7 +213,7 @@ class Car(Closing):
             There is no such variable that is a number, or the array is none of floats of this shape.
         """
         self._check_started()
-        key = names if isinstance(names, tuple) else texts(names, "The names")
+        key = names if isinstance(names, tuple) and {*map(type, names)} <= {str} else texts(names, "The names")
         reader = self._readers.get(key)
         if reader is None:
             reader = self._readers[key] = self.fmu.reader(self._known(key, _READ))

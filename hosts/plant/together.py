@@ -97,7 +97,7 @@ class Together(SyncVectorEnv[Floats, Floats]):
         """A step of each; see `gymnasium.vector.VectorEnv.step`."""
         if self.closed:
             raise HostError("The environments are closed; make other ones.")
-        if not (hasattr(actions, "__len__") and len(actions) == self.num_envs):
+        if not (hasattr(actions, "__len__") and getattr(actions, "shape", True) and len(actions) == self.num_envs):
             raise HostError(f"The actions are {brief(actions)}; they must be {self.num_envs}, one an environment.")
         pairs = list(zip(self.envs, gymnasium.vector.utils.iterate(self.action_space, actions), strict=True))
 

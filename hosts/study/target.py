@@ -291,9 +291,11 @@ class _Search:
                 f"wide to resolve it; try --between={one.x:.6g}:{other.x:.6g}."
             )
             return lines
+        known = self._variable()
         at_end = best.x in (self.parameter.low, self.parameter.high)
-        wider = at_end and form != "does not change"
-        remedy = f"a wider range, --between{self._allowed()}" if wider else "another parameter (--by)"
+        wider = at_end and form != "does not change" and (known is None or known.low < best.x < known.high)
+        allowed = f" (the FMU allows {known.range})" if known is not None and known.range else ""
+        remedy = f"a wider range, --between{allowed}" if wider else "another parameter (--by)"
         lines.append(
             f"In {len(ys)} runs from end to end the measure {form} with it and does not reach what is wanted; "
             f"try {remedy}."
@@ -305,10 +307,6 @@ class _Search:
         known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
         sides = [(a, b) for a, b in pairwise(known) if (a.y - self.wanted) * (b.y - self.wanted) <= 0.0]
         return min(sides, key=lambda pair: pair[1].x - pair[0].x)
-
-    def _allowed(self) -> str:
-        known = self._variable()
-        return f" (the FMU allows {known.range})" if known is not None and known.range else ""
 
     def _variable(self) -> Variable | None:
         variables = Variables(described(self.plan.fmu))

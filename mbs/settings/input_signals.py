@@ -14,6 +14,7 @@ from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding import Instance
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
+Table: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def unit_text(unit: str) -> str:
@@ -56,14 +57,12 @@ class InputSignals:
         """Numbers of the inputs that have a signal."""
         return list(self._signals)
 
-    def check(self, index: int, t: float, value: float) -> None:
-        """Look at the value of an input at time `t`, s.
+    def tables(self) -> list[Table]:
+        """Times and values of those that are tables, as they are followed."""
+        return [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
 
-        Raises
-        ------
-        ValueError
-            It is not finite, not whole where it must be, or not within the limits.
-        """
+    def check(self, index: int, t: float, value: float) -> None:
+        """A `ValueError` where an input is not finite, not whole as it must be or beyond its limits at time `t`, s."""
         self._check(index, np.array([t]), np.array([value]))
 
     def at(self, t: NDArray[np.float64], tolerance: float, after_jump: bool = False) -> NDArray[np.float64]:
@@ -145,14 +144,14 @@ class InputSignals:
             raise ValueError(f"Input {self._names[i]!r} is {value} at t = {t[k]:g} s; it must {right}.")
 
 
-def _table(signal: Signal) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _table(signal: Signal) -> Table:
     """Times and values of a signal that is not a function; a constant has one point."""
     if isinstance(signal, tuple):
         return np.array(signal[0], float), np.array(signal[1], float)
     return np.zeros(1), np.array([signal], float)
 
 
-def _stairs(table: tuple[ArrayLike, ArrayLike]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _stairs(table: tuple[ArrayLike, ArrayLike]) -> Table:
     """The table that keeps each value until the next time, where it jumps."""
     times, values = _table(table)
     return np.repeat(times, 2)[1:], np.repeat(values, 2)[:-1]

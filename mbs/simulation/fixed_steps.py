@@ -14,7 +14,7 @@ from mbs.results.accuracy import Accuracy
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.input_signals import Signal
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
@@ -86,7 +86,8 @@ def judged_run(
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             if checked:
-                missed = missed_peak(inputs, t0, t_end, h), jumps_within_steps(inputs, t0, t_end, h)
+                tables = InputSignals(inputs or {}, system.meta["inputs"]).tables()
+                missed = missed_peak(tables, t0, t_end, h), jumps_within_steps(tables, t0, t_end, h)
                 repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents, twin, *missed)
                 found = repeat.check(repeats, always=estimate_error is True)
     except SimulationError as error:

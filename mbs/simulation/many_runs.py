@@ -172,7 +172,7 @@ class _Run:
         told = list(self.told_at_start)
         report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
         end = self.t0 + self.steps * self.h
-        missed = missed_peak(self.variant.inputs, self.t0, end, self.h) < math.inf
+        missed = missed_peak(self.signals.tables(), self.t0, end, self.h) < math.inf
         doubt = accuracy.doubt(report, report.steps, report.halvings, method)
         if missed or doubt or accuracy.balance_decides(report, method, driven):
             judged = judged_run(

@@ -177,9 +177,9 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
     A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
-    repeated with half the step, and where that leaves the verdict near its limit, with a quarter; where these two
-    differ so much that the verdict may change, with an eighth. With `Repeats.extents` no longer steps are tried, with
-    `Repeats.twin` half the step alone.
+    repeated with half the step, near the limit with a quarter; where these two differ so much that the verdict may
+    change, with an eighth; with less where steps were halved or miss a peak or jump of an input. With `Repeats.extents`
+    no longer steps are tried, with `Repeats.twin` the first of the shorter ones alone.
 
     Parameters
     ----------

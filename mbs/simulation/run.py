@@ -84,9 +84,9 @@ def simulate(
         Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
         System and tolerance best; so does a tolerance without a method.
     estimate_error : bool, optional
-        Whether to repeat the run with half the step, from which `Trajectory.accuracy` has the error of the sensors.
-        None repeats runs that the energy balance, halvings or predictors make suspect; others cost nothing more. False
-        checks nothing. Functions among `inputs` are called again in a repeated run, so they must depend on time alone.
+        Whether to repeat the run with half the step, near the limit with less, which gives `Trajectory.accuracy` the
+        error of the sensors. None repeats suspect runs, by energy balance, halvings, predictors or peaks of tables
+        between steps. False checks nothing. Functions among `inputs` are called again, so they must depend on time.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then

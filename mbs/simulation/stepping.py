@@ -382,9 +382,9 @@ class Simulation(SteppedSystem):
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
         estimate_error : bool, optional
-            As of `simulate`, by a twin with half the step that goes on from run to run and is given the same inputs,
-            parameters and switches; it begins with the first run in doubt, of ten steps or more, and ends with a step
-            by hand.
+            As of `simulate`, in the first run in doubt, of ten steps or more; its last repeat is a twin that goes on
+            from run to run with half the step and is given the same inputs, parameters and switches, until a step by
+            hand.
         tolerance : float, optional
             As of `simulate`, of what this part adds to the error; by the method of the settings.
 

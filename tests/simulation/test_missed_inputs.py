@@ -11,6 +11,7 @@ import pytest
 import mbs
 from benchmarks.methods import random_mechanisms
 from mbs.results.glance import QUICK, TWICE, glances
+from mbs.settings.input_signals import InputSignals
 from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 
 H, SPAN = 0.02, 1.0
@@ -50,11 +51,22 @@ def sledge(stiffness: float = 0.0) -> mbs.System:
         pytest.param(
             (np.array([0.0, 0.304, 0.309, 0.314, 1.0]), np.array([0.0, 0.0, 0.05, 0.0, 1.0])), math.inf, id="noise"
         ),
+        pytest.param(
+            (np.array([0.0, 0.3, 0.3, 0.32, 0.32, 1.0]), np.array([0.0, 0.0, 5.0, 5.0, 0.0, 0.0])),
+            math.inf,
+            id="a step",
+        ),
+        pytest.param(
+            (np.array([0.0, 0.3, 0.3, 0.305, 0.305, 1.0]), np.array([0.0, 0.0, 5.0, 5.0, 0.0, 0.0])),
+            math.inf,
+            id="a rectangle from the end of a step",
+        ),
+        pytest.param((np.array([0.0, 0.02, 0.02, 1.0]), np.array([0.0, 0.0, 5.0, 5.0])), math.inf, id="a jump in time"),
         pytest.param(pulse(1.302, 0.016), math.inf, id="after the run"),
     ],
 )
 def test_a_peak_that_no_end_of_a_step_shows(table: Table, lasting: float) -> None:
-    assert missed_peak({"push": table, "other": 3.0}, 0.0, SPAN, H) == pytest.approx(lasting)
+    assert missed_peak([table], 0.0, SPAN, H) == pytest.approx(lasting)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +75,7 @@ def test_a_peak_that_no_end_of_a_step_shows(table: Table, lasting: float) -> Non
 )
 def test_a_jump_within_a_step(begin: float, lasting: float, within: bool) -> None:
     table = np.array([0.0, begin, begin + lasting, 9.0]), np.array([0.0, 0.0, 5.0, 5.0])
-    assert jumps_within_steps({"push": table}, 0.0, SPAN, H) == within
+    assert jumps_within_steps([table], 0.0, SPAN, H) == within
 
 
 def test_jumps_that_a_run_and_half_its_step_miss_alike_are_told() -> None:
@@ -81,6 +93,15 @@ def by_many(system: mbs.System, inputs: dict[str, Table]) -> mbs.Trajectory:
     found = mbs.simulate_many(system, [mbs.Variant(inputs=inputs)], SPAN, H, progress=False).trajectories[0]
     assert found is not None
     return found
+
+
+@pytest.mark.parametrize(("whole", "lasting"), [(True, 0.01), (False, math.inf)])
+def test_a_whole_number_holds_until_the_next(whole: bool, lasting: float) -> None:
+    """A lever that is pulled for 10 ms; as a table of points it would rise from the start on."""
+    lever = np.array([0.0, 0.305, 0.315]), np.array([0.0, 1.0, 0.0])
+    declared = [{"name": n, "unit": "1", "min": None, "max": None, "whole": whole} for n in ("lever", "other")]
+    signals = InputSignals({"lever": lever, "other": 3.0}, declared)
+    assert missed_peak(signals.tables(), 0.0, SPAN, H) == pytest.approx(lasting)
 
 
 RUNS: dict[str, Callable[[mbs.System, dict[str, Table]], mbs.Trajectory]] = {

@@ -15,7 +15,7 @@ SIGNALS, SAMPLES, MEMORY, LOGS = 4, 300, 0.8, 300
 def test_intervals_hold_where_signals_differ_alike(share: float) -> None:
     """Of each signal `share` of the noise's variance is common to all; two of them have the other sign. The value is 0.
 
-    As if the signals were independent, 70 % of the intervals would hold with a share of 0.9.
+    As if the signals were independent, 61 to 64 % of the intervals would hold with a share of 0.9.
     """
     random, t = np.random.default_rng(7), 0.02 * np.arange(SAMPLES)
     one = np.column_stack((np.sin(1.3 * t), np.cos(0.4 * t)))

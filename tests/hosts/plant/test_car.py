@@ -157,6 +157,8 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
         car.step([10**400, 0.0])
     with pytest.raises(HostError, match="The names have 1 among them; they must be a list or tuple of texts"):
         car.read([1])  # type: ignore[list-item]
+    with pytest.raises(HostError, match=r"The names have \['speed'\] among them"):
+        car.read((["speed"],))  # type: ignore[arg-type]
     locked = np.zeros(2)
     locked.flags.writeable = False
     for into in (np.zeros(3), np.zeros((2, 1)), np.zeros(2, int), [0.0, 0.0], locked):

@@ -109,7 +109,7 @@ def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
         gymnasium.make_vec(LANE, 0, car=str(rigid_fmu))
     made = gymnasium.make_vec(LANE, 2, car=str(rigid_fmu))
     made.reset(seed=0)
-    for actions in (None, np.zeros((3, 1), np.float32)):
+    for actions in (None, np.array(0.1), np.zeros((3, 1), np.float32)):
         with pytest.raises(HostError, match="they must be 2, one an environment"):
             made.step(actions)
     made.close()

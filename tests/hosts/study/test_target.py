@@ -77,6 +77,10 @@ def test_a_value_that_cannot_be_met(
     assert "a wider range, --between (the FMU allows 10 to 900" in words
     assert not (tmp_path / "out" / f"{STEM}.ssv").exists()
     assert not json.loads((tmp_path / "out" / f"{STEM}.json").read_text(encoding="utf-8"))["met"]
+    assert seek("--target", "lowest=-30", "--between", "10:80") == 1
+    words = capsys.readouterr().out
+    assert "at 10 N/m" in words
+    assert "try another parameter (--by)." in words, "the FMU allows no smaller value"
 
 
 @pytest.mark.parametrize(

@@ -146,6 +146,7 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
                 r"'start' is \[1.0\]; only finite numbers can be used",
             ),
             (lambda: system.initialise(**{"mass.start": 10**400}), "'start' is a whole number of more than 19 digits"),
+            (lambda: system.initialise(**{"mass.start": None}), "'start' is None; only finite numbers can be used"),
             (lambda: system.fmu(1), "There is no part 1"),
             (lambda: system.fmu("sprin"), "There is no part 'sprin'; did you mean 'spring'"),
         ):

@@ -54,3 +54,24 @@ def test_what_was_unpacked_goes_with_a_process_that_does_not_close(
     )
     assert "fmu_" in told.stdout
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
+def test_it_stays_where_a_forked_process_ends_and_closing_twice_is_closing(
+    scene_fmu: Callable[..., Path], tmp_path: Path
+) -> None:
+    fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
+    environment = os.environ | {"TMPDIR": str(tmp_path), "PYTHONPATH": str(ROOT)}
+    program = f"""{PROGRAM}
+import os
+if os.fork() == 0:
+    sys.exit()
+os.wait()
+print(len(os.listdir({str(tmp_path)!r})))
+fmu.close()
+fmu.close()
+print(len(os.listdir({str(tmp_path)!r})))
+"""
+    command = [sys.executable, "-c", program, str(fmu), "left open"]
+    told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout.split() == ["stepped", "1", "0"]
