@@ -105,13 +105,9 @@ class Fmu(Closing):
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
-<<<<<<< HEAD
-        folder = self._folder = Path(tempfile.mkdtemp(prefix="fmu_"))
-        self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)  # also where nobody closes it
-=======
         folder, own = Path(tempfile.mkdtemp(prefix="fmu_")), os.getpid()  # which it goes with, not with forked ones
+        self._folder = folder
         self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else shutil.rmtree(folder, True))
->>>>>>> w-revp
         try:
             unpack(path, folder)
             self._instance = Instance(description, folder, path.stem, self._log)

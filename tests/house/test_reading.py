@@ -10,20 +10,20 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 45047,
+    "build": 45043,
     "build --kernel": 404,
-    "car": 29014,
+    "car": 29013,
     "run": 3979,
-    "run, all of it": 8526,
+    "run, all of it": 8525,
     "view": 789,
     "simulator": 8874,
-    "simulator, all of it": 16085,
+    "simulator, all of it": 16084,
     "check": 5943,
-    "catalogue": 8439,
-    "compare": 9796,
+    "catalogue": 8438,
+    "compare": 9794,
     "study": 5918,
     "study --run": 8328,
-    "study, all of it": 15366,
+    "study, all of it": 15363,
     "road": 692,
 }
 """Lines; a command that needs fewer takes its number down with it."""
