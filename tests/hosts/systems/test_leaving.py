@@ -72,6 +72,6 @@ fmu.close()
 fmu.close()
 print(len(os.listdir({str(tmp_path)!r})))
 """
-    command = [sys.executable, "-c", program, str(fmu), "left open"]
+    command = [sys.executable, "-u", "-c", program, str(fmu), "left open"]
     told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     assert told.stdout.split() == ["stepped", "1", "0"]
