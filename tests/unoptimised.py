@@ -14,5 +14,5 @@ from mbs.kernel import build
 def unoptimised() -> Iterator[None]:
     """A context in which `mbs.kernel.build` compiles so; results keep their bits."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(build, "FLAGS", ["-O0", "-fno-sanitize=undefined", *build.FLAGS[1:]])
+        patch.setattr(build, "FLAGS", ["-O0", "-fno-sanitize=undefined", "-fno-stack-protector", *build.FLAGS[1:]])
         yield

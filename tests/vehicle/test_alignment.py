@@ -138,7 +138,8 @@ def test_angles_that_parameters_write_are_those_of_the_car_built_so(name):
     car = load(car_name)
     written = compile(car.model(fidelity=fidelity))
     built = compile(car.changed(ANGLES).model(fidelity=fidelity))
-    for pose, most in ((None, 1e-9), (Pose(speed=20.0), 2e-6)):  # the start of a drive has other round-off
+    # At rest forces are known to the round-off of positions (decision 199), the start of a drive has another.
+    for pose, most in ((None, 1e-8), (Pose(speed=20.0), 2e-6)):
         one, two, old = (
             Simulation(system, parameters=values, pose=pose).run(0.3, 0.005)
             for system, values in ((written, ANGLES), (built, {}), (written, {}))
