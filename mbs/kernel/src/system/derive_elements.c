@@ -1,0 +1,136 @@
+/* Entries of the tangents of elements, and the elements that contacts and works look at, when a System is loaded. */
+#include "derive_elements.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../elements/element.h"
+#include "../elements/road.h"
+#include "check.h"
+#include "derive_tabled.h"
+#include "loading.h"
+#include "sensor_types.h"
+
+/* Whether rows i to i + 2 of a sparse matrix have the same columns, one further from row to row, none twice, and the same
+ * values. */
+bool ali3_is_triple(const int32_t *ptr, const int32_t *col, const double *val, int32_t i) {
+  const int32_t n = ptr[i + 1] - ptr[i];
+  const int32_t *a = col + ptr[i], *b = col + ptr[i + 1], *c = col + ptr[i + 2];
+  if (n == 0 || ptr[i + 2] - ptr[i + 1] != n || ptr[i + 3] - ptr[i + 2] != n) return false;
+  for (int32_t k = 0; k < n; k++)
+    if (b[k] != a[k] + 1 || c[k] != a[k] + 2 || (k > 0 && a[k] < a[k - 1] + ALI3_TRIPLE)) return false;
+  return ali3_same_values(ptr, val, i);
+}
+
+/* Triples of n rows in the order in which they are gone through. */
+static void derive_triples(const ali3_system *s, const int32_t *row, int32_t n, unsigned char *triple) {
+  for (int32_t a = 0; a < n; a++) {
+    triple[a] = a + 2 < n && row[a + 1] == row[a] + 1 && row[a + 2] == row[a] + 2 &&
+                ali3_is_triple(s->sig_ptr, s->sig_col, s->sig_val, row[a]);
+    if (triple[a]) triple[a + 1] = triple[a + 2] = 0, a += 2;
+  }
+}
+
+static int compare_int32(const void *a, const void *b) {
+  const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+/* Entries of element e: signal, value and the coordinate within the element; its coordinates ascend as in the front. */
+static void derive_element(ali3_system *s, int32_t e) {
+  const int32_t first = s->el_entry_ptr[e], start = s->el_coordinate_ptr[e];
+  const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
+  int32_t *coordinate = s->el_coordinate_loc + start;
+  int32_t n = 0, unique = 0;
+  for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t signal = s->el_sig[i];
+    for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, n++) {
+      s->el_entry_signal[first + n] = i - s->el_sig_ptr[e];
+      s->el_entry_value[first + n] = s->sig_val[k];
+      s->el_entry_local[first + n] = 0;
+    }
+  }
+  if (s->el_front[e] >= 0 && !ali3_on_tabled(s, e)) {
+    memcpy(coordinate, loc, (size_t)n * sizeof *loc);
+    qsort(coordinate, (size_t)n, sizeof *coordinate, compare_int32);
+    for (int32_t i = 0; i < n; i++)
+      if (unique == 0 || coordinate[i] != coordinate[unique - 1]) coordinate[unique++] = coordinate[i];
+    for (int32_t i = 0; i < n; i++) s->el_entry_local[first + i] = ali3_find(coordinate, unique, loc[i]);
+  }
+  s->el_entry_ptr[e + 1] = first + n;
+  s->el_coordinate_ptr[e + 1] = start + unique;
+}
+
+/* Which entries of an element are the first ones of their coordinates, in the order in which its tangent meets them:
+ * those of a triple three at a time. */
+static void derive_first(const ali3_system *s, int32_t e) {
+  enum { UNMET = 2 };
+  const int32_t begin = s->el_entry_ptr[e], n = s->el_entry_ptr[e + 1] - begin, *local = s->el_entry_local + begin;
+  unsigned char *first = s->el_entry_first + begin;
+  memset(first, UNMET, (size_t)n);
+  for (int32_t i = s->el_sig_ptr[e], k = 0; i < s->el_sig_ptr[e + 1]; i++) {
+    const int32_t count = s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]], rows = s->el_triple[i] ? 3 : 1;
+    for (int32_t j = k; j < k + count; j++)
+      for (int32_t at = j; at < j + rows * count; at += count) {
+        bool met = false;
+        for (int32_t x = 0; x < n; x++) met |= first[x] != UNMET && local[x] == local[at];
+        first[at] = !met;
+        s->el_clear[e] |= first[at] != first[j];
+      }
+    k += rows * count;
+    i += rows - 1;
+  }
+  if (s->el_clear[e]) memset(first, 0, (size_t)n);
+}
+
+void ali3_elements_derive(ali3_system *s) {
+  const int32_t ne = s->size.ne;
+  s->el_S_off[0] = s->el_entry_ptr[0] = s->el_coordinate_ptr[0] = 0;
+  for (int32_t e = 0; e < ne; e++) {
+    const int32_t n = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
+    s->el_kind[e] = ali3_element_type_get(s->el_type[e]);
+    if (s->el_kind[e]->depth != NULL || s->el_kind[e]->rebound != NULL) s->contact_element[s->n_contact++] = e;
+    s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
+    derive_element(s, e);
+  }
+  memset(s->active_signal, 0, (size_t)s->size.nsig * sizeof(int32_t));
+  for (int64_t i = 0; i < s->n_el_sig; i++) s->active_signal[s->el_sig[i]] = 1;
+  for (int32_t i = 0; i < s->size.nsig; i++)
+    if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
+  derive_triples(s, s->active_signal, s->n_active, s->active_triple);
+  for (int64_t k = 0; k < s->n_mode_triad; k += ALI3_TRIAD_ITEMS)
+    for (int64_t i = k; i < k + 9; i += 3) derive_triples(s, s->mode_triad + i, 3, s->triad_triple + i);
+  for (int32_t e = 0; e < ne; e++) {
+    const int32_t first = s->el_sig_ptr[e], n = s->el_sig_ptr[e + 1] - first;
+    derive_triples(s, s->el_sig + first, n, s->el_triple + first);
+    s->el_beside[e] = n > 0 ? s->el_sig[first] : -1;
+    for (int32_t i = 1; i < n; i++)
+      if (s->el_sig[first + i] != s->el_sig[first] + i) s->el_beside[e] = -1;
+    derive_first(s, e);
+  }
+}
+
+/* Elements that sensors of work name, in their own order. */
+void ali3_work_derive(ali3_system *s) {
+  for (int32_t e = 0; e < s->size.ne; e++) s->work_of[e] = -1;
+  for (int32_t i = 0; i < s->size.ns; i++) {
+    const int32_t *v = s->sen_int + s->sen_int_ptr[i];
+    const bool guided = s->sen_type[i] == ALI3_SENSOR_GUIDED_WORK;
+    if (guided) s->n_guide_work = 1;
+    if (s->sen_type[i] == ALI3_SENSOR_WORK)
+      v++; /* behind the kind */
+    else if (!guided)
+      continue;
+    for (int32_t k = 1; k <= v[0]; k++) s->work_of[v[k]] = 0;
+  }
+  s->work_ptr[0] = 0;
+  for (int32_t e = 0; e < s->size.ne; e++) {
+    if (s->work_of[e] < 0) continue;
+    s->work_of[e] = s->n_work;
+    s->work_element[s->n_work++] = e;
+    s->n_work_force += s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
+    s->work_ptr[s->n_work] = s->n_work_force;
+  }
+  for (int32_t r = 0; r < s->nr; r++)
+    if (s->road_type[r] == ALI3_ROAD_PORT) s->n_input_work = s->n_work;
+}
