@@ -1,6 +1,7 @@
 // Tyre marks on the ground.
 import * as THREE from "three";
 import { lift, LIFT, MARKS } from "../looks/lifted.js";
+import { atEachPoint } from "../looks/vertex_code.js";
 import { subtract } from "../scene/math.js";
 import { Tracks } from "./tracks.js";
 import { Wheels } from "./wheels.js";
@@ -114,10 +115,7 @@ export class TyreMarks {
 function material() {
   const made = new THREE.MeshBasicMaterial({ color: "#08080a", transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true });
   made.onBeforeCompile = (shader) => {
-    shader.vertexShader = `attribute vec2 mark;\nvarying vec2 vMark;\n${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      "#include <begin_vertex>\nvMark = mark;",
-    );
+    atEachPoint(shader, "attribute vec2 mark;\nvarying vec2 vMark;", "vMark = mark;");
     lift(shader, MARKS);
     shader.fragmentShader = `varying vec2 vMark;\n${shader.fragmentShader}`.replace(
       "#include <color_fragment>",

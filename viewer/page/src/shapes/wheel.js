@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
+import { atEachPoint } from "../looks/vertex_code.js";
 import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
 import { composed, profileOf } from "./composed.js";
 import { turn } from "./place.js";
@@ -28,10 +29,7 @@ function flattened(material) {
   const plane = new THREE.Vector4(0, 0, 0, -1);
   material.onBeforeCompile = (shader) => {
     shader.uniforms.road = { value: plane };
-    shader.vertexShader = `uniform vec4 road;\n${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      "#include <begin_vertex>\ntransformed -= min(dot(transformed, road.xyz) - road.w, 0.0) * road.xyz;",
-    );
+    atEachPoint(shader, "uniform vec4 road;", "transformed -= min(dot(transformed, road.xyz) - road.w, 0.0) * road.xyz;");
   };
   return plane;
 }

@@ -1,5 +1,6 @@
 // Materials that are lit at their points only: the cheapest that still shows forms.
 import * as THREE from "three";
+import { atEachPoint } from "../vertex_code.js";
 
 /** Light from all of the sky, with what other materials take from its picture. */
 const SKY = "vec3(0.42, 0.55, 0.8)";
@@ -31,10 +32,7 @@ export function prelit(light, look, key, more = () => {}) {
   const material = new THREE.MeshBasicMaterial(look);
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, light);
-    shader.vertexShader = `uniform vec3 aTo, aLight, aUp;\nvarying vec3 vLit;\n${shader.vertexShader}`.replace(
-      "#include <begin_vertex>",
-      `#include <begin_vertex>\n${VERTEX}`,
-    );
+    atEachPoint(shader, "uniform vec3 aTo, aLight, aUp;\nvarying vec3 vLit;", VERTEX);
     shader.fragmentShader = `varying vec3 vLit;\n${shader.fragmentShader}`.replace(
       "#include <color_fragment>",
       "#include <color_fragment>\ndiffuseColor.rgb *= vLit;",

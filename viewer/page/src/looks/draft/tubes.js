@@ -1,5 +1,6 @@
 // Tubes of a draft: prisms that are never thinner in the picture than a line without gaps.
 import * as THREE from "three";
+import { atEachPoint } from "../vertex_code.js";
 
 /** Sides of a prism, and the least radius of a tube in pixels: its narrowest side is a pixel wide. */
 const [SIDES, LEAST] = [4, 0.75];
@@ -22,10 +23,7 @@ export const leastOf = (height) => (2 * LEAST) / height;
  */
 export function growing(shader, least) {
   shader.uniforms.aLeast = least;
-  shader.vertexShader = `attribute float thick;\nuniform float aLeast;\n${shader.vertexShader}`.replace(
-    "#include <begin_vertex>",
-    `#include <begin_vertex>\n${GROW}`,
-  );
+  atEachPoint(shader, "attribute float thick;\nuniform float aLeast;", GROW);
 }
 
 /**
