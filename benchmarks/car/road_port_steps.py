@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable
 
 import fmpy
 from fmpy.fmi2 import FMU2Slave
@@ -44,21 +43,21 @@ def main(folder: str, road: str, steps: str) -> None:
     car.setupExperiment(startTime=0.0)
     car.setReal([reference["initial.speed"]], [SPEED])
     asked = [reference[f"wheel_{w}.contact_{c}"] for w in WHEELS for c in "xy"]
-    inputs, amplitude = [reference["steering"], reference["throttle"]], None
-    if "road.file" in reference:
-        car.setString([reference["road.file"]], [road])  # without a name the plane
-    else:
-        amplitude = float(road)
+    inputs, ported = [reference["steering"], reference["throttle"]], "road.file" not in reference
+    if ported:
         inputs += [reference[f"wheel_{w}.road_{name}"] for w in WHEELS for name in ANSWER]
-    told: Callable[[], list[float]] = lambda: [0.1, 0.2]  # noqa: E731
-    if amplitude is not None:
-        told = lambda: [0.1, 0.2, *answers(car.getReal(asked), amplitude)]  # noqa: E731
+    else:
+        car.setString([reference["road.file"]], [road])  # without a name the plane
+
+    def told() -> list[float]:
+        places = car.getReal(asked)
+        return [0.1, 0.2, *(answers(places, float(road)) if ported else ())]
+
     car.enterInitializationMode()
     car.setReal(inputs, told())
     car.exitInitializationMode()
     for k in range(int(steps)):
-        values = told() if amplitude is not None else (car.getReal(asked), told())[1]
-        car.setReal(inputs, values)
+        car.setReal(inputs, told())
         car.doStep(currentCommunicationPoint=k * STEP, communicationStepSize=STEP)
     speed = car.getReal([reference["speed"]])[0]
     if not abs(speed - SPEED) < 1.0:

@@ -257,7 +257,7 @@ def balance_text(report: Report) -> str:
     """The energy balance in a sentence."""
     return (
         f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
-        f"of the {abs(report.energy_error) / report.energy_balance:.3g} J in the motion; they should do none."
+        f"of the {report.energy_size:.3g} J in the motion; they should do none."
     )
 
 

@@ -29,9 +29,7 @@ HOPELESS = 0.7  # of the range: two runs that differ by more are not compared on
 
 
 def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: bool) -> tuple[Glance, ...]:
-    """The coarser runs that are tried in turn; forces of contacts, and elements with `states` that stick and slide, are
-    missed by too long steps.
-    """
+    """The coarser runs in turn; too long steps miss forces of contacts, and elements whose `states` stick or slide."""
     smooth = "N" not in groups and not states
     return QUICK if settings.method in LIMITED and not settings.step_iterations and smooth else TWICE
 

@@ -120,19 +120,16 @@ class Poses(Mapping[str, Array]):
         of_kind = {"turn": "rad", "mode": "1"}
         return {name: of_kind.get(kind) or POSE_UNITS[part] for name, (kind, _, part) in self._columns.items()}
 
-    def recorded(self) -> tuple[dict[str, NDArray[np.float64]], dict[str, str]]:
-        """All columns as recordings and files have them: by names that leave those of sensors free.
-
-        Returns
-        -------
-        columns : dict of str to ndarray of shape (n,)
-        units : dict of str to str
-        """
+    def recorded(
+        self, columns: Mapping[str, Array], units: Mapping[str, str]
+    ) -> tuple[dict[str, Array], dict[str, str]]:
+        """Columns and units of sensors, and behind them those of the poses as recordings and files name them."""
         p = self._places
         names = dict(zip(self._columns, [c for b in p.bodies for c in b.columns], strict=False))
         names |= {f"{turn.name}.angle": turn.column for turn in p.turns}
         names |= {f"{a.body}.{m}": c for a in p.amplitudes for m, c in zip(a.modes, a.columns, strict=True)}
-        return {names[n]: values for n, values in self.items()}, {names[n]: unit for n, unit in self.units.items()}
+        of_poses = {names[n]: values for n, values in self.items()}
+        return {**columns, **of_poses}, {**units, **{names[n]: unit for n, unit in self.units.items()}}
 
     def thinned(self, every: int) -> Poses:
         """The poses at every so many samples of the trajectory.

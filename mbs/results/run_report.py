@@ -124,10 +124,14 @@ class Report:
         return self.iterations / max(self.steps, 1)
 
     @property
+    def energy_size(self) -> float:
+        """`kinetic_peak` and `work`, J, at least `energy_floor`."""
+        return max(self.kinetic_peak + self.work, self.energy_floor)
+
+    @property
     def energy_balance(self) -> float:
-        """``|energy_error|`` over `kinetic_peak` and `work`, at least `energy_floor`; 0 where nothing moved."""
-        size = max(self.kinetic_peak + self.work, self.energy_floor)
-        return abs(self.energy_error) / size if size > 0.0 else 0.0
+        """``|energy_error|`` over `energy_size`; 0 where nothing moved."""
+        return abs(self.energy_error) / self.energy_size if self.energy_size > 0.0 else 0.0
 
     @property
     def balance_wrong(self) -> bool:

@@ -107,8 +107,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if isinstance(name, str) and name in self._left_out.names:
             return self._left_out.column(name)
         if not isinstance(name, str) or name not in self._columns:
-            known = some_of(self.units)
-            hint = did_you_mean(str(name), self.units, f"the trajectory has: {known}")
+            hint = did_you_mean(str(name), self.units, f"the trajectory has: {some_of(self.units)}")
             raise KeyError(f"There is no sensor {shown(name)}{hint}")
         return self._columns[name]
 
@@ -177,8 +176,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         every = 1 if poses is None else poses.every
         columns, units = {n: v[::every] for n, v in self.items()}, dict(self.units)
         if poses is not None:
-            of_bodies, units_of_bodies = poses.recorded()
-            columns, units = columns | of_bodies, units | units_of_bodies
+            columns, units = poses.recorded(columns, units)
         found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
         if found.scene is None:
             drawn = shown(scene["name"])
@@ -283,8 +281,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     f"Poses were kept of one of {self.poses.every} samples; write "
                     f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
                 )
-            of_bodies, units_of_bodies = self.poses.recorded()
-            columns, units = columns | of_bodies, units | units_of_bodies
+            columns, units = self.poses.recorded(columns, units)
         with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])

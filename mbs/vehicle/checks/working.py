@@ -29,8 +29,7 @@ Ranges = dict[str, tuple[float, float]]
 
 
 def working_ranges(car: CarContent) -> Ranges:
-    """Least and largest value by key path: of tyres, springs, dampers, brakes, drive, air, and of masses and where they
-    are.
+    """Least and largest value by key path: of tyres, springs, dampers, brakes, drive, air, masses and their places.
 
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
     unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
