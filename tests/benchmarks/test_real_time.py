@@ -77,7 +77,8 @@ def test_the_instructions_of_the_worst_steps_are_counted(prototype_fmu, tmp_path
         instructions(replay._arguments(replace(worst, steps=n), run.kinds, H, 1), "fmi2DoStep")
         for n in (worst.steps, worst.steps - 1)
     )
-    assert replay.instructions(worst, run.kinds, H) == pytest.approx(whole - before, rel=2e-3)  # of all its steps
+    counted = replay.instructions(worst, run.kinds, H)
+    assert counted == pytest.approx(whole - before, rel=1e-2)  # a restored road looks for its cells again
 
 
 def test_limits_that_are_wider_leave_less(prototype_fmu):
