@@ -1,8 +1,8 @@
-"""Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT]``; 1 if one differs.
+"""Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT] [--write]``.
 
 Counts and errors of a part of the tables are made again, in a minute or two; times are not compared. Each difference is
-a sentence with the page, the table, the row and both figures. What the whole commands measure is written into the pages
-by `python -m benchmarks.pages`.
+a sentence with the page, the table, the row and both figures, and the exit code is 1. What the whole commands measure
+is written into the pages by `python -m benchmarks.pages`; tables that no other command makes are with ``--write``.
 """
 
 from __future__ import annotations
@@ -11,20 +11,34 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import mbs
+from ali3.files import write_text
 from ali3.running import run_command
-from benchmarks.car import accuracy, edge_answers, road_faces, tabled_cars, trust, tyre_formulas
+from benchmarks.car import (
+    accuracy,
+    edge_answers,
+    fidelity,
+    frame_tables,
+    road_faces,
+    sampled_roads,
+    tabled_cars,
+    trust,
+    tyre_formulas,
+)
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_table
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
-from benchmarks.methods import honesty, pages, stability, stability_margins
-from benchmarks.paper import double_four_bar, flexible_tables, puma
+from benchmarks.methods import honesty, naive, pages, stability, stability_margins
+from benchmarks.methods.start_values import start_value_table
+from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.paper.pages import four_bar_blocks, puma_blocks
 from benchmarks.shared.command import watched
-from benchmarks.shared.figures import Again, all_differences, between, read, rows_of
-from benchmarks.shared.pages import DOCS
+from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
+from benchmarks.shared.pages import DOCS, table
 from benchmarks.shared.warned import wrong_on_purpose
+from benchmarks.validation import others, tyre_rig
 from fmu_src.variables.variables import variable_table
 from mbs.scenes import double_four_bar as four_bar_scene
 from mbs.scenes import prototype_car
@@ -161,6 +175,33 @@ def outputs() -> list[Again]:
     return [Again("docs/fmu.md", f"| all {count} outputs after a step")]
 
 
+def trust_page() -> list[Again]:
+    """Sentences of the page of trust are those of its tables and of the tables of other pages."""
+    page, column = "docs/trust.md", "10 ms"
+    kerb, hard, period = (
+        rows_of(between(read(page), f"trust {name}")) for name in ("kerb", "acceleration", "frequency")
+    )
+    coarse = [row for row in hard if row["h s"] == "0.01"]
+    path, load, fastest = (max(float(r[c]) for r in coarse) for c in ("path error", "load error", "largest m s2"))
+    share = next(float(row["frequency error"]) for row in period if row["steps in a period"] == "20")
+    moments = [row["error"] for row in rows_of(between(read("docs/flexible_car.md"), "cheapest"))[1:]]
+    car_rows = {(r["manoeuvre"], r["h, ms"]): r for r in rows_of(between(read(SPEED), "car"))}
+    fall = car_rows["drop from 0.5 m", "10"]["path error, of its length; wheel-load error, of the peak"].split(", ")[1]
+    held = [r for r in rows_of(between(read("docs/fmu.md"), "held inputs")) if r["h, ms"] == "10"]
+    *smooth, worst = (row["FMU, inputs held"].split(", ") for row in held)
+    late, loads = (max((cells[k] for cells in smooth), key=lambda cell: float(cell.split()[0])) for k in (0, 1))
+    said = (
+        f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
+        f"path to {path:.1e} of its length, loads to {load:.1%} at {column}, up to {fastest:.0f} m/s²",
+        f"20 steps in a period: {share:.1%} of the frequency",
+        f"wheel loads to {fall} at {column}, a fall of 0.5 m",
+        f"{moments[0]} at fidelity 1, {moments[1]} at fidelity 2 (10 ms), {moments[2]} at fidelity 3 (5 ms)",
+        f"at {column} the path to {late}, loads to {loads}",
+        f"kerb, full lock and brake at once: {worst[1]} of the load",
+    )
+    return [Again(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in said]
+
+
 def readme() -> list[Again]:
     """Sentences of README.md are those of the tables of its pages."""
     ratios = [1.0 / float(row["ratio"]) for row in rows_of(between(read(PAPER), "ratios")) if row["ratio"] != "–"]
@@ -177,6 +218,63 @@ def readme() -> list[Again]:
     return [Again("README.md", sentence) for sentence in said]
 
 
+def elements(whole: bool) -> list[Again]:
+    """Mass models and modes of the prototype's frame, and CalculiX beside two theories of beams."""
+    page, frame = "docs/finite_elements.md", frame_tables
+    made = [
+        Again(page, frame.mass_table(), "masses", ("mass, no rotary inertia",)),
+        Again(page, frame.modes_table(), "modes", ("modes",)),
+    ]
+    return [*made, Again(page, frame.calculix_table(), "calculix", ("quantity",))] if whole else made
+
+
+def bending(whole: bool) -> list[Again]:
+    """Errors of the four-bar with assembly defect by bodies a bar."""
+    cases = assembly_defect.SHOWN if whole else assembly_defect.SHOWN[:3]
+    keys = ("bodies per bar", "elements, modes of each")
+    return [Again("docs/flexible.md", assembly_defect.defect_table(cases), "defect", keys)]
+
+
+def flexible_hatchback(whole: bool) -> list[Again]:
+    """Peaks of the hatchback at the kerb, by fidelity and step."""
+    cases = flexible_tables.HATCHBACK[: None if whole else len(flexible_tables.KERB)]
+    return [Again("docs/cars.md", flexible_tables.hatchback_kerb_table(cases), "hatchback kerb", ("fidelity", "h, ms"))]
+
+
+def crg(whole: bool) -> list[Again]:
+    """Grids of OpenCRG files."""
+    spacings = sampled_roads.SPACINGS[: None if whole else 2]
+    return [Again("docs/roads.md", sampled_roads.sampled_table(spacings), "crg", ("file", "spacing, m"))]
+
+
+def start_values(_: bool) -> list[Again]:
+    """Iterations by start value: all of them in a moment."""
+    return [Again("docs/theory.md", start_value_table(), "start value", ("scene", "h, s"))]
+
+
+def chosen_fidelity() -> list[Again]:
+    """Errors of the fidelities that the page of the flexible car chooses; `benchmarks.pages` writes them."""
+    page = "docs/flexible_car.md"
+    sizes = naive.size_table([naive.sizes_of(scene)[0] for scene in naive.SCENES])
+    chosen = fidelity.choice_again(read(page))
+    return [Again(page, chosen, "cheapest", ("required",)), Again(page, sizes, "naive", ("scene",))]
+
+
+def others_tests() -> list[Again]:
+    """CommonRoad's Escort and the tyre of the rig; `benchmarks.validation` writes all."""
+    found = [*others.by_commonroad(others.CARS[:1]), *tyre_rig.compared()]
+    text = table([figure.row(value) for figure, value in found], others.COLUMNS)
+    return [Again("docs/validation.md", text, "others", ("test",))]
+
+
+WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
+    "elements": elements,
+    "bending": bending,
+    "flexible hatchback": flexible_hatchback,
+    "crg": crg,
+    "start values": start_values,
+}
+"""Tables that no other command writes; in whole with ``--write``, else a quick part of them."""
 MADE: dict[str, Callable[[], list[Again]]] = {
     "Table 1": paper_table_1,
     "Table 2": paper_table_2,
@@ -188,9 +286,12 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "drawn": drawn,
     "tables": tabled,
     "flexible": flexible,
+    "cheapest fidelity": chosen_fidelity,
+    "tests of others": others_tests,
     "roads and tyres": roads_and_tyres,
     "instructions": instructions,
     "outputs": outputs,
+    "trust page": trust_page,
     "README": readme,
 }
 
@@ -199,12 +300,21 @@ MADE: dict[str, Callable[[], list[Again]]] = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.figures", description=__doc__)
-    parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {', '.join(MADE)}")
+    names = ", ".join((*WRITTEN, *MADE))
+    parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {names}")
+    parser.add_argument("--write", action="store_true", help=f"make all of {', '.join(WRITTEN)}, and write them")
     options = parser.parse_args(arguments)
-    chosen = [make for name, make in MADE.items() if options.only.lower() in name.lower()]
+    makers = {name: partial(make, options.write) for name, make in WRITTEN.items()}
+    makers |= {} if options.write else MADE
+    chosen = [make for name, make in makers.items() if options.only.lower() in name.lower()]
     if not chosen:
-        parser.error(f"no table is called {options.only!r}: {', '.join(MADE)}")
+        parser.error(f"no table is called {options.only!r}: {names}")
     made = [again for make in watched(chosen) for again in make()]
+    if options.write:
+        for again in made:
+            write_text(DOCS.parent / again.page, written(again, read(again.page)))
+        print(f"{len(made)} tables written")
+        return 0
     said = all_differences(made)
     print("\n".join(said) or f"{len(made)} tables and sentences of the pages are as they are made now.")
     return 1 if said else 0

@@ -14,9 +14,11 @@ from typing import Any
 
 from ali3.files import write_text
 from ali3.running import run_command
+from benchmarks.car.fidelity import choice_blocks
 from benchmarks.car.pages import car_blocks, function_blocks, instruction_blocks
 from benchmarks.car.speed_pages import peer_blocks, real_time_blocks, throughput_blocks
 from benchmarks.car.trust import COLUMNS, trust_blocks
+from benchmarks.methods.naive import size_table
 from benchmarks.methods.pages import (
     control_blocks,
     dissipative_blocks,
@@ -29,7 +31,10 @@ from benchmarks.methods.study_pages import study_blocks
 from benchmarks.paper.pages import four_bar_blocks, puma_blocks
 from benchmarks.shared.pages import DOCS, machine, replace
 
-PAGES = ("speed_and_accuracy.md", "stability.md", "accuracy.md", "scale.md", "speed.md", "fmu.md", "trust.md")
+PAGES = (
+    *("speed_and_accuracy.md", "stability.md", "accuracy.md", "scale.md"),
+    *("speed.md", "fmu.md", "trust.md", "flexible_car.md"),
+)
 DATA = ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control", "study", "car", "trust")
 
 
@@ -40,7 +45,7 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time"):
+    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time", "fidelity", "naive"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
@@ -81,6 +86,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= peer_blocks(_read(o.car_peers)[0])
     if o.real_time:
         blocks |= real_time_blocks(_read(o.real_time))
+    if o.fidelity:
+        blocks |= choice_blocks(_read(o.fidelity)[0]["rows"])
+    if o.naive:
+        blocks |= {"naive": size_table(_read(o.naive)[0]["rows"])}
     for page in PAGES:
         file = o.docs / page
         write_text(file, replace(file.read_text(encoding="utf-8"), blocks))

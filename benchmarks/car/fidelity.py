@@ -8,8 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import fidelity_runs
-from benchmarks.car.fidelity_runs import OUTPUTS
+from benchmarks.car.fidelity_runs import NAMES, OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.figures import between, rows_of
+from benchmarks.shared.pages import table
+from mbs import Trajectory
 from mbs.common.errors import ModelError
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
@@ -27,6 +30,12 @@ COLOURS = {
 }
 COMPARED = tuple(COLOURS)
 TICKS = (25, 50, 100, 200, 400, 800)  # us, of the chart
+REQUIRED = {
+    "place of the car to 2 cm": ("motion", 0.02),
+    "moments to 10 %": ("moment", 0.1),
+    "moments to 3 %": ("moment", 0.03),
+    "moments to 1 %": ("moment", 0.01),
+}
 STRESSES = ("moment", "moment_unfiltered")
 
 
@@ -53,14 +62,18 @@ def size_of(name: str, fidelity: Fidelity) -> dict[str, int]:
     return {"coordinates": len(arrays["q0"]), "rows": len(arrays["row_const"]), "modes": modes_of(fidelity)}
 
 
+def errors_of(found: Trajectory, name: str, fidelity: Fidelity, h: float) -> dict[str, float | None]:
+    """By `OUTPUTS`; those of stresses are None where there are none."""
+    values = fidelity_runs.sampled(found, h, stresses=not fidelity.rigid)
+    return dict.fromkeys(STRESSES) | fidelity_runs.errors(values, fidelity_runs.read_reference(name))
+
+
 def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
-    """One row; errors of stresses are None where there are none."""
+    """One row."""
     found = fidelity_runs.run(name, fidelity, h)
     report = found.report
     assert report is not None
-    reference = fidelity_runs.read_reference(name)
-    error: dict[str, float | None] = dict.fromkeys(STRESSES)
-    error |= fidelity_runs.errors(fidelity_runs.sampled(found, h, stresses=not fidelity.rigid), reference)
+    error = errors_of(found, name, fidelity, h)
     duration = float(found.t[-1])
     spent = fidelity_runs.cpu_time(name, fidelity, h, repeats)
     return {
@@ -137,10 +150,40 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     save_chart(figure, file)
 
 
+def choice_blocks(rows: Sequence[dict[str, Any]]) -> dict[str, str]:
+    """The cheapest fidelity and step for what is required of the flexible car."""
+    lines = []
+    for title, (output, tolerance) in REQUIRED.items():
+        c = cheapest(rows, output, tolerance)
+        choice = {
+            "cheapest fidelity, step": f"{int(c.fidelity)}, {1e3 * c.h:g} ms",
+            "ms per s": f"{c.ms_per_second:.0f}",
+        }
+        lines.append({"required": title, **choice, "error": _error(output, c.error)})
+    return {"cheapest": table(lines, dict.fromkeys(lines[0], ""))}
+
+
+def choice_again(page: str, step_ms: float = 10.0) -> str:
+    """Errors of what a page has chosen with steps of some ms, the largest of all manoeuvres."""
+    lines = []
+    for row in rows_of(between(page, "cheapest")):
+        number, step, _ = row["cheapest fidelity, step"].split()
+        if float(step) != step_ms:
+            continue
+        fidelity, h, output = Fidelity.of(int(number.rstrip(","))), 1e-3 * step_ms, REQUIRED[row["required"]][0]
+        error = max(errors_of(fidelity_runs.run(name, fidelity, h), name, fidelity, h)[output] for name in NAMES)
+        lines.append({"required": row["required"], "error": _error(output, error)})
+    return table(lines, dict.fromkeys(lines[0], ""))
+
+
+def _error(output: str, value: float) -> str:
+    return f"{1e3 * value:.1f} mm" if output == "motion" else f"{100.0 * value:.1f} %"
+
+
 def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
     """The cheapest fidelity for some outputs and tolerances."""
     lines = []
-    for output, tolerance in (("motion", 0.02), ("moment", 0.1), ("moment", 0.03), ("moment", 0.01)):
+    for output, tolerance in REQUIRED.values():
         unit = " m" if output == "motion" else ""
         try:
             c = cheapest(rows, output, tolerance)

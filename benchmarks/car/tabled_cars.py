@@ -17,7 +17,6 @@ STEP = 0.005  # s
 CARS = (manoeuvres.PROTOTYPE, "hatchback")
 SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
 """Manoeuvres of rolling wheels on a plane road, without pedals pressed at once."""
-GOAL = 4.0  # us a step
 
 
 @cache
@@ -70,7 +69,7 @@ def table_of(rows: Sequence[Row]) -> str:
 
 
 def verdict(rows: Sequence[Row]) -> str:
-    """Where the car by tables is outside of 1 % of the path and 3 % of the loads, and how far its step is from 4 us."""
+    """Where the car by tables is outside of 1 % of the path and 3 % of the loads."""
     outside = [
         f"{r['car']}, {r['manoeuvre'].replace('_', ' ')}"
         for r in rows
@@ -81,10 +80,6 @@ def verdict(rows: Sequence[Row]) -> str:
     if smooth:
         path, loads = (max(r[f"tables_{key}"] for r in smooth) for key in ("path", "load"))
         said += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
-    times = [r["tables_us"] for r in smooth if r["tables_us"]]
-    if times:
-        word = "reached" if max(times) <= GOAL else "missed"
-        said += f" A step alone takes {min(times):.0f} to {max(times):.0f} us there (goal {GOAL:g}: {word})."
     return said
 
 

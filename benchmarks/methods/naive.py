@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 
+from benchmarks.shared.pages import Row, table
 from benchmarks.shared.timing import step_time
-from mbs import Model, Simulation, compile
+from mbs import Model, Simulation, System, compile
 from mbs.common.checks import direction
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint, Spin, WrittenAxis
@@ -130,28 +131,36 @@ SCENES: dict[str, tuple[Callable[[], Model], Callable[[], Model], str]] = {
 }
 
 
+def sizes_of(scene: str) -> tuple[dict[str, Any], list[System]]:
+    """Sizes of a scene and of its naive model, and both."""
+    models = [build() for build in SCENES[scene][:2]]
+    systems = [compile(m) for m in models]
+    row: dict[str, Any] = {"scene": scene}
+    counts = {"bodies": [len(m.bodies) for m in models]}
+    counts |= {"coordinates": [s.nq for s in systems], "rows": [s.nc for s in systems]}
+    for name, (good, naive) in counts.items():
+        row |= {name: good, f"naive_{name}": naive}
+    return row, systems
+
+
+def size_table(rows: Sequence[Row]) -> str:
+    """Sizes, and times where they were measured."""
+    sizes = dict.fromkeys(("coordinates", "naive_coordinates", "rows", "naive_rows"), "d")
+    times = dict.fromkeys(("us_per_step", "naive_us_per_step"), ".2g")
+    return table(rows, {"scene": ""} | sizes | (times if "us_per_step" in rows[0] else {}))
+
+
 def measure(scene: str, repeats: int) -> dict[str, Any]:
     """One row."""
-    good, naive, output = SCENES[scene]
-    models = good(), naive()
-    systems = [compile(m) for m in models]
+    row, systems = sizes_of(scene)
+    output = SCENES[scene][2]
     ends = []
     for system in systems:
         simulation = Simulation(system)
         simulation.step(H, round(DURATION / H))
         ends.append(simulation.sensors[output])
     walls = [step_time(s, DURATION, H, repeats, time.perf_counter) * H / DURATION for s in systems]
-    sizes = [
-        (len(m.bodies), len(s.arrays["q0"]), len(s.arrays["row_const"])) for m, s in zip(models, systems, strict=True)
-    ]
-    return {
-        "scene": scene,
-        "bodies": sizes[0][0],
-        "naive_bodies": sizes[1][0],
-        "coordinates": sizes[0][1],
-        "naive_coordinates": sizes[1][1],
-        "rows": sizes[0][2],
-        "naive_rows": sizes[1][2],
+    return row | {
         "us_per_step": 1e6 * walls[0],
         "naive_us_per_step": 1e6 * walls[1],
         "factor": walls[1] / walls[0],

@@ -1,15 +1,23 @@
-"""Tables of the page of the flexible car: sizes by fidelity, counts and peaks of the kerb test."""
+"""Tables of cars with flexible frames: sizes by fidelity, counts and peaks of the kerb test."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
 
 import mbs
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity import size_of
 from benchmarks.paper.kerb import changes
+from benchmarks.shared.pages import table
 from mbs.scenes import kerb_test, prototype_car
-from mbs.vehicle import Fidelity
+from mbs.vehicle import Fidelity, load
 
 KERB = (Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC)
+
+HATCHBACK = (*((f, kerb_test.STEP) for f in KERB), *((Fidelity.DYNAMIC, h) for h in (0.005, 0.0025, 0.00125)))
+_BEHIND_KERB = 9.0  # s
 
 
 def size_table() -> str:
@@ -47,3 +55,17 @@ def kerb_table() -> str:
         "the same after the low-pass of 10 Hz",
     )
     return "\n".join(f"| {' | '.join(cells)} |" for cells in zip(names, *columns, strict=True))
+
+
+def hatchback_kerb_table(cases: Sequence[tuple[Fidelity, float]] = HATCHBACK) -> str:
+    """Sizes and peaks of the hatchback down the kerb by fidelity and step, s."""
+    car, rows = load("hatchback"), []
+    for fidelity, h in cases:
+        system = mbs.compile(kerb_test.build(fidelity, car))
+        run = mbs.simulate(system, _BEHIND_KERB, h, estimate_error=False)
+        modes = 0 if fidelity is Fidelity.QUASI_STATIC else car.flexible_frame.reduced(fidelity).n_modes
+        stress = {name: run[f"stress.{name}"] for name in ("SG1", "SG5")}
+        peaks = {f"{name}, MPa": 1e-6 * float(np.abs(x - x[0]).max()) for name, x in stress.items()}
+        size = f"{system.nq}, {system.nc}, {modes}"
+        rows.append({"fidelity": int(fidelity), "h, ms": 1e3 * h, "coordinates, rows, modes": size, **peaks})
+    return table(rows, {"fidelity": "d", "h, ms": "g", "coordinates, rows, modes": "", **dict.fromkeys(peaks, ".3g")})

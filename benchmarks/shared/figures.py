@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
-from benchmarks.shared.pages import DOCS
+from benchmarks.shared.pages import DOCS, replace
 
+_TABLE = re.compile(r"(?:^\|.*\n?)+", re.MULTILINE)
 _DIGITS = 3  # of figures that may be one off in the last
 
 
@@ -42,7 +43,7 @@ def read(page: str) -> str:
 
 def rows_of(text: str) -> list[dict[str, str]]:
     """Rows of the first Markdown table in a text, cells by heading."""
-    found = re.search(r"(?:^\|.*\n?)+", text, re.MULTILINE)
+    found = _TABLE.search(text)
     lines = found[0].splitlines() if found else []
     cells = [[c.strip() for c in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
     return [dict(zip(cells[0], row, strict=True)) for row in cells[2:]] if cells else []
@@ -52,6 +53,22 @@ def between(text: str, table: str) -> str:
     """What stands between the marks of a table; empty without them."""
     found = re.search(rf"<!-- begin {re.escape(table)} -->\n(.*?)<!-- end {re.escape(table)} -->", text, re.DOTALL)
     return found[1] if found else ""
+
+
+def written(again: Again, text: str) -> str:
+    """The text of a page with the cells of a table as they are made; what is left out and other rows stay."""
+    block, made = between(text, again.table), rows_of(again.text)
+    shown = rows_of(block)
+    if not shown or list(shown[0]) != list(made[0]):
+        shown = []
+    rows = {tuple(row[key] for key in again.keys): row for row in shown}
+    for row in made:
+        key = tuple(row[k] for k in again.keys)
+        kept = {name: cell for name, cell in rows.get(key, {}).items() if name in again.left_out}
+        rows[key] = row | kept
+    cells = [list(made[0]), ["---"] * len(made[0]), *(list(row.values()) for row in rows.values())]
+    drawn = "".join(f"| {' | '.join(line)} |\n" for line in cells)
+    return replace(text, {again.table: _TABLE.sub(lambda _: drawn, block, count=1) if rows_of(block) else drawn})
 
 
 def same(shown: str | None, made: str) -> bool:

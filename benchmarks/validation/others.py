@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from benchmarks.shared.command import watched
@@ -17,14 +17,16 @@ _ASKED = (
     ("step_steer", "yaw_rate", "rad/s", "0.02 rad of the front wheels, as published: yaw rate after 3 s"),
     ("consistent_step_steer", "yaw_rate", "rad/s", "0.02 rad of the front wheels, consistent: yaw rate after 3 s"),
     ("consistent_step_steer", "roll", "rad", "0.02 rad of the front wheels, consistent: roll after 3 s"),
+    ("consistent_step_steer", "y", "m", "0.02 rad of the front wheels, consistent: way to the side after 3 s"),
     ("braking", "vx", "m/s", "4 m/s² of brakes from 25 m/s: speed after 3 s"),
+    ("braking", "pitch", "rad", "4 m/s² of brakes from 25 m/s: pitch after 3 s"),
 )
 
 
-def by_commonroad() -> list[tuple[Published, float]]:
+def by_commonroad(cars: Sequence[str] = CARS) -> list[tuple[Published, float]]:
     """Last values of CommonRoad's model, of its stored runs, and of the cars here."""
     found = []
-    for car in CARS:
+    for car in cars:
         for manoeuvre, quantity, unit, text in _ASKED:
             both = commonroad.compared(car, manoeuvre)
             told = float(both.reference[quantity][-1])

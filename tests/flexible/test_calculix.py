@@ -7,32 +7,13 @@ import shutil
 
 import numpy as np
 import pytest
-import scipy.sparse as sp
-from scipy.sparse.linalg import spsolve
 
 from benchmarks.car import calculix
-from benchmarks.car.statics import interface_forces
-from mbs.flexible.attachment_modes import inertia_relief
-from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.recovery import gauge_rows
-from mbs.vehicle import load
-
-CAR = load("prototype")
-FRAME = CAR.tubular_frame
-INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
+from benchmarks.car.frame_tables import frame_figures, tube_figures
 
 STORED = json.loads(calculix.STORED.read_text())
 SLENDER = 1.5e-3  # tube of 1.5 m and 40 mm: theories and meshes differ by that
 MESH = 4e-3  # left over by the extrapolation
-
-
-def tube_figures() -> tuple[float, np.ndarray]:
-    """Tip deflection, m, and three frequencies, Hz, of the clamped tube."""
-    model = calculix.cantilever(16).finite_element_model()
-    F = np.zeros(model.n_dof)
-    F[-4] = calculix.TIP_FORCE
-    u = spsolve(sp.csc_matrix(model.K[6:][:, 6:]), F[6:])
-    return float(u[-4]), natural_modes(model, 6, np.arange(6))[0][::2]
 
 
 def test_slender_tube_agrees() -> None:
@@ -40,26 +21,6 @@ def test_slender_tube_agrees() -> None:
     assert deflection == pytest.approx(STORED["tube_tip_deflection_m"]["extrapolated"], rel=SLENDER)
     np.testing.assert_allclose(hertz[0], STORED["tube_clamped_hz"]["extrapolated"][0], rtol=SLENDER)
     np.testing.assert_allclose(hertz, STORED["tube_clamped_hz"]["extrapolated"], rtol=8e-3)
-
-
-def frame_figures(theory: str) -> dict[str, np.ndarray]:
-    frame, tubes = FRAME.frame(theory, refinement=2)
-    model = frame.finite_element_model()
-    bare = FRAME.frame(theory, 2, carried_masses=False)[0].finite_element_model()
-    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
-    free = np.setdiff1d(np.arange(model.n_dof), held)
-    left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
-    F, u = np.zeros(model.n_dof), np.zeros(model.n_dof)
-    F[left], F[right] = calculix.TOWER_FORCE, -calculix.TOWER_FORCE
-    u[free] = spsolve(sp.csc_matrix(model.K[free][:, free]), F[free])
-    rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
-    relief = inertia_relief(model, REFERENCE, INTERFACES, rows)
-    return {
-        "frame_torsional_stiffness_Nm_per_deg": np.array(calculix.torsional_stiffness(frame, u[left] - u[right])),
-        "frame_loaded_free_hz": natural_modes(model, 11)[0][6:],
-        "frame_bare_free_hz": natural_modes(bare, 10)[0][6:],
-        "frame_gauge_moments_Nm": relief.balanced @ interface_forces(INTERFACES),
-    }
 
 
 @pytest.mark.slow

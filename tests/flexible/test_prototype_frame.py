@@ -8,13 +8,13 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 from scipy.sparse.linalg import spsolve
 
+from benchmarks.car import frame_tables
 from benchmarks.car.statics import interface_forces
 from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.inertia_integrals import shape_integrals
-from mbs.flexible.load_paths import interface_loads, load_path_modes
 from mbs.flexible.recovery import gauge_rows, peak_tube_stress, section_force_field
 from mbs.vehicle import load
 
@@ -76,14 +76,11 @@ def test_free_frequencies_loaded_and_bare(model: FiniteElementModel) -> None:
     np.testing.assert_allclose(bare[6:], BARE_HZ, rtol=FIGURES)
 
 
-def test_lumped_masses_and_rotary_inertia_are_negligible_for_the_frame(model: FiniteElementModel) -> None:
-    consistent = natural_modes(model, 21)[0][6:]
-    frame = FRAME.frame()[0]
-    without_rotary = natural_modes(frame.finite_element_model("consistent", rotary=False), 21)[0][6:]
-    lumped = natural_modes(frame.finite_element_model("lumped", rotary=False), 21)[0][6:]
-    assert 0 < (without_rotary / consistent - 1).max() < 3e-4
-    assert 5e-4 < np.abs(lumped / consistent - 1)[:5].max() < 2e-3
-    assert np.abs(lumped / consistent - 1).max() < 6e-3
+def test_lumped_masses_and_rotary_inertia_are_negligible_for_the_frame() -> None:
+    without_rotary, lumped = (frame_tables.mass_errors(kind) for kind in ("consistent", "lumped"))
+    assert 0 < without_rotary.max() < 3e-4
+    assert 5e-4 < np.abs(lumped)[:5].max() < 2e-3
+    assert np.abs(lumped).max() < 6e-3
 
 
 def test_torsional_stiffness_between_the_towers(model: FiniteElementModel) -> None:
@@ -162,27 +159,11 @@ def test_largest_stress_and_sag_at_rest(model: FiniteElementModel) -> None:
     np.testing.assert_allclose(sag, SAG, atol=0.005e-3)
 
 
-def test_static_and_dynamic_modes_need_inertia_modes_for_the_moments_at_rest(model: FiniteElementModel) -> None:
+def test_static_and_dynamic_modes_need_inertia_modes_for_the_moments_at_rest() -> None:
     """60 + 5 modes carry a third to a half less than the moment at rest; with the inertia modes all of it."""
-    frame, tubes = FRAME.frame()
-    rows, _ = gauge_rows(frame, FRAME.strain_gauges(tubes))
-    forces = interface_forces(INTERFACES)
-    relief = inertia_relief(model, REFERENCE, INTERFACES, rows)
-    exact = relief.balanced @ forces
-    weight = (
-        -model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)) @ (relief.acceleration_of_forces @ forces)
-    )
-    load = weight.copy()
-    load[np.concatenate([model.freedoms(n) for n in INTERFACES])] += forces
-    errors = {}
-    plain = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES)
-    full = craig_bampton(model, REFERENCE, INTERFACES, DYNAMIC_MODES, inertia_modes=True)
-    paths = load_path_modes(full, interface_loads(full, {n: np.eye(3) for n in INTERFACES}))
-    for name, body in (("plain", plain), ("inertia", full), ("paths", paths)):
-        eta = np.linalg.solve(body.K, body.modes.T @ load)
-        errors[name] = np.abs(body.recovery(rows) @ eta / exact - 1).max()
-    assert full.n_modes == 71
-    assert paths.n_modes == 60, "one for each force"
-    assert errors["inertia"] < 1e-6
-    assert errors["paths"] < 1e-4
-    assert 0.3 < errors["plain"] < 0.7
+    exact, found = frame_tables.moments(), frame_tables.moments_by_modes()
+    (plain, few), *_, (full, inertia), (one_a_force, paths) = found.values()
+    assert (plain, full, one_a_force) == (65, 71, 60)
+    np.testing.assert_allclose(inertia, exact, rtol=1e-6)
+    np.testing.assert_allclose(paths, exact, rtol=1e-4)
+    assert 0.3 < np.abs(few / exact - 1).max() < 0.7

@@ -1,0 +1,25 @@
+"""How far grids of OpenCRG files are from the files, by their spacing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from benchmarks.shared.pages import table
+from mbs.roads import SampledRoad, read_road
+
+FOLDER = Path(__file__).parents[2] / "tests" / "data" / "crg"
+FILES = ("handmade_circle.crg", "handmade_curved_banked_sloped.crg")
+SPACINGS = (0.25, 0.1, 0.05)  # m
+
+
+def sampled_table(spacings: Sequence[float] = SPACINGS) -> str:
+    """Largest distance and root mean square, mm."""
+    rows = []
+    for name in FILES:
+        for spacing in spacings:
+            road = read_road(FOLDER / name, spacing=(spacing, spacing))
+            assert isinstance(road, SampledRoad)
+            off = {"at most, mm": 1e3 * road.largest, "rms, mm": 1e3 * road.rms}
+            rows.append({"file": f"`{name}`", "spacing, m": spacing, **off})
+    return table(rows, {"file": "", "spacing, m": "g", **dict.fromkeys(off, ".2g")})
