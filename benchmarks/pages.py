@@ -18,7 +18,6 @@ from benchmarks.car.fidelity import choice_blocks
 from benchmarks.car.pages import car_blocks, function_blocks, instruction_blocks
 from benchmarks.car.speed_pages import peer_blocks, real_time_blocks, throughput_blocks
 from benchmarks.car.trust import COLUMNS, trust_blocks
-from benchmarks.methods.naive import size_table
 from benchmarks.methods.pages import (
     control_blocks,
     dissipative_blocks,
@@ -45,7 +44,7 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time", "fidelity", "naive"):
+    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time", "fidelity"):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
@@ -88,8 +87,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= real_time_blocks(_read(o.real_time))
     if o.fidelity:
         blocks |= choice_blocks(_read(o.fidelity)[0]["rows"])
-    if o.naive:
-        blocks |= {"naive": size_table(_read(o.naive)[0]["rows"])}
     for page in PAGES:
         file = o.docs / page
         write_text(file, replace(file.read_text(encoding="utf-8"), blocks))

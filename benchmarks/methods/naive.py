@@ -144,10 +144,8 @@ def sizes_of(scene: str) -> tuple[dict[str, Any], list[System]]:
 
 
 def size_table(rows: Sequence[Row]) -> str:
-    """Sizes, and times where they were measured."""
-    sizes = dict.fromkeys(("coordinates", "naive_coordinates", "rows", "naive_rows"), "d")
-    times = dict.fromkeys(("us_per_step", "naive_us_per_step"), ".2g")
-    return table(rows, {"scene": ""} | sizes | (times if "us_per_step" in rows[0] else {}))
+    """The table of the page of the flexible car."""
+    return table(rows, {"scene": ""} | dict.fromkeys(("coordinates", "naive_coordinates", "rows", "naive_rows"), "d"))
 
 
 def measure(scene: str, repeats: int) -> dict[str, Any]:
