@@ -15,6 +15,7 @@ from typing import Any
 from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.car.fidelity import choice_blocks
+from benchmarks.car.fmu_pages import BLOCKS
 from benchmarks.car.pages import car_blocks, function_blocks, instruction_blocks
 from benchmarks.car.speed_pages import peer_blocks, real_time_blocks, throughput_blocks
 from benchmarks.car.trust import COLUMNS, trust_blocks
@@ -32,7 +33,7 @@ from benchmarks.shared.pages import DOCS, machine, replace
 
 PAGES = (
     *("speed_and_accuracy.md", "stability.md", "accuracy.md", "scale.md"),
-    *("speed.md", "fmu.md", "trust.md", "flexible_car.md"),
+    *("speed.md", "fmu.md", "trust.md", "flexible_car.md", "stepping.md"),
 )
 DATA = ("work", "stability", "growth", "four-bar", "puma", "dissipative", "honesty", "control", "study", "car", "trust")
 
@@ -44,7 +45,7 @@ def _read(files: Sequence[Path]) -> list[dict[str, Any]]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.pages", description=__doc__)
-    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time", "fidelity"):
+    for name in (*DATA, "instructions", "functions", "throughput", "car-peers", "real-time", "fidelity", *BLOCKS):
         parser.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="FILE", help=f"JSON of {name}")
     parser.add_argument("--docs", type=Path, default=DOCS, help="folder of the pages")
     o = parser.parse_args(arguments)
@@ -85,6 +86,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         blocks |= peer_blocks(_read(o.car_peers)[0])
     if o.real_time:
         blocks |= real_time_blocks(_read(o.real_time))
+    for name, make in BLOCKS.items():
+        if getattr(o, name):
+            blocks |= make(_read(getattr(o, name))[0]["rows"])
     if o.fidelity:
         blocks |= choice_blocks(_read(o.fidelity)[0]["rows"])
     for page in PAGES:

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import figures
 from benchmarks.pages import PAGES
-from benchmarks.shared.figures import Again, between, differences, read, rows_of, same
+from benchmarks.shared.figures import Again, between, differences, read, rows_of, same, written
 
 MADE = "| method | h s | error | ms |\n| --- | --- | --- | --- |\n| a | 0.1 | 2.5 | 9 |\n| b | 0.1 | 1e-05 | 8 |"
 PAGE = f"text\n<!-- begin t -->\n{MADE}\n| c | 0.1 | 3 | 7 |\n<!-- end t -->\nThe car takes 0.36 s\nof time.\n"
@@ -45,6 +45,15 @@ def test_an_altered_figure_is_a_sentence(before, after, said):
 def test_an_altered_sentence_is_told():
     again = Again("README.md", "takes 0.36 s of time")
     assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
+
+
+def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
+    other = PAGE.replace("| 2.5 |", "| 7 |").replace("| 9 |", "| 11 |")
+    assert written(AGAIN, other) == PAGE.replace("| 9 |", "| 11 |")  # a time is not made
+    assert written(AGAIN, PAGE.replace("| b | 0.1 | 1e-05 | 8 |\n", "")).count("| b | 0.1 | 1e-05 | 8 |") == 1
+    empty = "text\n<!-- begin t -->\n<!-- end t -->\n"
+    assert written(AGAIN, empty) == f"text\n<!-- begin t -->\n{MADE}\n<!-- end t -->\n"
+    assert rows_of(written(AGAIN, PAGE.replace("| ms |", "| us |"))) == rows_of(MADE)  # other columns: a new table
 
 
 def test_the_readme_says_what_the_tables_of_the_pages_say():

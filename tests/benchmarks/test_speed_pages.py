@@ -6,6 +6,7 @@ import json
 import re
 
 from benchmarks import pages
+from benchmarks.car import fmu_pages
 from benchmarks.car.speed_pages import CARS, LANES
 from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.pages import DOCS
@@ -87,3 +88,24 @@ def test_other_cars_and_worst_steps(tmp_path):
     assert [row["worst, us"] for row in tables["wild steps"]] == ["2990"]
     assert tables["wild steps"][0]["iterations, mean and most"] == "2.00, 17"
     assert [list(row.values()) for row in tables["wild limits"]] == [["0", "6", "3 of 30", "0.00067"]]
+
+
+def test_fmu_calls_webassembly_and_cars_in_python():
+    calls = [
+        {"quantity": "step", "kind": k, "host": h, "value": v}
+        for k, h, v in (("native", "C", 27), ("python", "FMPy", 29.4))
+    ]
+    step, *_ = rows_of(fmu_pages.fmu_blocks(calls)["fmu calls"])
+    assert list(step.values()) == ["one step of 2 ms", "27", "–", "–", "29.4"]
+    hosts = [
+        {"fidelity": "2", "what": "inner", "host": host, "best_us": us}
+        for host, us in (("native", 245.3), ("Node", 313.0))
+    ]
+    assert rows_of(fmu_pages.wasm_blocks(hosts)["wasm"]) == [
+        {"fidelity, calls": "2, inner", "native": "245", "Node": "313"}
+    ]
+    ways = [
+        {"environment": "E", "step_ms": 20.0, "way": way, "steps_a_second": 2009.2, "us_of_processor": us}
+        for way, us in (("FMPy", 472.3), ("Async", None))
+    ]
+    assert [row["E, 20 ms"] for row in rows_of(fmu_pages.plant_blocks(ways)["plant"])] == ["2009 (472)", "2009"]
