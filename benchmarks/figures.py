@@ -269,7 +269,7 @@ def chosen_fidelity() -> list[Again]:
 
 def others_tests() -> list[Again]:
     """CommonRoad's Escort and the tyre of the rig; `benchmarks.validation` writes all."""
-    found = [*others.by_commonroad(others.CARS[:1]), *tyre_rig.compared()]
+    found = [*others.by_commonroad(list(others.CARS)[:1]), *tyre_rig.compared()]
     text = table([figure.row(value) for figure, value in found], others.COLUMNS)
     return [Again("docs/validation.md", text, "others", ("test",))]
 
