@@ -185,11 +185,11 @@ def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) ->
     assert why in next(iter(found.left_out.values()))
 
 
-def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_any_factor(host, tmp_path) -> None:
-    """The force of the ground counts downwards, the friction is in per cent; set before the start and while driving."""
+def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_other_names(host, tmp_path) -> None:
+    """The force of the ground counts downwards; the friction is set while driving."""
     (tmp_path / "names.toml").write_text(
         '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n'
-        '"road.friction" = { name = "Mu", factor = -100 }\n',
+        '"road.friction" = "Mu"\n',
         encoding="utf-8",
     )
     name, system = load_scene("prototype_car")
@@ -200,9 +200,9 @@ def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_any_fac
     assert force < -1.0
     assert f"Body.Fz is {force:.4g}" in said
     assert driven.step(0.0, 0.01) == 0
-    for value, told in ((-5.0, False), (-1.0, True), (0.0, True)):
+    for value, told in ((0.05, False), (0.01, True), (0.0, True)):
         before = len(driven.messages)
         assert driven.set("Mu", value) == 0
         lines = [m for m in driven.messages[before:] if f"'Mu' was set to {value:g}" in m]
         assert len(lines) == told
-        assert not told or "with which no such vehicle works; from -200 to -2.2" in lines[0]
+        assert not told or "with which no such vehicle works; from 0.02257 to 2 it does" in lines[0]
