@@ -188,8 +188,7 @@ def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) ->
 def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_other_names(host, tmp_path) -> None:
     """The force of the ground counts downwards; the friction is set while driving."""
     (tmp_path / "names.toml").write_text(
-        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n'
-        '"road.friction" = "Mu"\n',
+        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n',
         encoding="utf-8",
     )
     name, system = load_scene("prototype_car")

@@ -35,8 +35,8 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
         if reached < GRIPPED:
             yield (
                 f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g} and "
-                f"{road.key('friction_factor')} {road.friction_factor:g}: the {wheels} tyres reach {reached:.2g} of their "
-                f"load; with less than {GRIPPED:g} a car neither steers nor brakes."
+                f"{road.key('friction_factor')} {road.friction_factor:g}: the {wheels} tyres reach {reached:.2g} of "
+                f"their load; with less than {GRIPPED:g} a car neither steers nor brakes."
             )
         load, nominal = rest.load[wheels], axle.tyre.nominal_load
         if not LOADS[0] <= load / nominal <= LOADS[1]:

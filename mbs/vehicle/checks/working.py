@@ -89,7 +89,7 @@ def _of_grip(found: Ranges, car: CarContent) -> None:
 
 
 def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
-    """The least value with which `GRIPPED` is reached, where a value of 1 reaches so much; the largest of both axles."""
+    """The least value with which both axles reach `GRIPPED`, where one reaches so much with a value of 1."""
     quantity, path = section.quantity(name), section.key(name)
     assert quantity is not None, f"{path} is no quantity"
     if reached > 0.0:
