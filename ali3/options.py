@@ -17,6 +17,9 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""
+        if message.endswith("expected one argument"):  # also where argparse takes -1:1 for an option
+            name = message.split()[1].split("/")[0].rstrip(":")
+            message += f"; one that begins with a minus sign is given as {name}=-..."
         super().error(shortened(message))
 
 

@@ -20,7 +20,9 @@ from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 
-_GAINS = 0.8, 0.5, 0.1  # pedal per m/s, per m and per m/s2: the speed is to be as measured, not comfortable
+_GAINS = 4.0, 4.0  # pedal per m/s and per m: the speed is to be as measured, not comfortable
+_ACCELERATION_GAIN = 0.1  # pedal per m/s2
+_FINE = 0.01  # s: communication step up to which they hold; with longer ones a car of 10 m/s2 would swing
 
 _SMOOTHED, _PARABOLA = 0.2, 2  # s; degree
 _UNEVEN = 0.5  # of the time between samples
@@ -42,9 +44,10 @@ def smoothed(speed: Signal) -> Signal:
     return replace(speed, values=parts)
 
 
-def _holder(speed: Signal, pedal: float) -> SpeedHolder:
+def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     speed = smoothed(speed)
-    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *_GAINS, pedal=pedal)
+    gains = (gain * min(1.0, _FINE / step) for gain in _GAINS)
+    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *gains, _ACCELERATION_GAIN, pedal=pedal)
 
 
 class LoadedFmu:
@@ -93,7 +96,7 @@ class LoadedFmu:
             manoeuvre = replace(manoeuvre, start={**manoeuvre.start, **values})
         fmu = AliasedFmu(self._fmu, self._aliases)
         # A pilot has a memory: each run has its own.
-        driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal)
+        driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
         self._fmu.messages.clear()
         result = run(fmu, manoeuvre, self._step, driver)
         derive_columns(result, self._aliases)

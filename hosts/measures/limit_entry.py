@@ -21,7 +21,9 @@ class LimitEntry(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _pair(cls, given: object) -> object:
-        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) and len(given) == 2 else given
+        if isinstance(given, list) and len(given) != 2:
+            raise ValueError(f"it is a list of {len(given)}; a list has the least and the largest value")
+        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) else given
 
     @model_validator(mode="after")
     def _fits(self) -> LimitEntry:

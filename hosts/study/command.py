@@ -34,6 +34,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.st
     parser.add_argument("--report", action=both, help="only write the report of the results; or none at the end")
     parser.add_argument(
         "--target",
+        action="append",
         metavar="MEASURE=VALUE",
         help="find the value of a parameter that gives this, such as 'understeer_gradient=1.3 deg/g', by few runs",
     )
@@ -89,13 +90,16 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
     others = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
     if others:
         raise HostError(f"{others[0]} does not go with --target, which makes its own runs.")
+    if len(options.target) > 1:
+        told = " and ".join(options.target)
+        raise HostError(f"--target is given {len(options.target)} times, {told}; one parameter meets one value.")
     if options.by is None:
         raise HostError("--target needs --by, the name of a parameter.")
     if options.study.is_dir():
         raise HostError(f"{options.study} is a folder; --target takes the study file.")
     return (
         0
-        if find_target(options.study, target_of(options.target, options.by, options.between), options.out)
+        if find_target(options.study, target_of(options.target[0], options.by, options.between), options.out)
         else NOT_GOOD
     )
 

@@ -17,12 +17,11 @@ from ali3.files import whole_file, write_text
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
 from hosts.measures.measure import Limit
-from hosts.study.work import DONE, FAILED, MISSING
+from hosts.study.work import ALL, DONE, FAILED, MISSING
 
 if TYPE_CHECKING:
     import pandas as pd
 
-ALL = "all limits"
 CONFIDENCE = 0.95
 _NO_INTERVAL = {
     "grid": "the points of a grid are no random sample",

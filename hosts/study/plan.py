@@ -20,7 +20,7 @@ from hosts.study.parameters import Parameter
 from hosts.study.planned_runs import planned_runs
 from hosts.study.points import Points, digest
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
-from hosts.study.work import Chunk, Work
+from hosts.study.work import ALL, Chunk, Work
 
 if TYPE_CHECKING:
     from hosts.study.measures.study_measure import StudyMeasure
@@ -211,7 +211,7 @@ def _measures(
 
 def _check_names(file: Path, names: Sequence[str]) -> None:
     for k, name in enumerate(names):
-        if name in OWN_COLUMNS:
+        if name in OWN_COLUMNS or name == ALL:
             raise HostError(f"{file}: '{name}' is a column that every table of a study has; give it another name.")
         if name in names[:k]:
             raise HostError(f"{file}: two columns of the table would be called '{name}'; give a measure another name.")

@@ -16,7 +16,7 @@ TOLERANCE = 1e-3
 MOST = 24
 """Runs."""
 _CLOSEST = 1e-4  # part of the range that is not divided any more
-_INWARD = (0.0, 0.0625, 0.125, 0.25)  # parts of the range, where the run at an end fails
+_INWARD = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # parts of the range, where the run at an end fails
 _EXTREMUM, _SEEN = 0.02, 8  # part of the range, and runs, to which an extremum is found
 _APART, _PART = 0.01, 0.02  # of the range, or of the value, between runs that tell a slope
 _FAR = 0.25  # of the distance to the neighbour on the other side: that one is too far

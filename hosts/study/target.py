@@ -81,7 +81,8 @@ def target_of(text: str, by: str, limits: str | None) -> Target:
         ends = None if limits is None else tuple(parse_number(end) for end in limits.split(":"))
         wanted = parse_number(found[1])
     except ValueError as error:
-        raise HostError(f"--target {text} --between {limits}: {error}.") from None
+        between = "" if limits is None else f" --between {limits}"
+        raise HostError(f"--target {text}{between}: {error}.") from None
     if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
         raise HostError(f"--between {limits}: it must be LOW:HIGH, the smaller number first.")
     return Target(name, wanted, found[2], by, None if ends is None else (ends[0], ends[1]))
@@ -131,7 +132,7 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     unit, log = (entry.unit, entry.log) if entry is not None else (None, False)
     variables = Variables(described(fmu))
     ends: tuple[float, float] | None = target.range
-    kind = variables[target.by].kind if target.by in variables.names else "Real"
+    kind = variables.settable(target.by, "--by").kind if target.by in variables.names else "Real"
     if kind != "Real":
         words = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
         what = words.get(kind, f"of the kind {kind}")

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
 """How a run ended: every measure that exists is a number; some is none; there is no result."""
+ALL = "all limits"  # in the table of limits: variants that keep each of them
 MISSING = ", "
 """Between the names in the column ``missing``; no name of a measure has it."""
 

@@ -190,11 +190,11 @@ def differences(
     coarse: Mapping[str, Array],
     fine: Mapping[str, Array],
     groups: Mapping[str, Sequence[str]],
-    extents: dict[str, float] | None = None,
+    before: Mapping[str, Array] | None = None,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """Largest differences of two runs, at their `instants` and of loads between them.
 
-    `extents` are the largest ranges of runs before these, and grow with them.
+    Ranges are those of the finer run together with `before`, the ends of what moved in the runs before these.
 
     Returns
     -------
@@ -214,14 +214,19 @@ def differences(
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
         if forces:
             gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
-        size = extent(unit, [fine[name] for name in names])
-        if extents is not None:
-            size = extents[unit] = max(size, extents.get(unit, 0.0))
+        size = extent(unit, [fine[name] if not before else np.append(fine[name], before[name]) for name in names])
         if size > 0.0:
             sensors |= gaps
             units[unit] = max(gaps.values()) / size
             ranges[unit] = size
     return units, sensors, ranges
+
+
+def add_ends(ends: dict[str, Array], run: Mapping[str, Array], groups: Mapping[str, Sequence[str]]) -> None:
+    """Widen the least and the largest value of what is compared by those of a run."""
+    for name in (name for names in groups.values() for name in names):
+        values = np.append(run[name], ends.get(name, ()))
+        ends[name] = np.array([values.min(), values.max()])
 
 
 def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:

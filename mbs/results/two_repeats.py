@@ -33,7 +33,7 @@ def by_limit(
     known: Accuracy,
     tables: Sequence[Mapping[str, Array]],
     groups: Mapping[str, Sequence[str]],
-    extents: dict[str, float] | None = None,
+    before: Mapping[str, Array] | None = None,
 ) -> Accuracy:
     """The error against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
 
@@ -45,12 +45,12 @@ def by_limit(
         The run, and the last two repeats, of which the last has half the step, at the same samples.
     groups : mapping of str to sequence of str
         Names of what is compared, by unit.
-    extents : dict of str to float, optional
-        What moved before, by unit.
+    before : mapping of str to ndarray, optional
+        The ends of what moved before, by name.
     """
     run, coarse, fine = tables
     more = 1.0 / (2.0**EVENT_ORDER - 1.0)
     names = [name for unit in groups for name in groups[unit]]
     limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
-    units, sensors, _ = differences(run, limit, groups, extents)
+    units, sensors, _ = differences(run, limit, groups, before)
     return replace(known, units=units, sensors=sensors)

@@ -7,6 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import BranchKind
 from mbs.results import accuracy
@@ -37,13 +40,13 @@ def fixed_step_run(
     every: int,
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | None,
-    extents: dict[str, float] | None = None,
+    before: dict[str, NDArray[np.float64]] | None = None,
     twin: bool = False,
 ) -> Trajectory:
     """A run in steps of h, with repeats where its accuracy asks for them, see `repeat.check`."""
     told: Told = []
     try:
-        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, extents, twin)
+        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, before, twin)
     finally:
         for category, text in told:
             warnings.warn(text, category, stacklevel=4)
@@ -60,7 +63,7 @@ def judged_run(
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | None,
     told: Told,
-    extents: dict[str, float] | None = None,
+    before: dict[str, NDArray[np.float64]] | None = None,
     twin: bool = False,
 ) -> Trajectory:
     """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
@@ -77,7 +80,7 @@ def judged_run(
         return march(simulation, t_end, step, inputs, every, progress, look, wanted)
 
     checked = estimate_error is not False
-    look = checked and not accuracy.has_motion_sensor(system)
+    look = (checked or before is not None) and not accuracy.has_motion_sensor(system)
     often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
     wanted = every // often
     try:
@@ -85,11 +88,13 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
+            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin)
             if checked:
                 tables = InputSignals(inputs or {}, system.meta["inputs"]).tables()
-                missed = missed_peak(tables, t0, t_end, h), jumps_within_steps(tables, t0, t_end, h)
-                repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, extents, twin, *missed)
+                repeats.peak = missed_peak(tables, t0, t_end, h)
+                repeats.jumps = jumps_within_steps(tables, t0, t_end, h)
                 found = repeat.check(repeats, always=estimate_error is True)
+            repeats.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
             error.trajectory = error.trajectory.thinned(every // often)

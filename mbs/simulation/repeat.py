@@ -42,8 +42,8 @@ class Repeats:
         Its steps from one sample to the next.
     update : callable
         Takes the progress of all runs, from 0 to 1.
-    extents : dict of str to float, optional
-        What moved in the runs before this one, by unit.
+    before : dict of str to ndarray, optional
+        The ends of what moved in the runs before this one, by name.
     twin : bool
         Whether a repeat goes on from the one of a run before, so that there is a single one.
     peak : float
@@ -69,7 +69,7 @@ class Repeats:
     h: float
     every: int
     update: Callable[[float], None]
-    extents: dict[str, float] | None = None
+    before: dict[str, NDArray[np.float64]] | None = None
     twin: bool = False
     peak: float = math.inf
     jumps: bool = False
@@ -124,9 +124,14 @@ class Repeats:
             It does not end.
         """
         run, first, second = map(self._table, (self.run, *self._finer))
-        if not unsure(known, accuracy.differences(first, second, self.groups, self.extents)[0]):
+        if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
             return known
-        return by_limit(self.finer(parts), [run, second, self._table(self._finer[-1])], self.groups, self.extents)
+        return by_limit(self.finer(parts), [run, second, self._table(self._finer[-1])], self.groups, self.before)
+
+    def add_ends(self) -> None:
+        """What moved in the first run counts for those after it."""
+        if self.before is not None:
+            accuracy.add_ends(self.before, self._table(self.run), self.groups)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
@@ -157,7 +162,7 @@ class Repeats:
         assert coarse[0].report is not None
         assert fine[0].report is not None
         tables = self._table(coarse), self._table(fine)
-        units, sensors, self._ranges = accuracy.differences(*tables, self.groups, self.extents)
+        units, sensors, self._ranges = accuracy.differences(*tables, self.groups, self.before)
         order = float(METHOD_TABLE[run.settings.method].order)
         if ratio < FAR_FINER:  # else the other is so much nearer that the order hardly counts
             reports = coarse[0].report, fine[0].report
@@ -178,7 +183,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
 
     A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
     repeated with half the step, near the limit with a quarter; where these two differ so much that the verdict may
-    change, with an eighth; with less where steps were halved or miss a peak or jump of an input. With `Repeats.extents`
+    change, with an eighth; with less where steps were halved or miss a peak or jump of an input. With `Repeats.before`
     no longer steps are tried, with `Repeats.twin` the first of the shorter ones alone.
 
     Parameters
@@ -203,7 +208,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     doubt = accuracy.REPEAT if finest else accuracy.doubt(report, report.steps, report.halvings, method)
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
-    if not always and repeats.extents is None and doubt == accuracy.SCREEN:
+    if not always and repeats.before is None and doubt == accuracy.SCREEN:
         for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, glance)

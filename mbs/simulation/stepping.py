@@ -9,6 +9,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import Instance, KernelError, Status
@@ -89,7 +92,7 @@ class Simulation(SteppedSystem):
         super().__init__(system, settings)
         self._warned = self._rim_told = False
         self._twin: SteppedSystem | None = None
-        self._extents: dict[str, float] = {}
+        self._ends: dict[str, NDArray[np.float64]] = {}  # of what moved in runs so far
         self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False
@@ -432,7 +435,7 @@ class Simulation(SteppedSystem):
         def equal_steps() -> Trajectory:
             asked, twin = estimate_error if checked else False, given is not None
             return fixed_step_run(
-                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._extents, twin
+                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._ends, twin
             )
 
         trajectory = equal_steps()

@@ -188,7 +188,7 @@ class Car(CarContent):
         b.parameters(self.order, works)
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
         if self.ports.road is None:
-            self.road.parameters(m, road, b.road, ", ".join(frictions))
+            self.road.parameters(m, road, b.road, ", ".join(frictions), works)
         self._outputs(b, steered, spins, fidelity)
         b.parameters(self.order, works, late=True)
         if guide is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -28,7 +29,14 @@ class RoadSection(Section):
         """Level ground with a kerb."""
         return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
-    def parameters(self, m: Model, road: Road | RoadOfFile | None, ground: int, hold_at: str) -> None:
+    def parameters(
+        self,
+        m: Model,
+        road: Road | RoadOfFile | None,
+        ground: int,
+        hold_at: str,
+        works: Mapping[str, tuple[float, float]],
+    ) -> None:
         """What a user may set of the road.
 
         Parameters
@@ -37,6 +45,8 @@ class RoadSection(Section):
             Under it; None: `default`.
         hold_at : str
             The frictions at which the curves of the tyres hold, for the description.
+        works : mapping of str to (float, float)
+            By key path, between which values the car works.
         """
         own = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road
         target = ("road", ground)
@@ -48,6 +58,7 @@ class RoadSection(Section):
                 *_range(self, "friction"),
                 f"friction of the road; the curves of the tyres hold at {hold_at}; {BUILT_IN}",
                 targets=[(target, "friction", 1.0)],
+                works=works.get("road.friction"),
             )
         if road is None:
             self._kerb(m, ground)
@@ -57,6 +68,7 @@ class RoadSection(Section):
             *_range(self, "friction_factor"),
             "factor on the friction of the road, also of one from a file",
             targets=[(target, "friction_factor", 1.0)],
+            works=works.get("road.friction_factor"),
         )
 
     @staticmethod

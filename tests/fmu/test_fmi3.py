@@ -158,3 +158,26 @@ def test_terminals_name_variables_that_are_there(build: Callable[..., Path]) -> 
     members = [m.attrib["variableName"] for m in root.iter("TerminalMemberVariable")]
     assert members
     assert set(members) <= variables
+
+
+def test_a_host_that_offers_intermediate_updates_is_not_called_and_makes_short_steps_instead(build) -> None:
+    """An input that is held over five inner steps gives the bits of five short steps; one that changes, others."""
+    called: list[float] = []
+    ends = []
+    for length, torques in ((5, [4.0]), (1, [4.0] * 5), (1, [4.0, 5.0, 6.0, 7.0, 8.0])):
+        host = Host3(build("crane", "fmi3"))
+        torque = host.references["torque"]
+        host.slave.instantiate(
+            earlyReturnAllowed=True,
+            intermediateUpdate=lambda *arguments: called.append(arguments[1]),
+            requiredIntermediateVariables=[torque],
+        )
+        host.set("step_size", STEP)
+        host.start()
+        for k, value in enumerate(torques):
+            host.set("torque", value)
+            host.slave.doStep(k * length * STEP, length * STEP)
+        ends.append(host.get("rod.angle"))
+    assert called == []
+    assert host.description.coSimulation.providesIntermediateUpdate is not True
+    assert ends[0] == ends[1] != ends[2]

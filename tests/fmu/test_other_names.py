@@ -183,3 +183,25 @@ def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) ->
     found = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))
     assert set(found.named) == {"rod.x"}
     assert why in next(iter(found.left_out.values()))
+
+
+def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_other_names(host, tmp_path) -> None:
+    """The force of the ground counts downwards; the friction is set while driving."""
+    (tmp_path / "names.toml").write_text(
+        '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n',
+        encoding="utf-8",
+    )
+    name, system = load_scene("prototype_car")
+    path = build_fmu(system, name, tmp_path, [fmpy.platform], names=read_content(tmp_path / "names.toml"))
+    driven = host(path).start({"payload.passenger.mass": 900.0})
+    (said,) = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
+    force = driven.get("Body.Fz")
+    assert force < -1.0
+    assert f"Body.Fz is {force:.4g}" in said
+    assert driven.step(0.0, 0.01) == 0
+    for value, told in ((0.05, False), (0.01, True), (0.0, True)):
+        before = len(driven.messages)
+        assert driven.set("Mu", value) == 0
+        lines = [m for m in driven.messages[before:] if f"'Mu' was set to {value:g}" in m]
+        assert len(lines) == told
+        assert not told or "with which no such vehicle works; from 0.02257 to 2 it does" in lines[0]

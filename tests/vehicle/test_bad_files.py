@@ -219,6 +219,9 @@ def test_what_cannot_be_a_car(case):
 
 
 ODD = {
+    "tyres without grip": ({"front.tyre.grip": 0.0}, "the front tyres reach 0 of their load; with less than 0.02"),
+    "a road without friction": ({"road.friction": 0.0}, "the rear tyres reach 0 of their load; with less than 0.02"),
+    "ice": ({"road.friction": 0.05}, None),
     "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
     "a soft tyre": ({"rear.tyre.stiffness": 40000.0}, "presses the tyre in"),
     "weak dampers": ({"front.damper.damping": 60.0}, "of the critical damping"),

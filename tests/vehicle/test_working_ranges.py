@@ -21,6 +21,10 @@ BAD = {
     "brakes.torque": (30.0, 2e4),
     "drive.max_torque": (5.0, 4.8e3),
     "aerodynamics.drag_area": (19.0,),
+    "front.tyre.grip": (0.0,),
+    "rear.tyre.grip": (0.0,),
+    "road.friction": (0.0, 0.01),
+    "road.friction_factor": (0.0,),
 }
 WHEELS = ("FL", "FR", "RL", "RR")
 system = cache(lambda name: compile(load(name).model()))

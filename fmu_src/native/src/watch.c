@@ -116,12 +116,12 @@ void slave_watch_start(slave *s) {
   const slave_table *t = &slave_the_table;
   if (t->ground >= t->n_variables || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return;
   const slave_variable *v = &t->variable[t->ground];
-  const double force = v->scale * s->sensors[v->index];
-  if (force > 0.0)
+  const double pressed = s->sensors[v->index]; /* under a name of another program it may count the other way */
+  if (pressed > 0.0)
     slave_say(s, SLAVE_WARNING,
               "At the start the vehicle rests on its body: %s is %.4g%s, which its wheels do not bear. Set masses, "
               "springs and tyres, or the place on the road, so that it is 0.",
-              v->name, force, v->unit);
+              v->name, v->scale * pressed, v->unit);
 }
 
 /* After the first step: ports that nobody has set. The step is a good one all the same. */

@@ -12,6 +12,7 @@ from mbs.vehicle.tyre_by_file import MagicFormula
 
 LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
 FRICTION = 0.2, 3.0  # largest force over the load
+GRIPPED = 0.02  # force over the load that a tyre must reach on the road: half of what wet ice gives
 LOADS = 0.2, 5.0  # load at rest over the nominal load
 
 
@@ -29,6 +30,14 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
             yield from axle.tyre.notes
         if axle.by_curves is not None:
             yield from axle.by_curves.notes
+        road, tyre = car.road, axle.tyre
+        reached = min(tyre.friction) * tyre.grip / tyre.reference_friction * road.friction * road.friction_factor
+        if reached < GRIPPED:
+            yield (
+                f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g} and "
+                f"{road.key('friction_factor')} {road.friction_factor:g}: the {wheels} tyres reach {reached:.2g} of "
+                f"their load; with less than {GRIPPED:g} a car neither steers nor brakes."
+            )
         load, nominal = rest.load[wheels], axle.tyre.nominal_load
         if not LOADS[0] <= load / nominal <= LOADS[1]:
             yield (

@@ -12,6 +12,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.masses import centre_of, centre_ranges, weighed_points
 from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.checks.tyres import GRIPPED
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import Damper, Spring
@@ -29,7 +30,7 @@ Ranges = dict[str, tuple[float, float]]
 
 
 def working_ranges(car: CarContent) -> Ranges:
-    """Least and largest value by key path: of tyres, springs, dampers, brakes, drive, air, masses and their places.
+    """Least and largest value by key path: of tyres, road, springs, dampers, brakes, drive, air, masses, places.
 
     The load of a tyre is that which presses it in as drawn. A spring is taken to carry the load of its wheel less the
     unsprung weight, as with a motion ratio of 1; one of a table is stiff as it is under that load.
@@ -61,6 +62,7 @@ def working_ranges(car: CarContent) -> Ranges:
         for payload in car.payload.values():
             _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
     _of_mass_centre(found, car)
+    _of_grip(found, car)
     return found
 
 
@@ -71,6 +73,28 @@ def _of_mass_centre(found: Ranges, car: CarContent) -> None:
     for (path, value), now, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
         low, high = (value + (end - now) / lever for end in span)
         found[path] = min(low, value), max(high, value)
+
+
+def _of_grip(found: Ranges, car: CarContent) -> None:
+    """Of each axle's grip, and of the road's friction and its factor, with the others as they are.
+
+    A file that has less itself is not within.
+    """
+    road = car.road
+    for axle in (car.front, car.rear):
+        reached = min(axle.tyre.friction) / axle.tyre.reference_friction
+        _least(found, axle.tyre, "grip", reached * road.friction * road.friction_factor)
+        _least(found, road, "friction", reached * axle.tyre.grip * road.friction_factor)
+        _least(found, road, "friction_factor", reached * axle.tyre.grip * road.friction)
+
+
+def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
+    """The least value with which both axles reach `GRIPPED`, where one reaches so much with a value of 1."""
+    quantity, path = section.quantity(name), section.key(name)
+    assert quantity is not None, f"{path} is no quantity"
+    if reached > 0.0:
+        least, high = GRIPPED / reached, quantity.high
+        found[path] = min(max(least, found.get(path, (0.0,))[0]), high), high
 
 
 def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:

@@ -22,7 +22,8 @@ from hosts.study.analysis.slide import limit_rows, main_response, write_study_sl
 from hosts.study.analysis.study_section import measures_section
 from hosts.study.analysis.summary_plots import plot_distribution, plot_indices, rank_correlations
 from hosts.study.analysis.tables import extremes, reasons, said, statistics
-from hosts.study.limits import ALL, shares
+from hosts.study.limits import shares
+from hosts.study.work import ALL
 from tests.hosts.study.frames import frame_of
 
 pytestmark = pytest.mark.drawn

@@ -113,7 +113,15 @@ def test_runs_that_fail_at_the_ends_and_between() -> None:
     assert found.runs[0].reason == "failed"
     nothing = sought(lambda x: math.nan, 3.0, 0.0, 4.0)
     assert nothing.best is None
-    assert len(nothing.runs) == 4
+    assert len(nothing.runs) == 7
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_measure_that_only_the_far_part_of_the_range_yields_is_found_there(sign: float) -> None:
+    found = sought(lambda x: x if sign * x > 0.3 else math.nan, 0.7 * sign, -1.0, 1.0)
+    assert found.met
+    assert found.best is not None
+    assert found.best.x == pytest.approx(0.7 * sign, abs=1e-3)
 
 
 def test_zero_is_wanted_with_a_range_by_the_logarithm() -> None:

@@ -94,6 +94,14 @@ def test_a_value_that_cannot_be_met(
         (("--target", "lowest=-1.2", "--between", "1:50"), "spring.stiffness", "its range is 10 to 900 N/m"),
         (("--target", "lowest=-1.2", "--jobs", "2"), "spring.stiffness", "--jobs does not go with --target"),
         (("--between", "1:50"), "spring.stiffness", "--by and --between go with --target"),
+        (("--target", "lowest=-1.2"), "bob.x", "--by: 'bob.x' is an output of the FMU; it cannot be set"),
+        (("--target", "lowest=-1.2"), "spring.mass", "--by: 'spring.mass' is a constant, 0.1 kg; it cannot be set"),
+        (
+            ("--target", "lowest=-1", "--target", "highest=2"),
+            "pull",
+            "is given 2 times, lowest=-1 and highest",
+        ),
+        (("--target", "lowest=1e999"), "spring.stiffness", "--target lowest=1e999: '1e999' is too large"),
     ],
 )
 def test_what_cannot_be_sought_is_one_sentence(
@@ -147,3 +155,11 @@ def test_a_turn_is_two_pi_radians() -> None:
     assert conversion("rad/s", "Hz") == pytest.approx(0.5 / math.pi)
     assert conversion("rpm", "Hz") == pytest.approx(1.0 / 60.0)
     assert conversion("Hz", "Hz") == 1.0
+
+
+def test_a_range_that_begins_with_a_minus_sign_is_told_how_to_be_given(
+    seek: Callable[..., int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        seek("--target", "lowest=-1.2", "--between", "-1:1", by="pull")
+    assert "one that begins with a minus sign is given as --between=-..." in capsys.readouterr().err
