@@ -32,19 +32,13 @@ _READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_
 
 @dataclass
 class Stretch:
-    """Steps from a saved state on.
-
-    Parameters
-    ----------
-    time : float
-        Of the state, s.
-    inputs : list of list of float
-        Of each step since, in the order of the FMU.
-    """
+    """Steps from a saved state on."""
 
     time: float
+    """Of the state, s."""
     state: bytes
     inputs: list[list[float]] = field(default_factory=list)
+    """Of each step since, in the order of the FMU."""
 
 
 @dataclass(frozen=True)

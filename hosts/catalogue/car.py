@@ -51,25 +51,18 @@ class CarFacts:
 
 @dataclass(frozen=True)
 class TestedCar:
-    """A car.
-
-    Parameters
-    ----------
-    aliases : Aliases
-        Our names for its variables.
-    start : mapping of str to float, int, bool or str
-        Start values by our names.
-    step : float, optional
-        Communication step, s; by default that of the FMU.
-    """
+    """A car."""
 
     __test__ = False  # no test of pytest's
 
     label: str
     path: Path
     aliases: Aliases = field(default_factory=Aliases)
+    """Our names for its variables."""
     start: Mapping[str, Value] = field(default_factory=dict)
+    """Start values by our names."""
     step: float | None = None
+    """Communication step, s; by default that of the FMU."""
 
     def drive(
         self,

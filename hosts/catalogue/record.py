@@ -18,21 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Clause:
-    """A part of a standard that a test follows.
-
-    Parameters
-    ----------
-    number : str
-        Such as ``8.2``; empty where only a summary is known.
-    text : str
-        What it demands, in our words.
-    checked : bool
-        Whether it was read in the text of the standard; else it is from public summaries.
-    """
+    """A part of a standard that a test follows."""
 
     number: str
+    """Such as ``8.2``; empty where only a summary is known."""
     text: str
+    """What it demands, in our words."""
     checked: bool = False
+    """Whether it was read in the text of the standard; else it is from public summaries."""
 
 
 @dataclass(frozen=True)
@@ -100,22 +93,16 @@ class Plot:
 
 @dataclass(frozen=True)
 class TestRecord:
-    """What a test of one car has yielded.
-
-    Parameters
-    ----------
-    runs : mapping of str to Result
-        Every run of the FMU by a short name, under our names of variables, in SI units.
-    notes : sequence of str
-        Sentences: what was not as asked, with a number and a remedy.
-    """
+    """What a test of one car has yielded."""
 
     __test__ = False  # no test of pytest's
 
     measures: Sequence[Measure]
     plots: Sequence[Plot]
     runs: Mapping[str, Result]
+    """Every run of the FMU by a short name, under our names of variables, in SI units."""
     notes: Sequence[str] = field(default_factory=tuple)
+    """Sentences: what was not as asked, with a number and a remedy."""
 
 
 class StandardTest(Protocol):

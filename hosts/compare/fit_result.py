@@ -13,27 +13,19 @@ from hosts.compare.unknown import Unknown
 
 @dataclass(frozen=True)
 class Found:
-    """An unknown that was sought.
-
-    Parameters
-    ----------
-    half_width : float
-        Of its 95 % confidence interval; infinite where the log does not determine it.
-    bound : str
-        ``lower`` or ``upper`` where it lies at this bound, else empty.
-    without : float
-        What is left of parts that are left out where it keeps its start value, over what is left with it; to first
-        order.
-    folds : list of float
-        Its values where one of four folds of the log is not fitted, to first order; empty where the log is too short.
-    """
+    """An unknown that was sought."""
 
     unknown: Unknown
     value: float
     half_width: float
+    """Of its 95 % confidence interval; infinite where the log does not determine it."""
     bound: str = ""
+    """``lower`` or ``upper`` where it lies at this bound, else empty."""
     without: float = math.nan
+    """What is left of parts that are left out where it keeps its start value, over what is left with it; to first
+    order."""
     folds: list[float] = field(default_factory=list)
+    """Its values where one of four folds of the log is not fitted, to first order; empty where the log is too short."""
 
 
 @dataclass(frozen=True)

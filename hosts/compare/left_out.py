@@ -23,21 +23,14 @@ FOLDS = 4
 
 @dataclass(frozen=True)
 class Parts:
-    """Parts of a log, each of which can be left out.
-
-    Parameters
-    ----------
-    number : ndarray of int, shape (n,)
-        Of the part in which each residual lies.
-    begins : ndarray of shape (k,)
-        In the log, s.
-    length : float
-        Of a part, s.
-    """
+    """Parts of a log, each of which can be left out."""
 
     number: NDArray[np.intp]
+    """Shape (n,): of the part in which each residual lies."""
     begins: Array
+    """Shape (k,): in the log, s."""
     length: float
+    """Of a part, s."""
 
     @property
     def independent(self) -> float:

@@ -30,27 +30,18 @@ _SLOWEST = 0.5  # s between samples of a test drive, unless the user has named t
 
 @dataclass(frozen=True)
 class Signal:
-    """A measured signal with its own samples.
-
-    Parameters
-    ----------
-    name : str
-        Ours.
-    source : str
-        Column of the log.
-    unit : str
-        Of `values`.
-    time : ndarray of shape (n,)
-        s, increasing; where an input jumps its time stands twice.
-    values : ndarray of shape (n,)
-        Finite.
-    """
+    """A measured signal with its own samples."""
 
     name: str
+    """Ours."""
     source: str
+    """Column of the log."""
     unit: str
+    """Of `values`."""
     time: NDArray[np.float64]
+    """Shape (n,): s, increasing; where an input jumps its time stands twice."""
     values: NDArray[np.float64]
+    """Shape (n,): finite."""
 
     @property
     def interval(self) -> float:

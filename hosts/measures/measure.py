@@ -31,32 +31,22 @@ class Limit:
 
 @dataclass(frozen=True)
 class Measure:
-    """A number.
-
-    Parameters
-    ----------
-    name : str
-        Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores.
-    value : float
-        In `unit`; NaN where the run does not yield it, and `note` says why.
-    unit : str
-        As units of FMI are written, such as ``rad/s``; ``1`` where there is none.
-    text : str
-        What it is, in a line.
-    note : str
-        A sentence where the number is not the plain one, else empty.
-    exists : bool
-        False where there is no such number, as the critical speed of a car that understeers: it is NaN, and is not
-        missing.
-    """
+    """A number."""
 
     name: str
+    """Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores."""
     value: float
+    """In `unit`; NaN where the run does not yield it, and `note` says why."""
     unit: str
+    """As units of FMI are written, such as ``rad/s``; ``1`` where there is none."""
     text: str
+    """What it is, in a line."""
     limit: Limit | None = None
     note: str = ""
+    """A sentence where the number is not the plain one, else empty."""
     exists: bool = True
+    """False where there is no such number, as the critical speed of a car that understeers: it is NaN, and is not
+    missing."""
 
     @property
     def is_missing(self) -> bool:

@@ -15,34 +15,23 @@ from hosts.simulator.shared_values import MOMENT
 
 @dataclass(frozen=True)
 class CarSettings:
-    """What a car is started with.
-
-    Parameters
-    ----------
-    fmu : Path
-        Of FMI 2.0, co-simulation.
-    start : mapping of str to float, int, bool or str
-        Parameters and start values.
-    step : float
-        Communication step, s.
-    paced : bool
-        False: as fast as it goes.
-    interval : float, optional
-        Between recorded outputs, s; by default see `hosts.recordings.recorded_columns`.
-    priority : bool
-        Whether to ask for real-time priority; what was got is an event.
-    world : str, optional
-        What a recording calls the world.
-    """
+    """What a car is started with."""
 
     fmu: Path
+    """Of FMI 2.0, co-simulation."""
     start: Mapping[str, Value]
+    """Parameters and start values."""
     step: float = 0.002
+    """Communication step, s."""
     paced: bool = True
+    """False: as fast as it goes."""
     record: Path | None = None
     interval: float | None = None
+    """Between recorded outputs, s; by default see `hosts.recordings.recorded_columns`."""
     priority: bool = True
+    """Whether to ask for real-time priority; what was got is an event."""
     world: str | None = None
+    """What a recording calls the world."""
     seed: int | None = None
 
 
@@ -100,18 +89,11 @@ class Moment:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that is to be said.
-
-    Parameters
-    ----------
-    time : float
-        Simulated time, s.
-    kind : str
-        ``told``, ``refused``, ``capped``, ``behind``, ``reset``, ``rewind``, ``upright``, ``priority``, ``overflow``.
-    text : str
-        One or two sentences.
-    """
+    """Something that is to be said."""
 
     time: float
+    """Simulated time, s."""
     kind: str
+    """``told``, ``refused``, ``capped``, ``behind``, ``reset``, ``rewind``, ``upright``, ``priority``, ``overflow``."""
     text: str
+    """One or two sentences."""

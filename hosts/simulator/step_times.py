@@ -69,17 +69,12 @@ class TimesRecord:
 
 @dataclass(frozen=True)
 class Spread:
-    """A histogram and its largest value.
-
-    Parameters
-    ----------
-    counts : ndarray of shape (BINS,)
-    largest : float
-        s.
-    """
+    """A histogram and its largest value."""
 
     counts: NDArray[np.float64]
+    """Shape (BINS,)."""
     largest: float
+    """s."""
 
     def quantile(self, part: float) -> float:
         """The time that this part of the steps does not exceed, s: the upper edge of its bin (6 %), 0 without steps."""

@@ -34,19 +34,13 @@ _CHUNK_BYTES = 20e6  # of signals that come from a worker at once
 
 @dataclass(frozen=True)
 class Ended:
-    """What a study has come to.
-
-    Parameters
-    ----------
-    good : bool
-        Whether every run has a row, and one at least of those made now has all its measures.
-    failed : int
-        Of the runs that were made now.
-    """
+    """What a study has come to."""
 
     folder: Path
     good: bool
+    """Whether every run has a row, and one at least of those made now has all its measures."""
     failed: int
+    """Of the runs that were made now."""
 
 
 def run_study(

@@ -25,19 +25,13 @@ _NEAR = 0.05  # of the range, or of the value: farther ones tell another slope
 
 @dataclass(frozen=True)
 class Run:
-    """A run of a search.
-
-    Parameters
-    ----------
-    y : float
-        Of the measure; NaN where the run does not yield it.
-    reason : str
-        Why it does not, else empty.
-    """
+    """A run of a search."""
 
     x: float
     y: float
+    """Of the measure; NaN where the run does not yield it."""
     reason: str = ""
+    """Why it does not, else empty."""
 
 
 @dataclass(frozen=True)

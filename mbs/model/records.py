@@ -11,18 +11,12 @@ from mbs.kernel.header.enumerations import GuideType, ParameterTarget
 
 @dataclass(frozen=True)
 class Constant:
-    """A number that is stated, not computed.
-
-    Parameters
-    ----------
-    name : str
-        Unique, such as ``vehicle.wheelbase``.
-    value : float
-        In `unit`.
-    """
+    """A number that is stated, not computed."""
 
     name: str
+    """Unique, such as ``vehicle.wheelbase``."""
     value: float
+    """In `unit`."""
     unit: str
     description: str
 
@@ -83,19 +77,13 @@ class Switch:
 
 @dataclass(frozen=True)
 class Armature:
-    """Inertia that turns `ratio` times as fast as a coordinate; made by `Model.armature`.
-
-    Attributes
-    ----------
-    coordinate : Affine
-        The angle as an expression, rad.
-    inertia : float
-        Of what turns, about its own axis, kg m2.
-    """
+    """Inertia that turns `ratio` times as fast as a coordinate; made by `Model.armature`."""
 
     name: str
     coordinate: Affine
+    """The angle as an expression, rad."""
     inertia: float
+    """Of what turns, about its own axis, kg m2."""
     ratio: float
 
 
@@ -147,17 +135,12 @@ class Parameter:
 
 @dataclass(frozen=True)
 class RoadFileParameter:
-    """A parameter that is text: the file in place of a road.
-
-    Parameters
-    ----------
-    start : str
-        Path of the file; empty: none, the road of the model.
-    """
+    """A parameter that is text: the file in place of a road."""
 
     name: str
     road: int
     start: str
+    """Path of the file; empty: none, the road of the model."""
 
     @property
     def description(self) -> str:

@@ -31,18 +31,12 @@ DRAWN = 1e-6
 
 @dataclass(frozen=True)
 class SmoothTable:
-    """Functions of one or two variables at equally spaced points, smooth between them.
-
-    Attributes
-    ----------
-    axes : tuple of ndarray
-        Points along each variable.
-    coefficients : ndarray, shape (n0 + 2, n1 + 2, k), or (n0 + 2, 1, k) of one variable
-        Control points of the cubic B-splines.
-    """
+    """Functions of one or two variables at equally spaced points, smooth between them."""
 
     axes: tuple[Array, ...]
+    """Points along each variable."""
     coefficients: Array
+    """Shape (n0 + 2, n1 + 2, k), or (n0 + 2, 1, k) of one variable: control points of the cubic B-splines."""
 
     def value(self, *at: float) -> Array:
         """The functions at a place, shape (k,)."""

@@ -90,34 +90,23 @@ class InputMapping:
 
 @dataclass(frozen=True)
 class DeviceSettings:
-    """What belongs to a device rather than to one of its inputs.
-
-    Parameters
-    ----------
-    rotation : float
-        Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
-        ends of the axis are full steering.
-    force : float
-        Factor on the force; 0: none.
-    full_torque : float
-        Torque of the car's steering wheel, N m, at which the motor gives all it can with `force` 1.
-    force_inverted : bool
-        Whether the motor of this device turns the other way.
-    smoothing : float
-        Time constant of the force, s.
-    damper : float
-        Share of the motor's largest damping, always on.
-    spring : float
-        Share of the motor's largest spring to the middle, on while the car does not run.
-    """
+    """What belongs to a device rather than to one of its inputs."""
 
     rotation: float = 0.0
+    """Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
+    ends of the axis are full steering."""
     force: float = 0.5
+    """Factor on the force; 0: none."""
     full_torque: float = 10.0
+    """Torque of the car's steering wheel, N m, at which the motor gives all it can with `force` 1."""
     force_inverted: bool = False
+    """Whether the motor of this device turns the other way."""
     smoothing: float = 0.01
+    """Time constant of the force, s."""
     damper: float = 0.1
+    """Share of the motor's largest damping, always on."""
     spring: float = 0.1
+    """Share of the motor's largest spring to the middle, on while the car does not run."""
 
 
 _RANGES = {

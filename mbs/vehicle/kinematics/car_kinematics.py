@@ -29,19 +29,13 @@ FARTHEST, MOST_POINTS = 0.5, 10_001
 
 @dataclass(frozen=True)
 class Kinematics:
-    """Wheel travel and steer curves of a car.
-
-    Attributes
-    ----------
-    curves : dict of (str, str) to Curve
-        By axle and motion; "steer" of the front axle alone.
-    notes : tuple of str
-        Sentences: where curves end early, where the range goes into the stops.
-    """
+    """Wheel travel and steer curves of a car."""
 
     car: str
     curves: dict[tuple[str, str], Curve]
+    """By axle and motion; "steer" of the front axle alone."""
     notes: tuple[str, ...]
+    """Sentences: where curves end early, where the range goes into the stops."""
 
     def drawn(self, axle: str) -> dict[str, float]:
         """Values and gradients at the drawing, SI units.

@@ -77,21 +77,14 @@ class WheelMotion:
 
 @dataclass(frozen=True)
 class SteeringAxis:
-    """The axis about which a wheel is steered.
-
-    Attributes
-    ----------
-    way : ndarray, shape (3,)
-        Unit vector that points up.
-    point : ndarray, shape (3,)
-        A point of it, m.
-    pitch : float
-        Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it.
-    """
+    """The axis about which a wheel is steered."""
 
     way: Array
+    """Shape (3,): unit vector that points up."""
     point: Array
+    """Shape (3,): a point of it, m."""
     pitch: float
+    """Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it."""
 
     def at_height(self, z: float) -> Array:
         """Point of the axis at a height, m, shape (3,).
