@@ -24,29 +24,20 @@ __all__ = ["CarFacts", "Pilot", "TestedCar"]
 
 @dataclass(frozen=True)
 class CarFacts:
-    """What an FMU tells of its car.
-
-    Parameters
-    ----------
-    inputs, outputs, parameters : tuple of str
-        By our names, in the order of the FMU; real and whole ones.
-    units : mapping of str to str
-        Of all variables by our names.
-    constants : mapping of str to float
-        Of the FMU and of the alias file, by our names.
-    step : float
-        Communication step, s.
-    token : str
-        That tells another build of the FMU.
-    """
+    """What an FMU tells of its car."""
 
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     parameters: tuple[str, ...]
+    """`inputs`, `outputs`, `parameters`: by our names, in the order of the FMU; real and whole ones."""
     units: Mapping[str, str]
+    """Of all variables by our names."""
     constants: Mapping[str, float]
+    """Of the FMU and of the alias file, by our names."""
     step: float
+    """Communication step, s."""
     token: str = ""
+    """That tells another build of the FMU."""
 
 
 @dataclass(frozen=True)

@@ -39,22 +39,16 @@ class Standard:
 
 @dataclass(frozen=True)
 class Setting:
-    """A number of a test that a user may change.
-
-    Parameters
-    ----------
-    value : float
-        By default, in `unit`.
-    lowest, highest : float
-        Of what makes sense.
-    """
+    """A number of a test that a user may change."""
 
     name: str
     value: float
+    """By default, in `unit`."""
     unit: str
     text: str
     lowest: float = -np.inf
     highest: float = np.inf
+    """`lowest`, `highest`: of what makes sense."""
 
 
 @dataclass(frozen=True)
@@ -68,27 +62,19 @@ class Line:
 
 @dataclass(frozen=True)
 class Plot:
-    """A plot of a test; lines of several cars are drawn into the same.
-
-    Parameters
-    ----------
-    title : str
-        By which plots of several cars are matched.
-    x, y : str
-        Quantity and unit, such as ``lateral acceleration, m/s²``.
-    log_x, log_y : bool
-        Whether the axis is logarithmic.
-    equal : bool
-        Whether both axes have the same scale.
-    """
+    """A plot of a test; lines of several cars are drawn into the same."""
 
     title: str
+    """By which plots of several cars are matched."""
     x: str
     y: str
+    """`x`, `y`: quantity and unit, such as ``lateral acceleration, m/s²``."""
     lines: Sequence[Line]
     log_x: bool = False
     log_y: bool = False
+    """`log_x`, `log_y`: whether the axis is logarithmic."""
     equal: bool = False
+    """Whether both axes have the same scale."""
 
 
 @dataclass(frozen=True)

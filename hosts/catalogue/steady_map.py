@@ -27,19 +27,13 @@ _LATEST = 1.0
 
 @dataclass(frozen=True)
 class SteadyMap:
-    """The map of one side.
-
-    Parameters
-    ----------
-    speed : float
-        m/s.
-    angle, acceleration : ndarray of shape (n,)
-        Sizes, rad and m/s²; filtered, up to the largest acceleration.
-    """
+    """The map of one side."""
 
     speed: float
+    """m/s."""
     angle: NDArray[np.float64]
     acceleration: NDArray[np.float64]
+    """`angle`, `acceleration`, shape (n,): sizes, rad and m/s²; filtered, up to the largest acceleration."""
     run: SteeredRun
     notes: tuple[str, ...] = ()
 

@@ -62,23 +62,16 @@ class Signal:
 
 @dataclass(frozen=True)
 class Log:
-    """Signals by our names.
-
-    Parameters
-    ----------
-    inputs, outputs : dict of str to Signal
-        What drives the FMU, and what is compared with it.
-    held : frozenset of str
-        Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours.
-    begun : dict of str to float, int, bool or str, optional
-        Start values of that run, where its first row is the first of the log.
-    """
+    """Signals by our names."""
 
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
+    """`inputs`, `outputs`: what drives the FMU, and what is compared with it."""
     notes: list[str]
     held: frozenset[str] = frozenset()
+    """Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours."""
     begun: Mapping[str, Value] | None = None
+    """Start values of that run, where its first row is the first of the log."""
 
 
 def log_for(

@@ -10,19 +10,13 @@ from hosts.common.numbers import is_round_off
 
 @dataclass(frozen=True)
 class Limit:
-    """What a measure must keep.
-
-    Parameters
-    ----------
-    source : str
-        Who demands it: standard and clause.
-    lowest, highest : float
-        In the unit of the measure; infinite: not limited.
-    """
+    """What a measure must keep."""
 
     source: str
+    """Who demands it: standard and clause."""
     lowest: float = -math.inf
     highest: float = math.inf
+    """`lowest`, `highest`: in the unit of the measure; infinite: not limited."""
 
     def holds(self, value: float) -> bool:
         """Whether a value keeps it; a NaN does not."""

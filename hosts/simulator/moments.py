@@ -37,46 +37,34 @@ class CarSettings:
 
 @dataclass(frozen=True)
 class Moment:
-    """The car after a step.
-
-    Parameters
-    ----------
-    count : int
-        Steps computed; it never falls.
-    time : float
-        Simulated time, s; it falls at a rewind or reset.
-    epoch : int
-        One more at every jump: nothing may be interpolated across it.
-    running, refused, behind : bool
-        Not paused; the FMU refused the last step; the car is late, or was within the last second.
-    speed : float
-        Simulated over wall seconds that are asked for.
-    wall : float
-        When this was written, by `time.perf_counter`, which all processes of a machine share, s.
-    cost, worst, lateness : float
-        Work of the last step, largest of about the last second, and begin of the last step after its time, s.
-    missed : int
-        Deadlines missed so far.
-    saved : float
-        Simulated time that can be rewound, s.
-    values : ndarray of shape (n,)
-        One for each of `Car.names`, in the units of the model description.
-    """
+    """The car after a step."""
 
     count: int
+    """Steps computed; it never falls."""
     time: float
+    """Simulated time, s; it falls at a rewind or reset."""
     epoch: int
+    """One more at every jump: nothing may be interpolated across it."""
     running: bool
     refused: bool
     behind: bool
+    """`running`, `refused`, `behind`: not paused; the FMU refused the last step; the car is late, or was within the
+    last second."""
     speed: float
+    """Simulated over wall seconds that are asked for."""
     wall: float
+    """When this was written, by `time.perf_counter`, which all processes of a machine share, s."""
     cost: float
     worst: float
     lateness: float
+    """`cost`, `worst`, `lateness`: work of the last step, largest of about the last second, and begin of the last step
+    after its time, s."""
     missed: int
+    """Deadlines missed so far."""
     saved: float
+    """Simulated time that can be rewound, s."""
     values: NDArray[np.float64]
+    """Shape (n,): one for each of `Car.names`, in the units of the model description."""
 
     @staticmethod
     def of(record: NDArray[np.float64]) -> Moment:

@@ -116,52 +116,36 @@ _TOPS = [float(f"{m}e{e}") for e in range(-6, 2) for m in (1, 2, 5)] + [math.inf
 
 @dataclass(frozen=True)
 class StepTimes:
-    """Times of the steps so far.
-
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
-    simulated : float
-        Simulated time of these steps, s.
-    scheduled : float
-        Wall time that they were to take at the speeds that were asked for, s.
-    wall, paused : float
-        Wall time in which the car ran and in which it was paused, s.
-    missed : int
-        Deadlines that were missed: the step was not done when the next was to begin.
-    missed_by : dict of str to int
-        How many of them by each of `CAUSES`; all zero where the system does not tell.
-    skipped : int
-        How often the schedule was moved on because the car was too late.
-    lost : float
-        Wall time by which it was moved, s.
-    cost, lateness : Spread
-        Of the work of a step, and of its begin after its scheduled time.
-    mean : float
-        Of the costs, s.
-    capped : int
-        Inner steps of the FMU that a limit of iterations cut short.
-    capped_residual : float
-        The largest that they left, m.
-    """
+    """Times of the steps so far."""
 
     step: float
+    """Communication step, s."""
     paced: bool
     steps: int
     simulated: float
+    """Simulated time of these steps, s."""
     scheduled: float
+    """Wall time that they were to take at the speeds that were asked for, s."""
     wall: float
     paused: float
+    """`wall`, `paused`: wall time in which the car ran and in which it was paused, s."""
     missed: int
+    """Deadlines that were missed: the step was not done when the next was to begin."""
     missed_by: dict[str, int]
+    """How many of them by each of `CAUSES`; all zero where the system does not tell."""
     skipped: int
+    """How often the schedule was moved on because the car was too late."""
     lost: float
+    """Wall time by which it was moved, s."""
     cost: Spread
     lateness: Spread
+    """`cost`, `lateness`: of the work of a step, and of its begin after its scheduled time."""
     mean: float
+    """Of the costs, s."""
     capped: int
+    """Inner steps of the FMU that a limit of iterations cut short."""
     capped_residual: float
+    """The largest that they left, m."""
 
     @staticmethod
     def of(values: NDArray[np.float64], step: float, paced: bool) -> StepTimes:

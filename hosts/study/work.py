@@ -69,30 +69,22 @@ class Chunk:
 
 @dataclass
 class Outcome:
-    """How a run ended.
-
-    Parameters
-    ----------
-    simulated, wall : float
-        s.
-    signals : ndarray of shape (samples, signals), optional
-    units : dict of str to str
-        Of the measures of a test, where it is not yet known which there are.
-    messages : tuple of str
-        What the FMU said, and notes of a test; each sentence once.
-    missing : tuple of str
-        Measures that there should be and that the run did not yield; other NaN are of measures that it has not.
-    """
+    """How a run ended."""
 
     status: str = DONE
     reason: str = ""
     measures: dict[str, float] = field(default_factory=dict)
     simulated: float = 0.0
     wall: float = 0.0
+    """`simulated`, `wall`: s."""
     signals: NDArray[np.float64] | None = None
+    """Shape (samples, signals)."""
     units: dict[str, str] = field(default_factory=dict)
+    """Of the measures of a test, where it is not yet known which there are."""
     messages: tuple[str, ...] = ()
+    """What the FMU said, and notes of a test; each sentence once."""
     missing: tuple[str, ...] = ()
+    """Measures that there should be and that the run did not yield; other NaN are of measures that it has not."""
 
 
 def seed_of(study_seed: int, point: int) -> int:

@@ -48,15 +48,6 @@ class Spin(Coordinate):
 
     The coordinate is a quasi coordinate: its rate is the absolute angular velocity of the wheel along `axis`; its
     value has no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
-
-    Attributes
-    ----------
-    centre, axis, f, g : AffineVector
-        Wheel centre and unit vectors of the carrier with axis = f x g; nothing else has the expressions of these.
-    rolling_radius : float
-        Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none.
-    drawn : tuple of tuple of float
-        f, g and axis in the drawing.
     """
 
     carrier: Body
@@ -64,10 +55,14 @@ class Spin(Coordinate):
     axis: AffineVector
     f: AffineVector
     g: AffineVector
+    """`centre`, `axis`, `f`, `g`: wheel centre and unit vectors of the carrier with axis = f x g; nothing else has the
+    expressions of these."""
     spin_inertia: float
     diametral_inertia: float
     rolling_radius: float
+    """Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none."""
     drawn: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+    """f, g and axis in the drawing."""
 
     @property
     def axis_reference(self) -> tuple[float, ...]:

@@ -103,29 +103,21 @@ class Guide:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads, payloads and others.
-
-    Parameters
-    ----------
-    value, min, max : float
-        As compiled, and its limits.
-    targets : tuple of (int, int, int, float, float)
-        Family, index in the family, index of the real, scale, offset, whether the scale is divided by the value.
-    tunable : bool
-        Whether it may be set while the model moves.
-    works : (float, float), optional
-        Least and largest value with which the model does what it is made for.
-    """
+    """A number that writes value * scale + offset to data of elements, guides, roads, payloads and others."""
 
     name: str
     value: float
     min: float
     max: float
+    """`value`, `min`, `max`: as compiled, and its limits."""
     unit: str
     description: str
     targets: tuple[tuple[int, int, int, float, float, bool], ...]
+    """Family, index in the family, index of the real, scale, offset, whether the scale is divided by the value."""
     tunable: bool = True
+    """Whether it may be set while the model moves."""
     works: tuple[float, float] | None = None
+    """Least and largest value with which the model does what it is made for."""
 
     @property
     def whole(self) -> bool:

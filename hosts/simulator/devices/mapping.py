@@ -30,28 +30,20 @@ def drivable(inputs: Collection[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class InputMapping:
-    """How a source moves an input.
-
-    Parameters
-    ----------
-    source : str
-        Such as ``axis 0``, ``button 5`` or ``hat 0 up``.
-    inverted : bool
-        Whether the input grows as the axis falls.
-    low, high : float
-        Ends of the axis, from -1 to 1; beyond them nothing changes. Half an axis: 0 and 1, or -1 and 0.
-    dead_zone : float
-        Share of the way that does nothing: to both sides of the middle, or at the rest of a pedal.
-    centre : float or None
-        Where an axis of the steering rests; None: halfway.
-    """
+    """How a source moves an input."""
 
     source: str
+    """Such as ``axis 0``, ``button 5`` or ``hat 0 up``."""
     inverted: bool = False
+    """Whether the input grows as the axis falls."""
     low: float = -1.0
     high: float = 1.0
+    """`low`, `high`: ends of the axis, from -1 to 1; beyond them nothing changes. Half an axis: 0 and 1, or -1 and
+    0."""
     dead_zone: float = 0.0
+    """Share of the way that does nothing: to both sides of the middle, or at the rest of a pedal."""
     centre: float | None = None
+    """Where an axis of the steering rests; None: halfway."""
 
     def value(self, name: str, reading: Reading) -> float | None:
         """The input.

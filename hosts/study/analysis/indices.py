@@ -20,27 +20,20 @@ _SEED = 1  # of the bootstrap; SALib takes 0 for none
 
 @dataclass(frozen=True)
 class Indices:
-    """Indices of the parameters, 0 to 1; NaN where there is none.
-
-    Parameters
-    ----------
-    first, first_conf : ndarray of shape (d,)
-        Part of the variance that a parameter makes alone, and half its 95 % confidence interval.
-    total, total_conf : ndarray of shape (d,)
-        Part that it makes alone and together with the others.
-    second : ndarray of shape (d, d), optional
-        Part that two make together, above the diagonal.
-    how : str
-        A sentence: by which estimator, from how many runs.
-    """
+    """Indices of the parameters, 0 to 1; NaN where there is none."""
 
     names: tuple[str, ...]
     first: NDArray[np.float64]
     first_conf: NDArray[np.float64]
+    """`first`, `first_conf`, shape (d,): part of the variance that a parameter makes alone, and half its 95 %
+    confidence interval."""
     total: NDArray[np.float64]
     total_conf: NDArray[np.float64]
+    """`total`, `total_conf`, shape (d,): part that it makes alone and together with the others."""
     how: str
+    """A sentence: by which estimator, from how many runs."""
     second: NDArray[np.float64] | None = None
+    """Shape (d, d): part that two make together, above the diagonal."""
 
 
 def saltelli_indices(

@@ -34,7 +34,7 @@ class Curve:
 
     axle: str
     motion: str
-    """Wheels up and down together "parallel"; left up as right goes down "opposite"; left alone "single"; rack "steer"."""
+    """Both wheels "parallel", left up as right goes down "opposite", the left one alone "single", the rack "steer"."""
     columns: dict[str, Array]
     """By name, each of shape (n,), in SI units; those of a wheel have ``_left`` or ``_right`` behind the name of their
     quantity."""
