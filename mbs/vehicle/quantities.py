@@ -27,8 +27,7 @@ class Quantity:
     zero: bool = False
     """Whether 0 is allowed too; a parameter may then be anywhere between 0 and `high`."""
     change: Change | None = None
-    """"tunable" or "fixed": whether the FMU has it as a parameter that may change while driving, or before the
-    start only."""
+    """Whether the FMU has it as a parameter: one that may change while driving, or before the start only."""
 
     def check(self, value: float) -> float:
         """The value, if it is in the range.
