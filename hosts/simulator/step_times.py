@@ -179,25 +179,8 @@ class StepTimes:
 
     def report(self) -> dict[str, Any]:
         """For JSON; times in s, `bins` as upper edge and count."""
-        return {
-            "step": self.step,
-            "paced": self.paced,
-            "steps": self.steps,
-            "simulated": self.simulated,
-            "scheduled": self.scheduled,
-            "wall": self.wall,
-            "paused": self.paused,
-            "factor": self.factor,
-            "missed": self.missed,
-            "missed_by": self.missed_by,
-            "skipped": self.skipped,
-            "lost": self.lost,
-            "mean": self.mean,
-            "capped": self.capped,
-            "capped_residual": self.capped_residual,
-            "cost": self.cost.report(),
-            "lateness": self.lateness.report(),
-        }
+        spreads = {"cost": self.cost.report(), "lateness": self.lateness.report()}
+        return vars(self) | {"factor": self.factor} | spreads
 
     def text(self) -> str:
         """For a person."""
