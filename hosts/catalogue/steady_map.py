@@ -66,7 +66,7 @@ class SteadyMap:
 
 
 def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
-    """Drive the ramp to the left.
+    """Drive the ramp to the left; the map is empty if the car does not come to the speed.
 
     Parameters
     ----------
@@ -74,11 +74,6 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
         m/s.
     acceleration : float
         Up to which the map is wanted, m/s².
-
-    Returns
-    -------
-    SteadyMap
-        Empty if the car does not come to the speed.
 
     Notes
     -----

@@ -85,16 +85,12 @@ def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Arra
 
 
 def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
-    """Residuals of each part with the parameters that the other parts give, to first order.
+    """Residuals of each part with the parameters that the other parts give, to first order, shape (n,).
 
     Parameters
     ----------
     jacobian : ndarray of shape (n, p)
     residual : ndarray of shape (n,)
-
-    Returns
-    -------
-    ndarray of shape (n,)
     """
     found = residual.copy()
     for k, change in enumerate(_changes(jacobian, residual, parts, [[k] for k in range(len(parts.begins))])):

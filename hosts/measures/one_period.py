@@ -63,7 +63,7 @@ def correlation_lag(
 def one_period(
     time: NDArray[np.float64], steering: NDArray[np.float64], values: NDArray[np.float64], longest: float = 0.9
 ) -> OnePeriod:
-    """Measures of the response of one quantity to one period.
+    """Measures of the response of one quantity to one period; all NaN where a signal is zero or not finite.
 
     Parameters
     ----------
@@ -73,11 +73,6 @@ def one_period(
         Less their values before the period; `values` has the sign of the steering in a steady state.
     longest : float
         Largest lag that is looked for, s; less than half of the period.
-
-    Returns
-    -------
-    OnePeriod
-        All NaN where a signal is zero or not finite.
     """
     if len(time) < 5 or not np.isfinite(values).all() or not values.any() or not steering.any():
         return NOTHING

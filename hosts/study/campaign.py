@@ -46,7 +46,7 @@ class Ended:
 def run_study(
     file: Path, out: Path | None, scheduler: str | None, workers: int | None, dry: bool = False, again: bool = False
 ) -> Ended | None:
-    """Check a study, make the runs that are missing, and write their rows.
+    """Check a study, make the runs that are missing, and write their rows; None after a dry run.
 
     Parameters
     ----------
@@ -56,11 +56,6 @@ def run_study(
         Only print the plan.
     again : bool
         Make failed runs again.
-
-    Returns
-    -------
-    Ended or None
-        None after a dry run.
 
     Raises
     ------

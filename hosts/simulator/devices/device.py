@@ -88,17 +88,12 @@ class Device:
                 self._at_rest[name] = value
 
     def wants(self, everything: bool) -> dict[str, tuple[float, float]]:
-        """What it wants of the car, by the reading it has.
+        """What it wants of the car, by the reading it has: value, and largest change per second.
 
         Parameters
         ----------
         everything : bool
             Also what has not changed since the last call.
-
-        Returns
-        -------
-        dict of str to (float, float)
-            Value, and largest change per second.
         """
         found: dict[str, tuple[float, float]] = {}
         for name, mapping in self.mapping.inputs.items():

@@ -39,7 +39,7 @@ class Indices:
 def saltelli_indices(
     names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64], second_order: bool
 ) -> Indices | str:
-    """First-order and total indices from a design of Saltelli's.
+    """First-order and total indices from a design of Saltelli's; or why there are none.
 
     Parameters
     ----------
@@ -50,11 +50,6 @@ def saltelli_indices(
         Finite.
     second_order : bool
         As the plan was made.
-
-    Returns
-    -------
-    Indices or str
-        Why there are none.
 
     Notes
     -----
@@ -87,7 +82,7 @@ def saltelli_indices(
 
 
 def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
-    """Indices of a full grid whose levels are equally likely: exact, by sums of squares.
+    """Indices of a full grid whose levels are equally likely: exact, by sums of squares; or why there are none.
 
     Parameters
     ----------
@@ -95,11 +90,6 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     x : ndarray of shape (n, d)
     y : ndarray of shape (n,)
         Finite.
-
-    Returns
-    -------
-    Indices or str
-        Why there are none.
     """
     codes = [np.unique(column, return_inverse=True) for column in x.T]
     shape = tuple(len(levels) for levels, _ in codes)
@@ -122,7 +112,7 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
 
 
 def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
-    """First-order indices of any design that fills its space, by RBD-FAST.
+    """First-order indices of any design that fills its space, by RBD-FAST; or why there are none.
 
     Parameters
     ----------
@@ -130,11 +120,6 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
     x : ndarray of shape (n, d)
     y : ndarray of shape (n,)
         Finite.
-
-    Returns
-    -------
-    Indices or str
-        Why there are none.
 
     Notes
     -----

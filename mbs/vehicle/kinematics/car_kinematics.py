@@ -71,7 +71,7 @@ def kinematics(
     points: int = POINTS,
     progress: Callable[[float], None] | None = None,
 ) -> Kinematics:
-    """Wheel travel and steer curves of both axles with the chassis held and rigid.
+    """Wheel travel and steer curves of both axles with the chassis held and rigid, in SI units.
 
     Parameters
     ----------
@@ -81,11 +81,6 @@ def kinematics(
         Of each curve; one at the drawing is added where there is none.
     progress : callable, optional
         Receives the share that is done.
-
-    Returns
-    -------
-    Kinematics
-        In SI units.
 
     Raises
     ------

@@ -45,17 +45,12 @@ class Compliance:
 
 
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
-    """Compliance of both axles at the drawing.
+    """Compliance of both axles at the drawing, in SI units.
 
     Parameters
     ----------
     fidelity : Fidelity, int or str, optional
         Of the chassis; by default its flexible frame with all static modes, where the car has one.
-
-    Returns
-    -------
-    Compliance
-        In SI units.
 
     Raises
     ------

@@ -55,13 +55,7 @@ class Curve:
         return "steering_wheel_angle" if self.motion == "steer" else "wheel_travel_left"
 
     def drawn(self) -> dict[str, float]:
-        """Values at the drawing, where the motion is zero.
-
-        Returns
-        -------
-        dict of str to float
-            By column.
-        """
+        """Values at the drawing, where the motion is zero, by column."""
         k = int(np.argmin(np.abs(self.columns[self.over])))
         return {name: float(values[k]) for name, values in self.columns.items()}
 
