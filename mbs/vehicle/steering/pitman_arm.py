@@ -176,7 +176,7 @@ class PitmanArm(SteeringSection):
         return 1.0
 
     def turn(self, way: float) -> float:
-        """Right-handed turn of the arm about its axis per angle that steers to the left, 1 or -1; `way` as of `signed`."""
+        """Right-handed turn of the arm per angle that steers to the left, 1 or -1; `way` is as of `signed`."""
         return way * math.copysign(1.0, (self.four_bar.joint - self.four_bar.pivot).real)
 
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
