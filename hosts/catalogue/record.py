@@ -92,21 +92,15 @@ class TestRecord:
 
 
 class StandardTest(Protocol):
-    """A test of the catalogue.
-
-    Parameters
-    ----------
-    name : str
-        Of the command, such as ``step_steer``.
-    needs : tuple of str
-        Variables by our names without which the test cannot be done.
-    """
+    """A test of the catalogue."""
 
     name: str
+    """Of the command, such as ``step_steer``."""
     title: str
     standards: tuple[Standard, ...]
     settings: tuple[Setting, ...]
     needs: tuple[str, ...]
+    """Variables by our names without which the test cannot be done."""
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """Do the test.

@@ -118,17 +118,7 @@ def _weights(axis: Array, x: float) -> Array:
 
 
 class TabledBody(Body):
-    """A rigid body that a table places on another; made by `Model.tabled_body`. It takes forces and sensors, no joints.
-
-    Attributes
-    ----------
-    base : Body
-        What it is placed on.
-    parameters : tuple of Coordinate
-        Variables of its table.
-    table : SmoothTable
-        Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes.
-    """
+    """A rigid body that a table places on another (`Model.tabled_body`); it takes forces and sensors, no joints."""
 
     is_tabled = True
     outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
@@ -138,8 +128,11 @@ class TabledBody(Body):
         return [CoordinateInfo(c.name, "tabled", c.component, c.reference) for c in super().coordinates()]
 
     base: Body
+    """What it is placed on."""
     parameters: tuple[Coordinate, ...]
+    """Variables of its table."""
     table: SmoothTable
+    """Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes."""
 
 
 @dataclass(frozen=True)
