@@ -27,22 +27,15 @@ _KEYS = ("name", "factor", "offset", "unit")
 
 @dataclass
 class Entry:
-    """One of our names.
-
-    Parameters
-    ----------
-    value : dict
-        As it stands there; a text alone is ``{"name": text}``.
-    file : str
-        Where it stands.
-    partial : bool
-        Whether it is left out where the FMU lacks the variable.
-    """
+    """One of our names."""
 
     ours: str
     value: dict[str, Any]
+    """As it stands there; a text alone is ``{"name": text}``."""
     file: str
+    """Where it stands."""
     partial: bool
+    """Whether it is left out where the FMU lacks the variable."""
 
     @property
     def where(self) -> str:
@@ -52,20 +45,14 @@ class Entry:
 
 @dataclass
 class Content:
-    """All of a file.
-
-    Parameters
-    ----------
-    entries : dict of str to Entry
-        By our names.
-    needs : dict of str to str
-        Constants of the car by name, with a text.
-    """
+    """All of a file."""
 
     file: str
     entries: dict[str, Entry] = field(default_factory=dict)
+    """By our names."""
     constants: dict[str, float] = field(default_factory=dict)
     needs: dict[str, str] = field(default_factory=dict)
+    """Constants of the car by name, with a text."""
 
 
 def read_content(file: Path, depth: int = 0) -> Content:

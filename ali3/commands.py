@@ -6,21 +6,14 @@ from typing import NamedTuple
 
 
 class Command(NamedTuple):
-    """A subcommand.
-
-    Parameters
-    ----------
-    name : str
-        As the user types it.
-    module : str
-        Imported when the command runs; its ``main(arguments, prog)`` returns the exit code.
-    extra : str
-        Of the installation, which brings the packages of the command; empty if it needs none.
-    """
+    """A subcommand."""
 
     name: str
+    """As the user types it."""
     module: str
+    """Imported when the command runs; its ``main(arguments, prog)`` returns the exit code."""
     extra: str
+    """Of the installation, which brings the packages of the command; empty if it needs none."""
     text: str
 
 

@@ -17,18 +17,13 @@ _SECTIONS: dict[Track, tuple[float, ...]] = {
 
 @dataclass(frozen=True)
 class Gate:
-    """A lane with straight edges along x.
-
-    Parameters
-    ----------
-    x_start, x_end, y_right, y_left : float
-        m.
-    """
+    """A lane with straight edges along x."""
 
     x_start: float
     x_end: float
     y_right: float
     y_left: float
+    """`x_start`, `x_end`, `y_right`, `y_left`: m."""
 
     @property
     def centre(self) -> float:

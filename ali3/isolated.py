@@ -36,18 +36,12 @@ Tell: TypeAlias = Callable[[Any], None]
 
 @dataclass(frozen=True)
 class Lost:
-    """A task that has no result, because its process has ended.
-
-    Parameters
-    ----------
-    how : str
-        As the end of a sentence, see `how_ended`.
-    late : bool
-        Whether it was ended at the time limit.
-    """
+    """A task that has no result, because its process has ended."""
 
     how: str
+    """As the end of a sentence, see `how_ended`."""
     late: bool = False
+    """Whether it was ended at the time limit."""
 
 
 class Isolated(Generic[T, R]):

@@ -8,18 +8,12 @@ from typing import NamedTuple
 
 
 class Before(NamedTuple):
-    """A command of an earlier version, which is a part of another one now.
-
-    Parameters
-    ----------
-    words : str
-        What stands in place of its name.
-    options : mapping of str to str
-        New words for its options; empty, the word is left out.
-    """
+    """A command of an earlier version, which is a part of another one now."""
 
     words: str
+    """What stands in place of its name."""
     options: Mapping[str, str] = {}
+    """New words for its options; empty, the word is left out."""
 
     def line(self, arguments: Sequence[str]) -> str:
         """The command line that does the same now."""

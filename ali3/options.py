@@ -24,24 +24,16 @@ class Parser(argparse.ArgumentParser):
 
 
 class Option(NamedTuple):
-    """What an option is wherever it stands.
-
-    Parameters
-    ----------
-    form : str
-        Of its value in the help; empty for one without a value.
-    text : str
-        Help, without the default.
-    type : callable
-        Makes the value of the text.
-    short : tuple of str
-        Further names.
-    """
+    """What an option is wherever it stands."""
 
     form: str
+    """Of its value in the help; empty for one without a value."""
     text: str
+    """Help, without the default."""
     type: Callable[[str], Any] = str
+    """Makes the value of the text."""
     short: tuple[str, ...] = ()
+    """Further names."""
 
 
 def folder(text: str) -> Path:

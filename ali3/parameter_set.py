@@ -16,39 +16,27 @@ class ParameterSetError(UserError):
 
 @dataclass(frozen=True)
 class Entry:
-    """A value of a parameter set.
-
-    Parameters
-    ----------
-    kind : str
-        ``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration`` or ``Binary``.
-    value : str
-        As the file has it; for numbers the text that reads back as the same double.
-    unit : str, optional
-        Of a real value.
-    """
+    """A value of a parameter set."""
 
     name: str
     kind: str
+    """``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration`` or ``Binary``."""
     value: str
+    """As the file has it; for numbers the text that reads back as the same double."""
     unit: str | None = None
+    """Of a real value."""
     description: str = ""
 
 
 @dataclass(frozen=True)
 class ParameterSet:
-    """What a file holds.
-
-    Parameters
-    ----------
-    version : str
-        Of the content, empty where there is none.
-    """
+    """What a file holds."""
 
     name: str
     entries: Sequence[Entry]
     units: Mapping[str, UnitDefinition] = field(default_factory=dict)
     version: str = ""
+    """Of the content, empty where there is none."""
 
     @property
     def digest(self) -> str:

@@ -30,18 +30,12 @@ _LONGEST_CELL = 1000
 
 
 class Row(NamedTuple):
-    """A line of a table.
-
-    Parameters
-    ----------
-    line : int
-        Number of the line in the file, from 1.
-    cells : list of str
-        Without the blanks around them.
-    """
+    """A line of a table."""
 
     line: int
+    """Number of the line in the file, from 1."""
     cells: list[str]
+    """Without the blanks around them."""
 
 
 class TextTable:

@@ -15,15 +15,10 @@ KINDS = {"Float64": "Real", "Float32": "Real"} | {
 
 @dataclass(frozen=True)
 class UnitDefinition:
-    """A unit by its base units: value in base units = factor * value + offset.
-
-    Parameters
-    ----------
-    exponents : mapping of str to int
-        By name of the base unit; those that are zero left out.
-    """
+    """A unit by its base units: value in base units = factor * value + offset."""
 
     exponents: Mapping[str, int]
+    """By name of the base unit; those that are zero left out."""
     factor: float = 1.0
     offset: float = 0.0
 

@@ -29,27 +29,18 @@ RATES = f"({{ ...player.flow, missed: {NEWEST}.missed, worst: {NEWEST}.worst, ti
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture.
-
-    Parameters
-    ----------
-    place : str
-        Where the car starts, of the proving ground.
-    held : tuple of (str, float)
-        Keys that are held together with the one for the throttle, one after the other, and for how long, s.
-    camera : str
-        Name of the view as the page's list has it.
-    fidelity : int
-        Of the car's FMU, 0 rigid to 4.
-    acts : tuple of str
-        Keys before the picture is taken.
-    """
+    """A picture."""
 
     place: str
+    """Where the car starts, of the proving ground."""
     held: tuple[tuple[str, float], ...]
+    """Keys that are held together with the one for the throttle, one after the other, and for how long, s."""
     camera: str
+    """Name of the view as the page's list has it."""
     fidelity: int = 0
+    """Of the car's FMU, 0 rigid to 4."""
     acts: tuple[str, ...] = ()
+    """Keys before the picture is taken."""
 
 
 SHOTS = {

@@ -18,21 +18,14 @@ RIGID, MODES = 6, 4
 
 @dataclass(frozen=True)
 class Stiffness:
-    """What `stiffness` measures.
-
-    Attributes
-    ----------
-    joints : tuple of str
-        Left joints that take the couples, in front and behind: the highest of each axle.
-    torsion : float
-        Couple per angle between the axles, N m/deg.
-    frequencies : ndarray
-        Of the free frame with all that it carries, Hz.
-    """
+    """What `stiffness` measures."""
 
     joints: tuple[str, str]
+    """Left joints that take the couples, in front and behind: the highest of each axle."""
     torsion: float
+    """Couple per angle between the axles, N m/deg."""
     frequencies: NDArray[np.float64]
+    """Of the free frame with all that it carries, Hz."""
 
 
 def stiffness(car: Car) -> Stiffness:

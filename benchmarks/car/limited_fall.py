@@ -29,26 +29,18 @@ _READ = (
 
 @dataclass(frozen=True)
 class Fall:
-    """A run.
-
-    Parameters
-    ----------
-    time, residual : array
-        s and mm: what the step that ends there left, 0 if it converged.
-    place : array, (n, 3)
-        Of the chassis, m.
-    balance : float
-        `solver.energy_balance` at the end.
-    capped : int
-        Steps.
-    """
+    """A run."""
 
     limit: int
     time: NDArray[np.float64]
     residual: NDArray[np.float64]
+    """`time`, `residual`: s and mm: what the step that ends there left, 0 if it converged."""
     place: NDArray[np.float64]
+    """Shape (n, 3): of the chassis, m."""
     balance: float
+    """`solver.energy_balance` at the end."""
     capped: int
+    """Steps."""
 
 
 def fall(fmu: Path, fidelity: int | None, step: float, limit: int) -> Fall:

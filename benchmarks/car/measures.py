@@ -32,20 +32,14 @@ HOP_MODES = 25.0  # Hz: those of the wheels are slower, those of the tyres' carc
 
 @dataclass(frozen=True)
 class Measure:
-    """A number about a car.
-
-    Attributes
-    ----------
-    usual : tuple of float or None
-        What cars of the small class have.
-    meaning : str
-        How it is defined.
-    """
+    """A number about a car."""
 
     name: str
     unit: str
     usual: tuple[float, float] | None
+    """What cars of the small class have."""
     meaning: str
+    """How it is defined."""
 
 
 MEASURES = (

@@ -32,19 +32,13 @@ _READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_
 
 @dataclass
 class Stretch:
-    """Steps from a saved state on.
-
-    Parameters
-    ----------
-    time : float
-        Of the state, s.
-    inputs : list of list of float
-        Of each step since, in the order of the FMU.
-    """
+    """Steps from a saved state on."""
 
     time: float
+    """Of the state, s."""
     state: bytes
     inputs: list[list[float]] = field(default_factory=list)
+    """Of each step since, in the order of the FMU."""
 
 
 @dataclass(frozen=True)
@@ -59,34 +53,24 @@ class Worst:
 
 @dataclass
 class Costs:
-    """What was measured, for each step.
-
-    Parameters
-    ----------
-    us : array
-        Processor time of the thread, microseconds.
-    iterations, halvings, capped : array of int
-        Of this step.
-    residual : array
-        What a capped step left, m.
-    interrupted : array of bool
-        Whether the system took the processor away during the step.
-    worst : list of Worst
-        By time without interruption, then by iterations.
-    kinds : str
-        A letter for each input: r real, i whole.
-    """
+    """What was measured, for each step."""
 
     us: NDArray[np.float64]
+    """Processor time of the thread, microseconds."""
     iterations: NDArray[np.int64]
     halvings: NDArray[np.int64]
     capped: NDArray[np.int64]
+    """`iterations`, `halvings`, `capped`: of this step."""
     residual: NDArray[np.float64]
+    """What a capped step left, m."""
     interrupted: NDArray[np.bool_]
+    """Whether the system took the processor away during the step."""
     refused: list[str]
     starts: int
     worst: list[Worst]
+    """By time without interruption, then by iterations."""
     kinds: str
+    """A letter for each input: r real, i whole."""
 
 
 def _switches() -> int:

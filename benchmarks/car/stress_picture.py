@@ -30,21 +30,14 @@ AT_REST = {"radius": 0.002, "color": "#bbbbbb"}  # of the lines where the frame 
 
 @dataclass(frozen=True)
 class Motion:
-    """What the frame does.
-
-    Attributes
-    ----------
-    t : ndarray, shape (n,)
-        s.
-    places : ndarray, shape (n, nodes, 3)
-        Deformed and scaled, in the axes of the chassis, m.
-    stress : ndarray, shape (n, elements, 2)
-        Largest normal stress at the ends of each element, Pa.
-    """
+    """What the frame does."""
 
     t: Array
+    """Shape (n,): s."""
     places: Array
+    """Shape (n, nodes, 3): deformed and scaled, in the axes of the chassis, m."""
     stress: Array
+    """Shape (n, elements, 2): largest normal stress at the ends of each element, Pa."""
 
 
 def kerb_run() -> Trajectory:

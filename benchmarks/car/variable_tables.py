@@ -38,22 +38,15 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class Shown:
-    """A variable of some of the cars; those of the four wheels, or of both axles, are one.
-
-    Parameters
-    ----------
-    name : str
-        Of the first of them.
-    variable : Variable
-        That of the first car that has it.
-    starts : mapping of str to list of float
-        Start values by car.
-    """
+    """A variable of some of the cars; those of the four wheels, or of both axles, are one."""
 
     name: str
+    """Of the first of them."""
     names: Sequence[str]
     variable: Variable
+    """That of the first car that has it."""
     starts: Mapping[str, list[float]]
+    """Start values by car."""
 
     @property
     def cars(self) -> list[str]:

@@ -45,27 +45,18 @@ BEST = {
 
 @dataclass(frozen=True)
 class Scene:
-    """A model with the true values of sensors at equal instants.
-
-    Parameters
-    ----------
-    run : callable
-        Trajectory of a method and a step, recorded at the instants; further arguments as of `mbs.simulate`.
-    truth : callable
-        Values by sensor.
-    units : callable
-        Judged sensors by unit, of those with a truth.
-    methods : callable
-        Names of those that take it.
-    steps : tuple of float
-        From coarse to fine, s.
-    """
+    """A model with the true values of sensors at equal instants."""
 
     run: Callable[..., mbs.Trajectory]
+    """Trajectory of a method and a step, recorded at the instants; further arguments as of `mbs.simulate`."""
     truth: Callable[[], Mapping[str, Array]]
+    """Values by sensor."""
     units: Callable[[], Mapping[str, list[str]]]
+    """Judged sensors by unit, of those with a truth."""
     methods: Callable[[], list[str]]
+    """Names of those that take it."""
     steps: tuple[float, ...]
+    """From coarse to fine, s."""
 
     def error(self, found: mbs.Trajectory) -> tuple[float, float]:
         """Largest error over the largest range of a unit, and the estimated error of its sensor over that range

@@ -37,26 +37,18 @@ FPS = 15.0
 
 @dataclass(frozen=True)
 class Animation:
-    """A film of a scene.
-
-    Parameters
-    ----------
-    record : callable
-        Runs the scene.
-    begin, end : float
-        Of the film, s of the run.
-    speed : float
-        1 is real time.
-    camera : str, optional
-        Its name; by default the first.
-    """
+    """A film of a scene."""
 
     title: str
     record: Callable[[], Recording]
+    """Runs the scene."""
     begin: float
     end: float
+    """`begin`, `end`: of the film, s of the run."""
     speed: float = 1.0
+    """1 is real time."""
     camera: str | None = None
+    """Its name; by default the first."""
     options: Mapping[str, Any] = field(default_factory=dict)
 
 

@@ -35,18 +35,13 @@ _AT = np.array(list(PLACES.values())) - np.array(prototype_car.car().chassis.ref
 
 @dataclass(frozen=True)
 class Signals:
-    """What four accelerometers tell.
-
-    Attributes
-    ----------
-    time : ndarray, shape (n,)
-        s.
-    force : ndarray, shape (n, 4, 3)
-        Specific force (acceleration less gravity) in the axes of the chassis, m/s2, in the order of `PLACES`.
-    """
+    """What four accelerometers tell."""
 
     time: Array
+    """Shape (n,): s."""
     force: Array
+    """Shape (n, 4, 3): specific force (acceleration less gravity) in the axes of the chassis, m/s2, in the order of
+    `PLACES`."""
 
     def filtered(self, frequency: float) -> Signals:
         """The same after a low-pass that shifts nothing in time, Hz."""

@@ -34,46 +34,31 @@ STORED = Path(__file__).with_name("stored")
 
 @dataclass(frozen=True)
 class Case:
-    """A scene to measure on.
-
-    Parameters
-    ----------
-    title : str
-        What it is and why it is here.
-    sensors : tuple of str
-        Components of the output point.
-    end : float
-        s.
-    divisions : tuple of int
-        Steps per sample interval: h = end / (SAMPLES division).
-    exact : callable, optional
-        Output point (n, k) at times (n,); by default minimum-norm accelerations, stored up to `end`.
-    conservative : bool
-        Without dissipation.
-    energy_stays : bool
-        Whether the energy should stay: also no motor.
-    map_work : float
-        Steps times coordinates of a run of the stability maps, at most.
-    classical : bool
-        Whether the dense methods in Python are run.
-    unit : str
-        Of the output point.
-    slow : bool
-        Whether `exact` takes seconds: its motion is stored too.
-    """
+    """A scene to measure on."""
 
     title: str
+    """What it is and why it is here."""
     build: Callable[[], Model]
     sensors: tuple[str, ...]
+    """Components of the output point."""
     end: float
+    """s."""
     divisions: tuple[int, ...]
+    """Steps per sample interval: h = end / (SAMPLES division)."""
     exact: Callable[[Array], Array] | None
+    """Output point (n, k) at times (n,); by default minimum-norm accelerations, stored up to `end`."""
     conservative: bool = True
+    """Without dissipation."""
     energy_stays: bool = True
+    """Whether the energy should stay: also no motor."""
     map_work: float = 2.4e5
+    """Steps times coordinates of a run of the stability maps, at most."""
     classical: bool = True
+    """Whether the dense methods in Python are run."""
     unit: str = "m"
+    """Of the output point."""
     slow: bool = False
+    """Whether `exact` takes seconds: its motion is stored too."""
 
     @property
     def stored(self) -> bool:

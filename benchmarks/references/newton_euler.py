@@ -62,34 +62,24 @@ class Spring:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A mechanism as drawn.
-
-    Parameters
-    ----------
-    dimension : int
-        2 (gravity along -y) or 3 (along -z).
-    tips : list of array of shape (d,)
-        A point of each link whose motion is judged.
-    rate : float
-        Angular velocity of link 0 about the axis of its first joint at the start, rad/s; all else moves with the least
-        kinetic energy.
-    torque : float
-        On link 0 from the ground about that axis, N m.
-    drive : tuple of float or None
-        Coefficients of the angle of link 0 in time, from the linear one on; None: not driven.
-    span : float
-        Duration, s.
-    """
+    """A mechanism as drawn."""
 
     dimension: int
+    """2 (gravity along -y) or 3 (along -z)."""
     links: list[Link]
     joints: list[Joint]
     springs: list[Spring]
     tips: list[Array]
+    """Each of shape (d,): a point of each link whose motion is judged."""
     rate: float
+    """Angular velocity of link 0 about the axis of its first joint at the start, rad/s; all else moves with the least
+    kinetic energy."""
     torque: float
+    """On link 0 from the ground about that axis, N m."""
     drive: tuple[float, ...] | None
+    """Coefficients of the angle of link 0 in time, from the linear one on; None: not driven."""
     span: float
+    """Duration, s."""
     gravity: float = 9.81
 
     @property

@@ -15,25 +15,17 @@ _DIGITS = 3  # of figures that may be one off in the last
 
 @dataclass(frozen=True)
 class Again:
-    """A table, or a sentence, of a page that was made again.
-
-    Parameters
-    ----------
-    text : str
-        Rows of a Markdown table, or the sentence that the page must have.
-    table : str
-        Between which marks the table stands; empty for a sentence.
-    keys : tuple of str
-        Columns by which a row is found.
-    left_out : tuple of str
-        Columns that are not compared: times, and what is round-off.
-    """
+    """A table, or a sentence, of a page that was made again."""
 
     page: str
     text: str
+    """Rows of a Markdown table, or the sentence that the page must have."""
     table: str = ""
+    """Between which marks the table stands; empty for a sentence."""
     keys: tuple[str, ...] = ()
+    """Columns by which a row is found."""
     left_out: tuple[str, ...] = ()
+    """Columns that are not compared: times, and what is round-off."""
 
 
 def read(page: str) -> str:

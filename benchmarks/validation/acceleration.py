@@ -29,17 +29,12 @@ def _as_heavy_as(mass: float) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class FromRest:
-    """A car that is driven so, and the times and the top speed that are published of it.
-
-    Parameters
-    ----------
-    times : dict of float to Published
-        By the speed that is reached, km/h.
-    """
+    """A car that is driven so, and the times and the top speed that are published of it."""
 
     car: str
     settings: dict[str, float]
     times: dict[float, Published]
+    """By the speed that is reached, km/h."""
     top_speed: Published | None = None
 
 

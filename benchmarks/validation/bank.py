@@ -23,30 +23,21 @@ _LIKE, _NEARLY = 0.9, 0.02  # correlation of curvatures of the same place, and b
 
 @dataclass(frozen=True)
 class Bank:
-    """Lateral acceleration by the weight on the banked road, positive to the left, m/s2.
-
-    Parameters
-    ----------
-    by_sensor : ndarray of shape (n,)
-        At each sample of the drive, from that sample: what is judged knows the accelerometer of the judged seconds.
-    by_place : ndarray of shape (n,)
-        At each sample, by where the car is in its lap: from the fitted seconds alone.
-    roll_share : float
-        Of the acceleration, in the sensor's signal beside it.
-    lap : float
-        m.
-    repeated : float
-        Correlation of `by_sensor` with itself a lap later.
-    unseen : float
-        Share of the lap without a fitted second.
-    """
+    """Lateral acceleration by the weight on the banked road, positive to the left, m/s2."""
 
     by_sensor: Array
+    """Shape (n,): at each sample of the drive, from that sample: what is judged knows the accelerometer of the judged
+    seconds."""
     by_place: Array
+    """Shape (n,): at each sample, by where the car is in its lap: from the fitted seconds alone."""
     roll_share: float
+    """Of the acceleration, in the sensor's signal beside it."""
     lap: float
+    """m."""
     repeated: float
+    """Correlation of `by_sensor` with itself a lap later."""
     unseen: float
+    """Share of the lap without a fitted second."""
 
 
 def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:

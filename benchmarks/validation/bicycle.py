@@ -17,23 +17,16 @@ HEIGHT = 0.42  # m, of the centre of mass: as assumed in the file of the car
 
 @dataclass(frozen=True)
 class Body:
-    """What is known of the car.
-
-    Parameters
-    ----------
-    mass, yaw_inertia : float
-        kg, kg m2.
-    front, rear : float
-        Distance of the axles from the centre of mass, m.
-    drag_area : float
-        Drag coefficient times frontal area, m2.
-    """
+    """What is known of the car."""
 
     mass: float
     yaw_inertia: float
+    """`mass`, `yaw_inertia`: kg, kg m2."""
     front: float
     rear: float
+    """`front`, `rear`: distance of the axles from the centre of mass, m."""
     drag_area: float = 0.0
+    """Drag coefficient times frontal area, m2."""
 
     @property
     def wheelbase(self) -> float:
@@ -43,41 +36,30 @@ class Body:
 
 @dataclass(frozen=True)
 class Unknown:
-    """A number that is fitted.
-
-    Parameters
-    ----------
-    low, high : float
-        Between which starts are drawn and the number stays.
-    """
+    """A number that is fitted."""
 
     name: str
     unit: str
     low: float
     high: float
+    """`low`, `high`: between which starts are drawn and the number stays."""
 
 
 @dataclass(frozen=True)
 class Model:
-    """A model of the yaw rate.
-
-    Parameters
-    ----------
-    forces : callable or None
-        Lateral forces of both axles over the mass from slip angles (front, rear), ax and the numbers; None: the yaw
-        rate follows the steering angle at once, by ``understeer``.
-    simulate : callable, optional
-        In place of the `simulate` of a bicycle.
-    bank, open : bool
-        Whether it knows the bank of the road; whether its differential is open. Of a model with its own `simulate`.
-    """
+    """A model of the yaw rate."""
 
     name: str
     unknowns: tuple[Unknown, ...]
     forces: Callable[[Body, Array, Array, Array, Mapping[str, Array]], tuple[Array, Array]] | None = None
+    """Lateral forces of both axles over the mass from slip angles (front, rear), ax and the numbers; None: the yaw rate
+    follows the steering angle at once, by ``understeer``."""
     simulate: Callable[..., tuple[Array, Array]] | None = None
+    """In place of the `simulate` of a bicycle."""
     bank: bool = False
     open: bool = False
+    """`bank`, `open`: whether it knows the bank of the road; whether its differential is open. Of a model with its own
+    `simulate`."""
 
     @property
     def moves_across(self) -> bool:

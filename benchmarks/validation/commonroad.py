@@ -41,16 +41,11 @@ COLUMNS = {"car": "", "manoeuvre": "", "quantity": "", "reference": ".4g", "foun
 
 @dataclass(frozen=True)
 class Compared:
-    """A manoeuvre of both models, at the times of the reference.
-
-    Attributes
-    ----------
-    reference, found : dict of str to ndarray, shape (n,)
-        By the names of the reference's columns.
-    """
+    """A manoeuvre of both models, at the times of the reference."""
 
     reference: Mapping[str, Array]
     found: Mapping[str, Array]
+    """`reference`, `found`, each of shape (n,): by the names of the reference's columns."""
 
     def largest(self, name: str) -> float:
         """Largest difference over the range of the reference."""

@@ -19,26 +19,18 @@ STEADY = 0.5  # s at the beginning of a window, in which the start is forgotten
 
 @dataclass(frozen=True)
 class Curve:
-    """A quantity in a bin of the measured lateral acceleration.
-
-    Parameters
-    ----------
-    acceleration : float
-        Middle of the bin, g, positive to the left.
-    seconds : float
-        Of the drive in it; a second that two windows share counts once.
-    measured, spread : float
-        Mean and standard deviation of what was measured, deg.
-    difference : float
-        Mean of simulated minus measured, deg.
-    """
+    """A quantity in a bin of the measured lateral acceleration."""
 
     quantity: str
     acceleration: float
+    """Middle of the bin, g, positive to the left."""
     seconds: float
+    """Of the drive in it; a second that two windows share counts once."""
     measured: float
     spread: float
+    """`measured`, `spread`: mean and standard deviation of what was measured, deg."""
     difference: float
+    """Mean of simulated minus measured, deg."""
 
 
 def low_passed(values: Array, cut_off: float, interval: float) -> Array:

@@ -27,31 +27,22 @@ _UNEVEN = 1e-3  # of the interval between samples
 
 @dataclass(frozen=True)
 class Drive:
-    """A measured drive.
-
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        Equally spaced, s.
-    steer : ndarray of shape (n,)
-        Mean angle of both front wheels on the road, positive to the left, rad.
-    vx, vy : ndarray of shape (n,)
-        Of the centre of mass in axes of the car, y to the left, m/s.
-    yaw_rate : ndarray of shape (n,)
-        rad/s.
-    ay : ndarray of shape (n,)
-        As the accelerometer shows it, m/s2; empty where it is not needed.
-    bank : ndarray of shape (n,)
-        Lateral acceleration by the weight on a banked road, positive to the left, m/s2; empty where it is not known.
-    """
+    """A measured drive."""
 
     time: Array
+    """Shape (n,): equally spaced, s."""
     steer: Array
+    """Shape (n,): mean angle of both front wheels on the road, positive to the left, rad."""
     vx: Array
     vy: Array
+    """`vx`, `vy`, shape (n,): of the centre of mass in axes of the car, y to the left, m/s."""
     yaw_rate: Array
+    """Shape (n,): rad/s."""
     ay: Array = field(default_factory=lambda: np.zeros(0))
+    """Shape (n,): as the accelerometer shows it, m/s2; empty where it is not needed."""
     bank: Array = field(default_factory=lambda: np.zeros(0))
+    """Shape (n,): lateral acceleration by the weight on a banked road, positive to the left, m/s2; empty where it is
+    not known."""
 
     @property
     def interval(self) -> float:

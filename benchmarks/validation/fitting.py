@@ -20,36 +20,26 @@ STEP = 1e-4  # of the differences, of the range of a number
 
 @dataclass(frozen=True)
 class Fitted:
-    """A model with its numbers.
-
-    Parameters
-    ----------
-    numbers : ndarray of shape (p,)
-    found : list of float
-        Root mean square over the fitted seconds that each start led to, in `SCALES`.
-    fitted, windows, whole : float
-        Root mean square of the yaw rate's deviation, rad/s: fitted windows, windows that were not fitted, and one run
-        without restart over those seconds.
-    lateral : float
-        Root mean square of the lateral velocity's deviation in the windows that were not fitted, m/s; NaN: no such.
-    departed : int
-        Windows that were not fitted whose yaw rate is off by more than the range of the measured one.
-    path : ndarray of shape (n,)
-        Yaw rate of the run without restart, rad/s.
-    predicted : tuple of ndarray of shape (w, m)
-        Lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s.
-    """
+    """A model with its numbers."""
 
     model: Model
     numbers: Array
+    """Shape (p,)."""
     found: list[float]
+    """Root mean square over the fitted seconds that each start led to, in `SCALES`."""
     fitted: float
     windows: float
     whole: float
+    """`fitted`, `windows`, `whole`: root mean square of the yaw rate's deviation, rad/s: fitted windows, windows that
+    were not fitted, and one run without restart over those seconds."""
     lateral: float
+    """Root mean square of the lateral velocity's deviation in the windows that were not fitted, m/s; NaN: no such."""
     departed: int
+    """Windows that were not fitted whose yaw rate is off by more than the range of the measured one."""
     path: Array
+    """Shape (n,): yaw rate of the run without restart, rad/s."""
     predicted: tuple[Array, Array]
+    """Each of shape (w, m): lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s."""
 
 
 def begins(drive: Drive, seconds: Spans) -> NDArray[np.intp]:

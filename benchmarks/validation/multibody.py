@@ -23,32 +23,23 @@ _COLUMNS = f"{LATERAL}.simulated [m/s]", f"{YAW}.simulated [rad/s]"
 
 @dataclass(frozen=True)
 class Judged:
-    """A car that was driven through the measured drive.
-
-    Parameters
-    ----------
-    fitted, whole, windows, lateral : float
-        As of `benchmarks.validation.fitting.Fitted`.
-    departed : list of str
-        Windows that were not fitted and departed: their begin, s, and the signal.
-    bins : list of dict
-        Deviations by speed and lateral acceleration in those windows.
-    time, path : ndarray of shape (n,)
-        Yaw rate of the run without restart, s and rad/s.
-    predicted : tuple of ndarray of shape (w, m)
-        Lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s.
-    """
+    """A car that was driven through the measured drive."""
 
     fitted: float
     whole: float
     windows: float
     lateral: float
+    """`fitted`, `whole`, `windows`, `lateral`: as of `benchmarks.validation.fitting.Fitted`."""
     departed: list[str]
+    """Windows that were not fitted and departed: their begin, s, and the signal."""
     bins: list[dict[str, Any]]
+    """Deviations by speed and lateral acceleration in those windows."""
     notes: list[str]
     time: Array
     path: Array
+    """`time`, `path`, shape (n,): yaw rate of the run without restart, s and rad/s."""
     predicted: tuple[Array, Array]
+    """Each of shape (w, m): lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s."""
 
 
 def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False) -> Judged:

@@ -20,20 +20,14 @@ _HUNDRED = 100.0 / KMH
 
 @dataclass(frozen=True)
 class Published:
-    """A figure of which several sources tell.
-
-    Parameters
-    ----------
-    told : dict of str to float
-        By source.
-    digit : float
-        Half of the last digit that they print: the error with which it can be read.
-    """
+    """A figure of which several sources tell."""
 
     test: str
     unit: str
     told: dict[str, float]
+    """By source."""
     digit: float
+    """Half of the last digit that they print: the error with which it can be read."""
 
     def row(self, computed: float) -> dict[str, Any]:
         """Of the table: the verdict is whether the car lies between the sources, widened by their last digit."""

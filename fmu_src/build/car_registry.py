@@ -23,23 +23,16 @@ _FILE = "car.toml"
 
 @dataclass(frozen=True)
 class BuiltCar:
-    """A car ready for an FMU.
-
-    Parameters
-    ----------
-    systems : mapping of int to mbs.System
-        By fidelity, ascending.
-    files : mapping of str to bytes
-        The car's file and the tables that it names, as they lie in the FMU.
-    grip : mapping of str to str
-        As `grip_of` gives it.
-    """
+    """A car ready for an FMU."""
 
     name: str
     description: str
     systems: Mapping[int, mbs.System]
+    """By fidelity, ascending."""
     files: Mapping[str, bytes]
+    """The car's file and the tables that it names, as they lie in the FMU."""
     grip: Mapping[str, str]
+    """As `grip_of` gives it."""
 
 
 def build_car(car: str, poses: str | None = None, ports: str | None = None, fidelity: float | None = None) -> BuiltCar:

@@ -43,21 +43,14 @@ _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 
 @dataclass(frozen=True)
 class Dependencies:
-    """Places of variables, ascending, by the place of an output in the table.
-
-    Parameters
-    ----------
-    step : dict of int to tuple of int or None
-        Inputs that reach the output at the end of a step.
-    initial : dict of int to tuple of int or None
-        Inputs and parameters that reach the initial output; None: all of them, as after a start that has settled.
-    size : dict of int to float
-        Largest absolute value seen; 0 where it was never anything else.
-    """
+    """Places of variables, ascending, by the place of an output in the table."""
 
     step: dict[int, tuple[int, ...] | None]
+    """Inputs that reach the output at the end of a step."""
     initial: dict[int, tuple[int, ...] | None]
+    """Inputs and parameters that reach the initial output; None: all of them, as after a start that has settled."""
     size: dict[int, float]
+    """Largest absolute value seen; 0 where it was never anything else."""
 
 
 def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:

@@ -23,24 +23,16 @@ BUILD_ALL = "build the FMU with --poses all"
 
 @dataclass(frozen=True)
 class Bound:
-    """Frames that variables move.
-
-    Parameters
-    ----------
-    frames : dict of str to dict
-        As the scene has them.
-    moved : dict of str to array of shape (3,)
-        Place of the drawing's origin in the frame, where it is not 0, m.
-    lost : dict of str to str
-        Frames that nothing moves, and why.
-    amplitudes : dict of str to str
-        Variables of amplitudes by the columns of the drawing.
-    """
+    """Frames that variables move."""
 
     frames: dict[str, Frame]
+    """As the scene has them."""
     moved: dict[str, Array]
+    """Each of shape (3,): place of the drawing's origin in the frame, where it is not 0, m."""
     lost: dict[str, str]
+    """Frames that nothing moves, and why."""
     amplitudes: dict[str, str]
+    """Variables of amplitudes by the columns of the drawing."""
 
 
 def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Shared]) -> Bound:

@@ -20,18 +20,12 @@ QUATERNION = "wxyz"
 
 @dataclass(frozen=True)
 class Body:
-    """Full coordinates of a body as rows.
-
-    Parameters
-    ----------
-    origin : array of shape (3, nq + 1)
-        Components of its position; the last column is the constant.
-    axes : array of shape (3, 3, nq + 1) or None
-        Components of its three axes; None of a particle.
-    """
+    """Full coordinates of a body as rows."""
 
     origin: Array
+    """Shape (3, nq + 1): components of its position; the last column is the constant."""
     axes: Array | None
+    """Shape (3, 3, nq + 1): components of its three axes; None of a particle."""
 
 
 class SensorRows:

@@ -30,41 +30,29 @@ Telling = Callable[..., AbstractContextManager[None]]
 
 @dataclass(frozen=True)
 class NativeContents:
-    """What goes into an FMU, whatever its kind.
-
-    Parameters
-    ----------
-    model_name : str
-        A C identifier, also the model identifier.
-    systems : sequence of mbs.System
-        One per fidelity.
-    reach : Dependencies
-        What reaches which outputs.
-    fidelity : int
-        The default one.
-    followers : sequence of int
-        Per System the number of the one that computes what it leaves out; -1: none.
-    author, copyright, licence : str
-        Of the model, for its description; empty: the solver's.
-    origin : mapping of str to bytes
-        Files that the model was made from, by their paths in the FMU.
-    geometry : bytes
-        The scene of the FMU, JSON; empty: none.
-    """
+    """What goes into an FMU, whatever its kind."""
 
     model_name: str
+    """A C identifier, also the model identifier."""
     description: str
     version: str
     systems: Sequence[mbs.System]
+    """One per fidelity."""
     table: Sequence[Variable]
     reach: Dependencies
+    """What reaches which outputs."""
     fidelity: int = 0
+    """The default one."""
     followers: Sequence[int] = (-1,)
+    """Per System the number of the one that computes what it leaves out; -1: none."""
     author: str = ""
     copyright: str = ""
     licence: str = ""
+    """`author`, `copyright`, `licence`: of the model, for its description; empty: the solver's."""
     origin: Mapping[str, bytes] = field(default_factory=dict)
+    """Files that the model was made from, by their paths in the FMU."""
     geometry: bytes = b""
+    """The scene of the FMU, JSON; empty: none."""
 
     def description_head(self, guid: str, **more: Any) -> Description:
         """Attributes of modelDescription.xml; what is not given of the rights is the solver's."""
@@ -151,30 +139,20 @@ class NativeContents:
 
 @dataclass(frozen=True)
 class Face:
-    """What one version of FMI packs otherwise than another.
-
-    Parameters
-    ----------
-    name : str
-        ``fmi2`` or ``fmi3``; its C files begin with it.
-    words : sequence of str
-        Paragraphs of the documentation.
-    binaries : mapping
-        Per platform its folders in ``binaries`` and the compiler's targets of the library there.
-    picture : str
-        Where the picture of the model lies.
-    tables : callable
-        C table of the contents with identity and GUID.
-    documents : callable
-        XML documents by path, from the attributes and the contents.
-    """
+    """What one version of FMI packs otherwise than another."""
 
     name: str
+    """``fmi2`` or ``fmi3``; its C files begin with it."""
     words: Sequence[str]
+    """Paragraphs of the documentation."""
     binaries: Mapping[str, Mapping[str, Sequence[str]]]
+    """Per platform its folders in ``binaries`` and the compiler's targets of the library there."""
     picture: str
+    """Where the picture of the model lies."""
     tables: Callable[[NativeContents, str, str], str]
+    """C table of the contents with identity and GUID."""
     documents: Callable[[Description, NativeContents], dict[str, bytes]]
+    """XML documents by path, from the attributes and the contents."""
 
 
 def pack_native(

@@ -27,24 +27,16 @@ Column = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ReferenceRun:
-    """An experiment.
-
-    Parameters
-    ----------
-    t : ndarray, shape (n,)
-        Times, s.
-    columns : dict of str to ndarray, shape (n,)
-        Outputs by name.
-    corners : ndarray, shape (m,)
-        Times between which inputs go straight, s; empty: no input is touched.
-    inputs : dict of str to ndarray, shape (m,)
-        Their values there.
-    """
+    """An experiment."""
 
     t: Column
+    """Shape (n,): times, s."""
     columns: dict[str, Column]
+    """Each of shape (n,): outputs by name."""
     corners: Column = field(default_factory=lambda: np.zeros(0))
+    """Shape (m,): times between which inputs go straight, s; empty: no input is touched."""
     inputs: dict[str, Column] = field(default_factory=dict)
+    """Each of shape (m,): their values there."""
 
 
 def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tuple[ReferenceRun, ...]:

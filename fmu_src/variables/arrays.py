@@ -27,21 +27,14 @@ _NUMBERED = re.compile(r"(.+)_(\d+)((?:\.\w+)?)")
 
 @dataclass(frozen=True)
 class Array:
-    """One variable of FMI 3.0, whose value reference `references` gives.
-
-    Parameters
-    ----------
-    name : str
-        Unique.
-    items : tuple of int
-        Places in the table of variables.
-    of : Variable
-        The first of them, for causality, unit and range.
-    """
+    """One variable of FMI 3.0, whose value reference `references` gives."""
 
     name: str
+    """Unique."""
     items: tuple[int, ...]
+    """Places in the table of variables."""
     of: Variable
+    """The first of them, for causality, unit and range."""
     description: str
 
 

@@ -17,18 +17,12 @@ _SCALED = ("input", "sensor")
 
 @dataclass(frozen=True)
 class Renamed:
-    """A table under other names.
-
-    Parameters
-    ----------
-    table : tuple of Variable
-        In the same order.
-    left_out : mapping of str to str
-        Our names that keep theirs though the file has another, and why.
-    """
+    """A table under other names."""
 
     table: tuple[Variable, ...]
+    """In the same order."""
     left_out: Mapping[str, str]
+    """Our names that keep theirs though the file has another, and why."""
 
     @property
     def named(self) -> dict[str, Variable]:

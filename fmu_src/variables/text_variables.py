@@ -15,20 +15,14 @@ ROADS = "resources/roads"
 
 @dataclass(frozen=True)
 class TextVariable:
-    """A fixed parameter that is text. Its value reference comes after those of all other variables.
-
-    Parameters
-    ----------
-    road : int
-        The road whose file it names.
-    start : str
-        Name of a file in `ROADS`; empty: none.
-    """
+    """A fixed parameter that is text. Its value reference comes after those of all other variables."""
 
     name: str
     description: str
     road: int
+    """The road whose file it names."""
     start: str
+    """Name of a file in `ROADS`; empty: none."""
 
 
 def text_table(meta: Mapping[str, Any], table: Sequence[Variable]) -> tuple[TextVariable, ...]:

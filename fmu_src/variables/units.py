@@ -88,21 +88,14 @@ def canonical_unit(name: str) -> str:
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit in SI base units.
-
-    Parameters
-    ----------
-    name : str
-        As written on the variables.
-    exponents : dict of str to int
-        Base unit to exponent, zeros left out, in the order of the FMI standard.
-    factor : float
-        Value in base units = factor * value.
-    """
+    """A unit in SI base units."""
 
     name: str
+    """As written on the variables."""
     exponents: dict[str, int]
+    """Base unit to exponent, zeros left out, in the order of the FMI standard."""
     factor: float
+    """Value in base units = factor * value."""
 
 
 def parse_unit(name: str, foreign: bool = False) -> Unit:

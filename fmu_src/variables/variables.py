@@ -59,78 +59,54 @@ FIDELITY = "fidelity"
 
 @dataclass(frozen=True)
 class Variable:
-    """One scalar variable of the FMU. Its place in the table is its value reference.
-
-    Parameters
-    ----------
-    name : str
-        Structured name, unique in the table.
-    causality : str
-        ``input``, ``parameter``, ``output`` or ``local``.
-    variability : str
-        ``continuous``, ``discrete``, ``fixed``, ``tunable`` or ``constant``.
-    unit : str
-        SI unit.
-    description : str
-        One sentence.
-    source : str
-        What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
-        ``step_iterations``, ``settling``, ``solver``, what the solver says about itself, ``capped_residual``,
-        ``ahead``, what an output will be at the next communication point, or ``constant``.
-    index : int
-        Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``, in the table
-        for ``ahead``; 0 for others.
-    start, min, max : float, optional
-        In `unit`.
-    display_unit : str, optional
-        What a person likes to see.
-    whole : bool
-        Whether it is an integer of FMI.
-    nominal : float, optional
-        A typical size, where there is one.
-    road : int
-        Of a parameter of the built-in form of a road, without effect on one from a file: its number; else -1.
-    uncomputed : tuple of int
-        Fidelities at which it is not computed.
-    works : (float, float), optional
-        Between which values of a parameter the model does what it is made for.
-    port : bool
-        Of an input: whether another program sets it at every step.
-    role : int
-        Of an input, see `mbs.model.records.Role`.
-    other : int
-        Place in the table: of an input with a role that of the output it is watched by, ``ahead`` that of the rate;
-        else -1.
-    tried : float, optional
-        Of an input: how far the trials at build time move it from its start; by default over its range.
-    scale : float
-        Of an input or a sensor: the value is this times that of the System.
-    ours : str
-        Its name in the model, where it has that of another program.
-    """
+    """One scalar variable of the FMU. Its place in the table is its value reference."""
 
     name: str
+    """Structured name, unique in the table."""
     causality: str
+    """``input``, ``parameter``, ``output`` or ``local``."""
     variability: str
+    """``continuous``, ``discrete``, ``fixed``, ``tunable`` or ``constant``."""
     unit: str
+    """SI unit."""
     description: str
+    """One sentence."""
     source: str
+    """What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
+    ``step_iterations``, ``settling``, ``solver``, what the solver says about itself, ``capped_residual``, ``ahead``,
+    what an output will be at the next communication point, or ``constant``."""
     index: int
+    """Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``, in the table for
+    ``ahead``; 0 for others."""
     start: float | None = None
     min: float | None = None
     max: float | None = None
+    """`start`, `min`, `max`: in `unit`."""
     display_unit: str | None = None
+    """What a person likes to see."""
     whole: bool = False
+    """Whether it is an integer of FMI."""
     nominal: float | None = None
+    """A typical size, where there is one."""
     road: int = -1
+    """Of a parameter of the built-in form of a road, without effect on one from a file: its number; else -1."""
     uncomputed: tuple[int, ...] = ()
+    """Fidelities at which it is not computed."""
     works: tuple[float, float] | None = None
+    """Between which values of a parameter the model does what it is made for."""
     port: bool = False
+    """Of an input: whether another program sets it at every step."""
     role: int = 0
+    """Of an input, see `mbs.model.records.Role`."""
     other: int = -1
+    """Place in the table: of an input with a role that of the output it is watched by, ``ahead`` that of the rate; else
+    -1."""
     tried: float | None = None
+    """Of an input: how far the trials at build time move it from its start; by default over its range."""
     scale: float = 1.0
+    """Of an input or a sensor: the value is this times that of the System."""
     ours: str = ""
+    """Its name in the model, where it has that of another program."""
 
 
 _CAPPED_RESIDUAL = Variable(

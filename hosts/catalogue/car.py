@@ -24,52 +24,36 @@ __all__ = ["CarFacts", "Pilot", "TestedCar"]
 
 @dataclass(frozen=True)
 class CarFacts:
-    """What an FMU tells of its car.
-
-    Parameters
-    ----------
-    inputs, outputs, parameters : tuple of str
-        By our names, in the order of the FMU; real and whole ones.
-    units : mapping of str to str
-        Of all variables by our names.
-    constants : mapping of str to float
-        Of the FMU and of the alias file, by our names.
-    step : float
-        Communication step, s.
-    token : str
-        That tells another build of the FMU.
-    """
+    """What an FMU tells of its car."""
 
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     parameters: tuple[str, ...]
+    """`inputs`, `outputs`, `parameters`: by our names, in the order of the FMU; real and whole ones."""
     units: Mapping[str, str]
+    """Of all variables by our names."""
     constants: Mapping[str, float]
+    """Of the FMU and of the alias file, by our names."""
     step: float
+    """Communication step, s."""
     token: str = ""
+    """That tells another build of the FMU."""
 
 
 @dataclass(frozen=True)
 class TestedCar:
-    """A car.
-
-    Parameters
-    ----------
-    aliases : Aliases
-        Our names for its variables.
-    start : mapping of str to float, int, bool or str
-        Start values by our names.
-    step : float, optional
-        Communication step, s; by default that of the FMU.
-    """
+    """A car."""
 
     __test__ = False  # no test of pytest's
 
     label: str
     path: Path
     aliases: Aliases = field(default_factory=Aliases)
+    """Our names for its variables."""
     start: Mapping[str, Value] = field(default_factory=dict)
+    """Start values by our names."""
     step: float | None = None
+    """Communication step, s; by default that of the FMU."""
 
     def drive(
         self,

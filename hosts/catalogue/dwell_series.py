@@ -24,18 +24,12 @@ _MOST = math.radians(300.0)
 
 @dataclass(frozen=True)
 class DwellRun:
-    """One run.
-
-    Parameters
-    ----------
-    amplitude : float
-        Asked for, rad.
-    run : SteeredRun
-        Its signals are filtered and zeroed.
-    """
+    """One run."""
 
     amplitude: float
+    """Asked for, rad."""
     run: SteeredRun
+    """Its signals are filtered and zeroed."""
     measures: SineWithDwell
 
     @property

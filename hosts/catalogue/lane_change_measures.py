@@ -20,35 +20,24 @@ from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 @dataclass(frozen=True)
 class Passage:
-    """One drive through a course.
-
-    Parameters
-    ----------
-    wanted : float
-        Speed of the driver, km/h.
-    course : Course
-        In axes of its own.
-    size : tuple of float
-        Length and width of the car's outline, m.
-    pose : tuple of float
-        x, y, yaw of these axes, earth, m and rad.
-    after : ndarray of shape (n,)
-        Where the course has begun.
-    reason : str
-        Why the run ended early; empty: it did not.
-    release : float
-        Where the pedals are released, m into the first lane; infinite: nowhere.
-    """
+    """One drive through a course."""
 
     wanted: float
+    """Speed of the driver, km/h."""
     result: Result
     driver: str
     course: Course
+    """In axes of its own."""
     size: tuple[float, float]
+    """Length and width of the car's outline, m."""
     pose: tuple[float, float, float]
+    """x, y, yaw of these axes, earth, m and rad."""
     after: NDArray[np.bool_]
+    """Shape (n,): where the course has begun."""
     reason: str
+    """Why the run ended early; empty: it did not."""
     release: float
+    """Where the pedals are released, m into the first lane; infinite: nowhere."""
 
     @cached_property
     def place(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

@@ -18,18 +18,12 @@ from hosts.measures.measure import Limit, Measure
 
 @dataclass(frozen=True)
 class GivenLimits:
-    """The table ``[limits]`` of a file.
-
-    Parameters
-    ----------
-    file : Path
-        The file, for messages and for the source of a limit.
-    entries : mapping of str to LimitEntry
-        By ``TEST.MEASURE``, or the measure alone where one test has it.
-    """
+    """The table ``[limits]`` of a file."""
 
     file: Path = Path()
+    """The file, for messages and for the source of a limit."""
     entries: Mapping[str, LimitEntry] = field(default_factory=dict)
+    """By ``TEST.MEASURE``, or the measure alone where one test has it."""
 
     def of_tests(self, names: list[str]) -> GivenLimits:
         """Those that are not of other tests of the catalogue."""

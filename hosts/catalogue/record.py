@@ -18,21 +18,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Clause:
-    """A part of a standard that a test follows.
-
-    Parameters
-    ----------
-    number : str
-        Such as ``8.2``; empty where only a summary is known.
-    text : str
-        What it demands, in our words.
-    checked : bool
-        Whether it was read in the text of the standard; else it is from public summaries.
-    """
+    """A part of a standard that a test follows."""
 
     number: str
+    """Such as ``8.2``; empty where only a summary is known."""
     text: str
+    """What it demands, in our words."""
     checked: bool = False
+    """Whether it was read in the text of the standard; else it is from public summaries."""
 
 
 @dataclass(frozen=True)
@@ -46,22 +39,16 @@ class Standard:
 
 @dataclass(frozen=True)
 class Setting:
-    """A number of a test that a user may change.
-
-    Parameters
-    ----------
-    value : float
-        By default, in `unit`.
-    lowest, highest : float
-        Of what makes sense.
-    """
+    """A number of a test that a user may change."""
 
     name: str
     value: float
+    """By default, in `unit`."""
     unit: str
     text: str
     lowest: float = -np.inf
     highest: float = np.inf
+    """`lowest`, `highest`: of what makes sense."""
 
 
 @dataclass(frozen=True)
@@ -75,65 +62,45 @@ class Line:
 
 @dataclass(frozen=True)
 class Plot:
-    """A plot of a test; lines of several cars are drawn into the same.
-
-    Parameters
-    ----------
-    title : str
-        By which plots of several cars are matched.
-    x, y : str
-        Quantity and unit, such as ``lateral acceleration, m/s²``.
-    log_x, log_y : bool
-        Whether the axis is logarithmic.
-    equal : bool
-        Whether both axes have the same scale.
-    """
+    """A plot of a test; lines of several cars are drawn into the same."""
 
     title: str
+    """By which plots of several cars are matched."""
     x: str
     y: str
+    """`x`, `y`: quantity and unit, such as ``lateral acceleration, m/s²``."""
     lines: Sequence[Line]
     log_x: bool = False
     log_y: bool = False
+    """`log_x`, `log_y`: whether the axis is logarithmic."""
     equal: bool = False
+    """Whether both axes have the same scale."""
 
 
 @dataclass(frozen=True)
 class TestRecord:
-    """What a test of one car has yielded.
-
-    Parameters
-    ----------
-    runs : mapping of str to Result
-        Every run of the FMU by a short name, under our names of variables, in SI units.
-    notes : sequence of str
-        Sentences: what was not as asked, with a number and a remedy.
-    """
+    """What a test of one car has yielded."""
 
     __test__ = False  # no test of pytest's
 
     measures: Sequence[Measure]
     plots: Sequence[Plot]
     runs: Mapping[str, Result]
+    """Every run of the FMU by a short name, under our names of variables, in SI units."""
     notes: Sequence[str] = field(default_factory=tuple)
+    """Sentences: what was not as asked, with a number and a remedy."""
 
 
 class StandardTest(Protocol):
-    """A test of the catalogue.
-
-    Parameters
-    ----------
-    name : str
-        Of the command, such as ``step_steer``.
-    needs : tuple of str
-        Variables by our names without which the test cannot be done.
-    """
+    """A test of the catalogue."""
 
     name: str
+    """Of the command, such as ``step_steer``."""
     title: str
     standards: tuple[Standard, ...]
     settings: tuple[Setting, ...]
     needs: tuple[str, ...]
+    """Variables by our names without which the test cannot be done."""
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """Do the test.

@@ -27,19 +27,13 @@ _LATEST = 1.0
 
 @dataclass(frozen=True)
 class SteadyMap:
-    """The map of one side.
-
-    Parameters
-    ----------
-    speed : float
-        m/s.
-    angle, acceleration : ndarray of shape (n,)
-        Sizes, rad and m/s²; filtered, up to the largest acceleration.
-    """
+    """The map of one side."""
 
     speed: float
+    """m/s."""
     angle: NDArray[np.float64]
     acceleration: NDArray[np.float64]
+    """`angle`, `acceleration`, shape (n,): sizes, rad and m/s²; filtered, up to the largest acceleration."""
     run: SteeredRun
     notes: tuple[str, ...] = ()
 
@@ -72,7 +66,7 @@ class SteadyMap:
 
 
 def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
-    """Drive the ramp to the left.
+    """Drive the ramp to the left; the map is empty if the car does not come to the speed.
 
     Parameters
     ----------
@@ -80,11 +74,6 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
         m/s.
     acceleration : float
         Up to which the map is wanted, m/s².
-
-    Returns
-    -------
-    SteadyMap
-        Empty if the car does not come to the speed.
 
     Notes
     -----

@@ -21,27 +21,18 @@ NEED = f"{DEMAND} | {ANGLE} | steering"
 
 @dataclass(frozen=True)
 class SteeringInput:
-    """The input by which a car is steered.
-
-    Parameters
-    ----------
-    name : str
-        By our names.
-    per_radian : float
-        Of the input, per radian of the steering wheel.
-    largest : float
-        Angle of the steering wheel at full lock, rad; infinite where the car does not tell it.
-    is_angle : bool
-        Whether angles are angles; else they are in units of the input, and `note` says so.
-    note : str
-        Empty where all is known.
-    """
+    """The input by which a car is steered."""
 
     name: str
+    """By our names."""
     per_radian: float
+    """Of the input, per radian of the steering wheel."""
     largest: float
+    """Angle of the steering wheel at full lock, rad; infinite where the car does not tell it."""
     is_angle: bool = True
+    """Whether angles are angles; else they are in units of the input, and `note` says so."""
     note: str = ""
+    """Empty where all is known."""
 
     @classmethod
     def of(cls, facts: CarFacts) -> SteeringInput:

@@ -20,25 +20,18 @@ _UNSTEADY = 0.05
 
 @dataclass(frozen=True)
 class SteppedRun:
-    """What one run yields; NaN where it does not.
-
-    Parameters
-    ----------
-    angle : float
-        Step of the steering wheel, rad.
-    rise : float
-        Time from 10 to 90 % of it, s.
-    sideslip : float
-        Of the steady state, rad.
-    """
+    """What one run yields; NaN where it does not."""
 
     run: SteeredRun
     angle: float
+    """Step of the steering wheel, rad."""
     rise: float
+    """Time from 10 to 90 % of it, s."""
     yaw_rate: StepResponse
     acceleration: StepResponse
     roll: StepResponse
     sideslip: float
+    """Of the steady state, rad."""
 
 
 def stepped(run: SteeredRun, steady: tuple[float, float]) -> SteppedRun:

@@ -25,18 +25,13 @@ _BETWEEN = 0.1  # s between two words on the progress
 
 @dataclass(frozen=True)
 class Task:
-    """A test of a car.
-
-    Parameters
-    ----------
-    folder : Path, optional
-        Where a table of each run is written; none without it.
-    """
+    """A test of a car."""
 
     test: str
     car: TestedCar
     settings: Mapping[str, float]
     folder: Path | None = None
+    """Where a table of each run is written; none without it."""
 
 
 def do(task: Task, progress: Callable[[float], None]) -> Outcome:

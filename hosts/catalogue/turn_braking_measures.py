@@ -38,20 +38,14 @@ QUANTITIES = (
 
 @dataclass(frozen=True)
 class Stop:
-    """One stop from the circle.
-
-    Parameters
-    ----------
-    onset : float
-        First movement of the pedal, s; NaN if the car did not get there.
-    reason : str
-        Why the run ended.
-    """
+    """One stop from the circle."""
 
     pedal: float
     result: Result
     onset: float
+    """First movement of the pedal, s; NaN if the car did not get there."""
     reason: str
+    """Why the run ended."""
 
     @property
     def steady(self) -> NDArray[np.bool_]:

@@ -20,47 +20,32 @@ from hosts.fmu.scalars import Place, element_names, scalars
 
 @dataclass(frozen=True)
 class Finding:
-    """One line of the verdict.
-
-    Parameters
-    ----------
-    verdict : str
-        ``good``, ``note`` or ``bad``.
-    """
+    """One line of the verdict."""
 
     check: str
     verdict: str
+    """``good``, ``note`` or ``bad``."""
     words: str
 
 
 @dataclass
 class Subject:
-    """The FMU under check.
-
-    Parameters
-    ----------
-    path, folder : Path
-        The file, and where it is unpacked.
-    steps : int
-        Communication steps per run.
-    step : float
-        Communication step, s.
-    by_elements : ModelDescription
-        The description with elements of arrays as variables of their own.
-    places : mapping of str to Place
-        Where the value of each of these stands.
-    start : mapping of str to float, int, bool or str
-        What is set in each instance before it starts; elements of arrays by their names.
-    """
+    """The FMU under check."""
 
     path: Path
     folder: Path
+    """`path`, `folder`: the file, and where it is unpacked."""
     description: ModelDescription
     by_elements: ModelDescription
+    """The description with elements of arrays as variables of their own."""
     places: Mapping[str, Place]
+    """Where the value of each of these stands."""
     steps: int
+    """Communication steps per run."""
     step: float
+    """Communication step, s."""
     start: Mapping[str, Value] = field(default_factory=dict)
+    """What is set in each instance before it starts; elements of arrays by their names."""
 
     @property
     def three(self) -> bool:

@@ -18,23 +18,16 @@ _MOST = 10_000  # characters of a text
 
 @dataclass(frozen=True)
 class Case:
-    """One line of a verdict.
-
-    Parameters
-    ----------
-    group : str
-        What the line belongs to: the FMU, or the reference.
-    verdict : str
-        ``good``, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
-    seconds : float
-        How long it took.
-    """
+    """One line of a verdict."""
 
     group: str
+    """What the line belongs to: the FMU, or the reference."""
     name: str
     verdict: Literal["good", "bad", "skipped", "error"]
+    """``good``, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible."""
     words: str
     seconds: float = 0.0
+    """How long it took."""
 
 
 def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:

@@ -43,27 +43,19 @@ _ROUND_OFF = 1e-4
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far a signal is from its reference.
-
-    Parameters
-    ----------
-    error : float
-        The largest, in that unit.
-    at : float
-        Its time, s.
-    size : float
-        Of the signal: the range of the reference, or a thousandth of its largest value, or a millionth of the nominal
-        value, whichever is largest.
-    bound : float
-        Largest share of the size that is allowed.
-    """
+    """How far a signal is from its reference."""
 
     name: str
     unit: str
     error: float
+    """The largest, in that unit."""
     at: float
+    """Its time, s."""
     size: float
+    """Of the signal: the range of the reference, or a thousandth of its largest value, or a millionth of the nominal
+    value, whichever is largest."""
     bound: float
+    """Largest share of the size that is allowed."""
 
     @property
     def share(self) -> float:

@@ -14,18 +14,12 @@ ROAD = "road.file"
 
 @dataclass(frozen=True)
 class Wishes:
-    """What the user sets.
-
-    Parameters
-    ----------
-    sets : list of Path
-        SSV files; a later one replaces values of those before it.
-    values : list of (str, str)
-        Names and values as written on the command line, which replace those of the files.
-    """
+    """What the user sets."""
 
     sets: list[Path]
+    """SSV files; a later one replaces values of those before it."""
     values: list[tuple[str, str]]
+    """Names and values as written on the command line, which replace those of the files."""
 
     def __bool__(self) -> bool:
         return bool(self.sets or self.values)

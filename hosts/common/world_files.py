@@ -20,19 +20,13 @@ _START = {"x": "initial.x", "y": "initial.y", "yaw": "initial.yaw"}
 
 @dataclass(frozen=True)
 class World:
-    """A world as the command writes it.
-
-    Parameters
-    ----------
-    road : Path or None
-        The road file; None: the FMU's own road.
-    content : mapping
-        JSON: ``roads``, ``scenery``, ``places``, ``bounds``.
-    """
+    """A world as the command writes it."""
 
     name: str
     road: Path | None
+    """The road file; None: the FMU's own road."""
     content: Mapping[str, Any]
+    """JSON: ``roads``, ``scenery``, ``places``, ``bounds``."""
 
     def places(self) -> dict[str, dict[str, Value]]:
         """Start values by name of the place."""

@@ -30,26 +30,19 @@ _LEAST_EXPLAINED = 0.25
 
 @dataclass(frozen=True)
 class Alignment:
-    """How late a measured signal is.
-
-    Parameters
-    ----------
-    delay, delay_error : float
-        s, and half of its 95 % interval; what happens at t in the simulation happens at delay + (1 + drift) t in the
-        log. NaN where it cannot be found.
-    drift, drift_error : float
-        By how much the log's clock of this signal runs fast.
-    explained : float
-        Part of the squared residuals without a drift that the drift takes away.
-    """
+    """How late a measured signal is."""
 
     delay: float
     delay_error: float
+    """`delay`, `delay_error`: s, and half of its 95 % interval; what happens at t in the simulation happens at delay +
+    (1 + drift) t in the log. NaN where it cannot be found."""
     drift: float
     drift_error: float
+    """`drift`, `drift_error`: by how much the log's clock of this signal runs fast."""
     correlation: float
     note: str = ""
     explained: float = 0.0
+    """Part of the squared residuals without a drift that the drift takes away."""
 
     @property
     def has_drift(self) -> bool:

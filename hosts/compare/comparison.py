@@ -16,33 +16,23 @@ from hosts.measures.measure import Measure
 
 @dataclass(frozen=True)
 class ComparedSignal:
-    """A signal of the log and of the simulation.
-
-    Parameters
-    ----------
-    deviations : Deviations
-        At the samples of the log, as they are: no delay is taken out.
-    """
+    """A signal of the log and of the simulation."""
 
     measured: Signal
     simulated: Curve
     deviations: Deviations
+    """At the samples of the log, as they are: no delay is taken out."""
     rating: Rating
     alignment: Alignment
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """All signals.
-
-    Parameters
-    ----------
-    common : Alignment
-        Of all signals together that tell a delay alone; of all where none does.
-    """
+    """All signals."""
 
     signals: dict[str, ComparedSignal]
     common: Alignment
+    """Of all signals together that tell a delay alone; of all where none does."""
 
 
 def compare(

@@ -25,24 +25,17 @@ _NAME_AND_UNIT = re.compile(r"(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 @dataclass(frozen=True)
 class FoundForm:
-    """The form of a file.
-
-    Parameters
-    ----------
-    names : list of str
-        Of the columns, without units; those without a name are empty.
-    units : dict of str to str
-        As they are written, by name.
-    first_row : int
-        Lines before the first row of values.
-    """
+    """The form of a file."""
 
     delimiter: str
     decimal: str
     encoding: str
     names: list[str]
+    """Of the columns, without units; those without a name are empty."""
     units: dict[str, str]
+    """As they are written, by name."""
     first_row: int
+    """Lines before the first row of values."""
 
 
 def find_form(path: Path, wish: Form) -> FoundForm:

@@ -13,31 +13,22 @@ _ROUNDING = 1e-9  # of the unit of a signal: less than any sensor tells
 
 @dataclass(frozen=True)
 class Deviations:
-    """Simulated minus measured.
-
-    Parameters
-    ----------
-    rms : float
-        Root of the mean square.
-    normalised : float
-        `rms` over the standard deviation of the measured signal: 0 equal, 1 no better than its mean. NaN where the
-        measured signal is constant.
-    mean, largest, time_of_largest : float
-        `largest` with its sign, in the unit of the signal; s.
-    correlation : float
-        Pearson's coefficient; NaN where one of both is constant.
-    note : str
-        Why something is NaN, else empty.
-    """
+    """Simulated minus measured."""
 
     rms: float
+    """Root of the mean square."""
     normalised: float
+    """`rms` over the standard deviation of the measured signal: 0 equal, 1 no better than its mean. NaN where the
+    measured signal is constant."""
     mean: float
     largest: float
     time_of_largest: float
+    """`mean`, `largest`, `time_of_largest`: `largest` with its sign, in the unit of the signal; s."""
     correlation: float
+    """Pearson's coefficient; NaN where one of both is constant."""
     samples: int
     note: str = ""
+    """Why something is NaN, else empty."""
 
 
 def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> Deviations:

@@ -27,17 +27,12 @@ from hosts.fmu.fmu import StartRefusedError
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is to be fitted, checked before anything is driven.
-
-    Parameters
-    ----------
-    coarse : dict of str to float
-        The inner step of the FMU while it is fitted, where one is asked for.
-    """
+    """What is to be fitted, checked before anything is driven."""
 
     parameters: list[Unknown]
     nuisances: list[str]
     coarse: dict[str, Value]
+    """The inner step of the FMU while it is fitted, where one is asked for."""
 
 
 def wanted(options: argparse.Namespace, task: Task) -> Wanted:

@@ -23,21 +23,14 @@ FOLDS = 4
 
 @dataclass(frozen=True)
 class Parts:
-    """Parts of a log, each of which can be left out.
-
-    Parameters
-    ----------
-    number : ndarray of int, shape (n,)
-        Of the part in which each residual lies.
-    begins : ndarray of shape (k,)
-        In the log, s.
-    length : float
-        Of a part, s.
-    """
+    """Parts of a log, each of which can be left out."""
 
     number: NDArray[np.intp]
+    """Shape (n,): of the part in which each residual lies."""
     begins: Array
+    """Shape (k,): in the log, s."""
     length: float
+    """Of a part, s."""
 
     @property
     def independent(self) -> float:
@@ -92,16 +85,12 @@ def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Arra
 
 
 def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
-    """Residuals of each part with the parameters that the other parts give, to first order.
+    """Residuals of each part with the parameters that the other parts give, to first order, shape (n,).
 
     Parameters
     ----------
     jacobian : ndarray of shape (n, p)
     residual : ndarray of shape (n,)
-
-    Returns
-    -------
-    ndarray of shape (n,)
     """
     found = residual.copy()
     for k, change in enumerate(_changes(jacobian, residual, parts, [[k] for k in range(len(parts.begins))])):

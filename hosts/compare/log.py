@@ -30,27 +30,18 @@ _SLOWEST = 0.5  # s between samples of a test drive, unless the user has named t
 
 @dataclass(frozen=True)
 class Signal:
-    """A measured signal with its own samples.
-
-    Parameters
-    ----------
-    name : str
-        Ours.
-    source : str
-        Column of the log.
-    unit : str
-        Of `values`.
-    time : ndarray of shape (n,)
-        s, increasing; where an input jumps its time stands twice.
-    values : ndarray of shape (n,)
-        Finite.
-    """
+    """A measured signal with its own samples."""
 
     name: str
+    """Ours."""
     source: str
+    """Column of the log."""
     unit: str
+    """Of `values`."""
     time: NDArray[np.float64]
+    """Shape (n,): s, increasing; where an input jumps its time stands twice."""
     values: NDArray[np.float64]
+    """Shape (n,): finite."""
 
     @property
     def interval(self) -> float:
@@ -71,23 +62,16 @@ class Signal:
 
 @dataclass(frozen=True)
 class Log:
-    """Signals by our names.
-
-    Parameters
-    ----------
-    inputs, outputs : dict of str to Signal
-        What drives the FMU, and what is compared with it.
-    held : frozenset of str
-        Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours.
-    begun : dict of str to float, int, bool or str, optional
-        Start values of that run, where its first row is the first of the log.
-    """
+    """Signals by our names."""
 
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
+    """`inputs`, `outputs`: what drives the FMU, and what is compared with it."""
     notes: list[str]
     held: frozenset[str] = frozenset()
+    """Inputs that keep the value of a row up to the next one, where the log is the result of a run of ours."""
     begun: Mapping[str, Value] | None = None
+    """Start values of that run, where its first row is the first of the log."""
 
 
 def log_for(

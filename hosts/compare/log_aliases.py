@@ -24,21 +24,15 @@ _SIGNAL = ("name", "unit", "factor", "offset", "time")
 
 @dataclass(frozen=True)
 class Column:
-    """A column of the log: number in the log = factor * value in `unit` + offset.
-
-    Parameters
-    ----------
-    unit : str, optional
-        Without it that of the table's heading, else that of the FMU.
-    time : str, optional
-        Column with the times of this one, where it is not that of the table.
-    """
+    """A column of the log: number in the log = factor * value in `unit` + offset."""
 
     name: str
     unit: str | None = None
+    """Without it that of the table's heading, else that of the FMU."""
     factor: float = 1.0
     offset: float = 0.0
     time: str | None = None
+    """Column with the times of this one, where it is not that of the table."""
 
 
 @dataclass(frozen=True)
@@ -53,21 +47,15 @@ class Clock:
 
 @dataclass(frozen=True)
 class Form:
-    """How a CSV file is written; None: found out.
-
-    Parameters
-    ----------
-    heading : int, optional
-        Line of the names, the first is 1.
-    units : int, optional
-        Line of the units; 0: there is none.
-    """
+    """How a CSV file is written; None: found out."""
 
     delimiter: str | None = None
     decimal: str | None = None
     encoding: str | None = None
     heading: int | None = None
+    """Line of the names, the first is 1."""
     units: int | None = None
+    """Line of the units; 0: there is none."""
 
 
 @dataclass(frozen=True)

@@ -24,25 +24,17 @@ _MDF = (".mf4", ".mdf", ".dat")
 
 @dataclass(frozen=True)
 class RawLog:
-    """A table as it is written.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Columns by name.
-    units : dict of str to str
-        Where the file gives them.
-    first_row : int
-        Lines of the file before the first row.
-    added : int
-        Rows that the file does not have, from the record of the run that wrote it.
-    """
+    """A table as it is written."""
 
     path: Path
     table: pd.DataFrame
+    """Columns by name."""
     units: dict[str, str]
+    """Where the file gives them."""
     first_row: int
+    """Lines of the file before the first row."""
     added: int = 0
+    """Rows that the file does not have, from the record of the run that wrote it."""
 
     def with_jumps(self, record: RunRecord) -> RawLog:
         """With a row before each jump of an input that the record of a run knows; `HostError` if it is of another."""

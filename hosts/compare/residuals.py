@@ -30,28 +30,17 @@ class RefusedError(HostError):
 
 @dataclass
 class Residuals:
-    """Simulated minus measured over the noise, of all signals one after the other.
-
-    Parameters
-    ----------
-    unknowns : sequence of Unknown
-        Those of the FMU first.
-    noise : mapping of str to float
-        By signal, in its unit.
-    simulate : callable
-        Of the parameters of the FMU; the reason, a sentence, where it refuses them.
-
-    Attributes
-    ----------
-    steps : ndarray of shape (p,)
-        Of the differences for parameters of the FMU.
-    """
+    """Simulated minus measured over the noise, of all signals one after the other."""
 
     outputs: Mapping[str, Signal]
     unknowns: Sequence[Unknown]
+    """Those of the FMU first."""
     noise: dict[str, float]
+    """By signal, in its unit."""
     simulate: Callable[[Mapping[str, float]], Result | str]
+    """Of the parameters of the FMU; the reason, a sentence, where it refuses them."""
     steps: Array = field(default_factory=lambda: np.zeros(0))
+    """Shape (p,): of the differences for parameters of the FMU."""
     _kept: dict[tuple[float, ...], dict[str, Curve] | str] = field(default_factory=dict)
 
     @property

@@ -49,14 +49,7 @@ def write_signals(before: Comparison, after: Comparison | None, file: Path) -> N
 def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:
     """Measures for JSON, which has no NaN."""
     return [
-        {
-            "name": m.name,
-            "value": or_null(m.value),
-            "unit": m.unit,
-            "text": m.text,
-            "note": m.note,
-        }
-        for m in measures
+        {"name": m.name, "value": or_null(m.value), "unit": m.unit, "text": m.text, "note": m.note} for m in measures
     ]
 
 

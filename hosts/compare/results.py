@@ -25,16 +25,11 @@ from hosts.fmu.variables import Variables
 
 @dataclass(frozen=True)
 class Outcome:
-    """A comparison that was done.
-
-    Parameters
-    ----------
-    before, after : Comparison
-        With the parameters of the FMU and with fitted ones.
-    """
+    """A comparison that was done."""
 
     before: Comparison
     after: Comparison | None
+    """`before`, `after`: with the parameters of the FMU and with fitted ones."""
     fit: Fit | None
     notes: list[str]
     problems: list[str]

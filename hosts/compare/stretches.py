@@ -20,27 +20,18 @@ Spans = tuple[tuple[float, float], ...]
 
 @dataclass(frozen=True)
 class Stretch:
-    """A part of a log that is driven.
-
-    Parameters
-    ----------
-    manoeuvre : Manoeuvre
-        Of the measured inputs.
-    speed : Signal, optional
-        Measured, from time 0 on, where a driver holds it in place of the measured pedals.
-    pedal : float
-        With which that driver starts; negative: of the brake.
-    begin : float
-        In the log, s.
-    place : float
-        Where it begins in what is compared, s.
-    """
+    """A part of a log that is driven."""
 
     manoeuvre: Manoeuvre
+    """Of the measured inputs."""
     speed: Signal | None = None
+    """Measured, from time 0 on, where a driver holds it in place of the measured pedals."""
     pedal: float = 0.0
+    """With which that driver starts; negative: of the brake."""
     begin: float = 0.0
+    """In the log, s."""
     place: float = 0.0
+    """Where it begins in what is compared, s."""
 
     @property
     def end(self) -> float:

@@ -41,35 +41,25 @@ _FREQUENCY = "vehicle.steering_frequency"
 
 @dataclass(frozen=True)
 class Task:
-    """A comparison that can be done.
-
-    Parameters
-    ----------
-    inputs, outputs : dict of str to Signal
-        From time 0 on; outputs of windows one window after the other.
-    step : float
-        s.
-    slopes : bool
-        Whether inputs change during a step.
-    parameters : dict of str to Variable
-        Of the FMU, by our names.
-    windowed : bool
-        Whether the stretches are windows, each from its measured state.
-    scales : dict of str to Signal
-        Measured speed and lateral acceleration at the places of the outputs.
-    """
+    """A comparison that can be done."""
 
     aliases: Aliases
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
+    """`inputs`, `outputs`: from time 0 on; outputs of windows one window after the other."""
     stretches: list[Stretch]
     step: float
+    """s."""
     slopes: bool
+    """Whether inputs change during a step."""
     parameters: dict[str, Variable]
+    """Of the FMU, by our names."""
     set_values: dict[str, Value]
     notes: list[str]
     windowed: bool = False
+    """Whether the stretches are windows, each from its measured state."""
     scales: dict[str, Signal] = field(default_factory=dict)
+    """Measured speed and lateral acceleration at the places of the outputs."""
 
     @property
     def end(self) -> float:

@@ -15,17 +15,7 @@ NUISANCES = ("delay", "delays", "drift", "bias", "gain")
 
 @dataclass(frozen=True)
 class Unknown:
-    """A number that is sought.
-
-    Parameters
-    ----------
-    scale : float
-        By how much it typically changes.
-    signal : str
-        Whose it is; empty: of the FMU, or of all signals.
-    kind : str
-        ``parameter``, or one of delay, drift, bias, gain.
-    """
+    """A number that is sought."""
 
     name: str
     unit: str
@@ -33,8 +23,11 @@ class Unknown:
     low: float
     high: float
     scale: float
+    """By how much it typically changes."""
     signal: str = ""
+    """Whose it is; empty: of the FMU, or of all signals."""
     kind: str = "parameter"
+    """``parameter``, or one of delay, drift, bias, gain."""
 
 
 def nuisances(

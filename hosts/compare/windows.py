@@ -20,37 +20,25 @@ _BINS: Mapping[str, tuple[str, float]] = {"speed": ("m/s", 10.0), "lateral accel
 
 @dataclass(frozen=True)
 class Window:
-    """A window that was driven from the measured state.
-
-    Parameters
-    ----------
-    begin, end : float
-        In the log, s.
-    rms : dict of str to float
-        Of the deviation of each signal, in its unit.
-    departed : str
-        The signal whose deviation exceeds the range of what was measured in all windows; empty: none.
-    """
+    """A window that was driven from the measured state."""
 
     begin: float
     end: float
+    """`begin`, `end`: in the log, s."""
     rms: dict[str, float]
+    """Of the deviation of each signal, in its unit."""
     departed: str
+    """The signal whose deviation exceeds the range of what was measured in all windows; empty: none."""
 
 
 @dataclass(frozen=True)
 class Bin:
-    """Deviations of a signal where a measured quantity lies between two values.
-
-    Parameters
-    ----------
-    quantity, unit : str
-        By which is told, and its unit.
-    """
+    """Deviations of a signal where a measured quantity lies between two values."""
 
     signal: str
     quantity: str
     unit: str
+    """`quantity`, `unit`: by which is told, and its unit."""
     low: float
     high: float
     samples: int

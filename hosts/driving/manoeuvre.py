@@ -18,40 +18,27 @@ ON_TIME = 1e-9
 
 @dataclass(frozen=True)
 class Manoeuvre:
-    """What a host does with an FMU.
-
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        s, not decreasing; a time that stands twice is a step.
-    inputs : dict of str to ndarray of shape (n,)
-        Values at `time`, linear in between, by variable name.
-    start : dict of str to float, int, bool or str
-        Start values of parameters (or inputs).
-    driver : dict of str to str
-        Settings of the path-following driver; empty: open loop.
-    stop_time : float
-        s.
-    state : bytes, optional
-        Of the FMU, restored before the first step.
-    state_time : float
-        At which the FMU then stands, s; `time` counts from there.
-    held : frozenset of str
-        Inputs that keep the value of a row up to the next one.
-    step : float, optional
-        Communication step that it was recorded with, s; taken where no other is asked for.
-    """
+    """What a host does with an FMU."""
 
     name: str
     time: NDArray[np.float64]
+    """Shape (n,): s, not decreasing; a time that stands twice is a step."""
     inputs: dict[str, NDArray[np.float64]]
+    """Each of shape (n,): values at `time`, linear in between, by variable name."""
     stop_time: float
+    """s."""
     start: dict[str, Value] = field(default_factory=dict)
+    """Start values of parameters (or inputs)."""
     driver: dict[str, str] = field(default_factory=dict)
+    """Settings of the path-following driver; empty: open loop."""
     state: bytes | None = None
+    """Of the FMU, restored before the first step."""
     state_time: float = 0.0
+    """At which the FMU then stands, s; `time` counts from there."""
     held: frozenset[str] = frozenset()
+    """Inputs that keep the value of a row up to the next one."""
     step: float | None = None
+    """Communication step that it was recorded with, s; taken where no other is asked for."""
 
     def initial(self, held: Collection[str] = ()) -> dict[str, float]:
         """Inputs before the first step: those at time 0, or what they step from where the table begins with a step."""

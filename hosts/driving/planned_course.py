@@ -26,15 +26,10 @@ SMOOTHNESS = 0.01  # weight of the sum of all changes: it settles what the large
 
 @dataclass(frozen=True)
 class PlannedCourse(Course):
-    """A course with a line of its own.
-
-    Parameters
-    ----------
-    line : callable
-        Of x in m to y in m, slope and second derivative.
-    """
+    """A course with a line of its own."""
 
     line: Callable[[float], tuple[float, float, float]] = lambda x: (0.0, 0.0, 0.0)
+    """Of x in m to y in m, slope and second derivative."""
 
     def path(self, x: float) -> tuple[float, float, float]:
         """See `hosts.driving.course.Course.path`."""

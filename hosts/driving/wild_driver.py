@@ -24,19 +24,13 @@ _LOCK = 9.0  # rad, beyond which no car of ours turns its steering wheel
 
 @dataclass(frozen=True)
 class Target:
-    """What is driven at deliberately, such as a ramp.
-
-    Parameters
-    ----------
-    x, y : float
-        m.
-    yaw : float
-        Direction in which it is to be met, rad.
-    """
+    """What is driven at deliberately, such as a ramp."""
 
     x: float
     y: float
+    """`x`, `y`: m."""
     yaw: float
+    """Direction in which it is to be met, rad."""
 
 
 class WildDriver:

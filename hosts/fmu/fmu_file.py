@@ -16,16 +16,11 @@ CAR = "prototype"
 
 @dataclass(frozen=True)
 class FoundFmu:
-    """An FMU and where it comes from.
-
-    Parameters
-    ----------
-    built : float
-        Seconds that its build took; 0: it was there.
-    """
+    """An FMU and where it comes from."""
 
     path: Path
     built: float = 0.0
+    """Seconds that its build took; 0: it was there."""
 
 
 def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None = None) -> FoundFmu:

@@ -23,20 +23,14 @@ TEXTS = ("String", "Binary")
 
 @dataclass(frozen=True)
 class Place:
-    """Where the value of a scalar stands in an FMU.
-
-    Parameters
-    ----------
-    type : str
-        Of FMI, such as ``Real`` or ``Float64``.
-    item, size : int
-        Place in the values of the variable, and how many values it has.
-    """
+    """Where the value of a scalar stands in an FMU."""
 
     reference: int
     type: str
+    """Of FMI, such as ``Real`` or ``Float64``."""
     item: int = 0
     size: int = 1
+    """`item`, `size`: place in the values of the variable, and how many values it has."""
 
 
 def element_names(path: Path) -> dict[str, list[str]]:

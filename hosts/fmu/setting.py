@@ -11,22 +11,15 @@ from hosts.fmu.variables import Variable
 
 @dataclass(frozen=True)
 class Setting:
-    """A value that is set.
-
-    Parameters
-    ----------
-    value : float, int, bool or str
-        In the variable's unit.
-    source : str
-        Where it comes from, for a person.
-    given : str
-        Value and unit as they were given, where the unit is another; else empty.
-    """
+    """A value that is set."""
 
     variable: Variable
     value: Value
+    """In the variable's unit."""
     source: str
+    """Where it comes from, for a person."""
     given: str = ""
+    """Value and unit as they were given, where the unit is another; else empty."""
 
     @property
     def changes(self) -> bool:

@@ -28,36 +28,26 @@ _ROLES = {
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of an FMU.
-
-    Parameters
-    ----------
-    kind : str
-        ``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration``, or another type of FMI.
-    unit : str
-        "1" where there is none.
-    low, high : float
-        Range, infinite where open.
-    definition : UnitDefinition, optional
-        Of the unit, where the FMU has one.
-    displays : dict of str to (float, float)
-        Factor and offset of display units: displayed = factor * value + offset.
-    items : dict of str to int
-        Of an enumeration.
-    """
+    """A variable of an FMU."""
 
     name: str
     description: str
     causality: str
     variability: str
     kind: str
+    """``Real``, ``Integer``, ``Boolean``, ``String``, ``Enumeration``, or another type of FMI."""
     unit: str
+    """"1" where there is none."""
     start: Value | None
     low: float
     high: float
+    """`low`, `high`: range, infinite where open."""
     definition: UnitDefinition | None
+    """Of the unit, where the FMU has one."""
     displays: dict[str, tuple[float, float]]
+    """Factor and offset of display units: displayed = factor * value + offset."""
     items: dict[str, int]
+    """Of an enumeration."""
 
     def text(self, value: Value | None) -> str:
         """A value for a person."""

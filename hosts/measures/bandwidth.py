@@ -13,30 +13,20 @@ from hosts.measures.frequency_response import FrequencyResponse
 
 @dataclass(frozen=True)
 class Bandwidth:
-    """NaN where the response does not show it in its range.
-
-    Parameters
-    ----------
-    low_gain : float
-        Gain at the lowest frequency, in units of output over input.
-    gain_bandwidth : float
-        Where the gain has fallen to 1/sqrt(2) of it (-3 dB), Hz.
-    phase_bandwidth : float
-        Where the output lags by 45 degrees more than a response without delay, Hz.
-    equivalent_time : float
-        1 / (2 pi `phase_bandwidth`), s: time constant of the lag of first order with the same.
-    resonance : float
-        Where the gain is largest, Hz; NaN if that is at an end of the range.
-    resonance_ratio : float
-        Gain there over `low_gain`.
-    """
+    """NaN where the response does not show it in its range."""
 
     low_gain: float
+    """Gain at the lowest frequency, in units of output over input."""
     gain_bandwidth: float
+    """Where the gain has fallen to 1/sqrt(2) of it (-3 dB), Hz."""
     phase_bandwidth: float
+    """Where the output lags by 45 degrees more than a response without delay, Hz."""
     equivalent_time: float
+    """1 / (2 pi `phase_bandwidth`), s: time constant of the lag of first order with the same."""
     resonance: float
+    """Where the gain is largest, Hz; NaN if that is at an end of the range."""
     resonance_ratio: float
+    """Gain there over `low_gain`."""
 
 
 def bandwidth(response: FrequencyResponse) -> Bandwidth:

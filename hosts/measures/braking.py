@@ -125,7 +125,7 @@ def time_to_reach(time: NDArray[np.float64], deceleration: NDArray[np.float64], 
 
 
 def locked(slip: NDArray[np.float64], speed: NDArray[np.float64], slowest: float = 3.0) -> NDArray[np.bool_]:
-    """Where braked wheels stand while the car moves.
+    """Where braked wheels stand while the car moves, shape (n, m).
 
     Parameters
     ----------
@@ -135,9 +135,5 @@ def locked(slip: NDArray[np.float64], speed: NDArray[np.float64], slowest: float
         m/s.
     slowest : float
         m/s; slower, wheels may lock.
-
-    Returns
-    -------
-    ndarray of shape (n, m)
     """
     return np.asarray((slip < -0.9) & (speed > slowest)[:, None])

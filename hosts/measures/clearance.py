@@ -11,7 +11,7 @@ from hosts.driving.course import Course
 def outline(
     x: NDArray[np.float64], y: NDArray[np.float64], yaw: NDArray[np.float64], length: float, width: float
 ) -> NDArray[np.float64]:
-    """Corners of a rectangle.
+    """Corners of a rectangle, shape (n, 4, 2), earth, m: front left, rear left, rear right, front right.
 
     Parameters
     ----------
@@ -19,11 +19,6 @@ def outline(
         Its centre and heading, m and rad.
     length, width : float
         m.
-
-    Returns
-    -------
-    ndarray of shape (n, 4, 2)
-        Earth, m: front left, rear left, rear right, front right.
     """
     ahead, aside = np.stack([np.cos(yaw), np.sin(yaw)], -1), np.stack([-np.sin(yaw), np.cos(yaw)], -1)
     signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * 0.5 * np.array([length, width])

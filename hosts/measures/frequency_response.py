@@ -11,21 +11,14 @@ from scipy.signal import csd
 
 @dataclass(frozen=True)
 class FrequencyResponse:
-    """Response over frequency.
-
-    Parameters
-    ----------
-    frequency : ndarray of shape (n,)
-        Hz, increasing.
-    response : ndarray of shape (n,), complex
-        Output over input.
-    coherence : ndarray of shape (n,)
-        Part of the output's power that follows linearly from the input, 0 to 1.
-    """
+    """Response over frequency."""
 
     frequency: NDArray[np.float64]
+    """Shape (n,): Hz, increasing."""
     response: NDArray[np.complex128]
+    """Shape (n,): output over input."""
     coherence: NDArray[np.float64]
+    """Shape (n,): part of the output's power that follows linearly from the input, 0 to 1."""
 
     @property
     def gain(self) -> NDArray[np.float64]:

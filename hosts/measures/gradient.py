@@ -15,19 +15,13 @@ _SPAN = 0.8
 
 @dataclass(frozen=True)
 class Gradient:
-    """A regression line.
-
-    Parameters
-    ----------
-    slope, intercept : float
-        NaN where there is no line.
-    error : float
-        Standard error of the slope.
-    """
+    """A regression line."""
 
     slope: float
     intercept: float
+    """`slope`, `intercept`: NaN where there is no line."""
     error: float
+    """Standard error of the slope."""
 
 
 NONE = Gradient(math.nan, math.nan, math.nan)

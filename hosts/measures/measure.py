@@ -10,19 +10,13 @@ from hosts.common.numbers import is_round_off
 
 @dataclass(frozen=True)
 class Limit:
-    """What a measure must keep.
-
-    Parameters
-    ----------
-    source : str
-        Who demands it: standard and clause.
-    lowest, highest : float
-        In the unit of the measure; infinite: not limited.
-    """
+    """What a measure must keep."""
 
     source: str
+    """Who demands it: standard and clause."""
     lowest: float = -math.inf
     highest: float = math.inf
+    """`lowest`, `highest`: in the unit of the measure; infinite: not limited."""
 
     def holds(self, value: float) -> bool:
         """Whether a value keeps it; a NaN does not."""
@@ -31,32 +25,22 @@ class Limit:
 
 @dataclass(frozen=True)
 class Measure:
-    """A number.
-
-    Parameters
-    ----------
-    name : str
-        Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores.
-    value : float
-        In `unit`; NaN where the run does not yield it, and `note` says why.
-    unit : str
-        As units of FMI are written, such as ``rad/s``; ``1`` where there is none.
-    text : str
-        What it is, in a line.
-    note : str
-        A sentence where the number is not the plain one, else empty.
-    exists : bool
-        False where there is no such number, as the critical speed of a car that understeers: it is NaN, and is not
-        missing.
-    """
+    """A number."""
 
     name: str
+    """Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores."""
     value: float
+    """In `unit`; NaN where the run does not yield it, and `note` says why."""
     unit: str
+    """As units of FMI are written, such as ``rad/s``; ``1`` where there is none."""
     text: str
+    """What it is, in a line."""
     limit: Limit | None = None
     note: str = ""
+    """A sentence where the number is not the plain one, else empty."""
     exists: bool = True
+    """False where there is no such number, as the critical speed of a car that understeers: it is NaN, and is not
+    missing."""
 
     @property
     def is_missing(self) -> bool:

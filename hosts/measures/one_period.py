@@ -14,30 +14,22 @@ from hosts.measures.peak import top
 
 @dataclass(frozen=True)
 class OnePeriod:
-    """What is measured of one quantity.
-
-    Parameters
-    ----------
-    correlation_lag : float
-        Shift at which it correlates best with the steering, s; positive: later.
-    correlation : float
-        Coefficient of correlation at that shift, -1 to 1.
-    first_lag, second_lag : float
-        From the first peak of the steering to that of the quantity, and from the second to the second, s.
-    first_ratio, second_ratio : float
-        Peaks over peaks, in units of quantity over angle.
-    hysteresis : float
-        Area of the loop over the steering angle, over that of the ellipse in the same rectangle, pi times both
-        amplitudes; the sine of the lag in phase where both are sinusoidal.
-    """
+    """What is measured of one quantity."""
 
     correlation_lag: float
+    """Shift at which it correlates best with the steering, s; positive: later."""
     correlation: float
+    """Coefficient of correlation at that shift, -1 to 1."""
     first_lag: float
     second_lag: float
+    """`first_lag`, `second_lag`: from the first peak of the steering to that of the quantity, and from the second to
+    the second, s."""
     first_ratio: float
     second_ratio: float
+    """`first_ratio`, `second_ratio`: peaks over peaks, in units of quantity over angle."""
     hysteresis: float
+    """Area of the loop over the steering angle, over that of the ellipse in the same rectangle, pi times both
+    amplitudes; the sine of the lag in phase where both are sinusoidal."""
 
 
 NOTHING = OnePeriod(*7 * (math.nan,))
@@ -71,7 +63,7 @@ def correlation_lag(
 def one_period(
     time: NDArray[np.float64], steering: NDArray[np.float64], values: NDArray[np.float64], longest: float = 0.9
 ) -> OnePeriod:
-    """Measures of the response of one quantity to one period.
+    """Measures of the response of one quantity to one period; all NaN where a signal is zero or not finite.
 
     Parameters
     ----------
@@ -81,11 +73,6 @@ def one_period(
         Less their values before the period; `values` has the sign of the steering in a steady state.
     longest : float
         Largest lag that is looked for, s; less than half of the period.
-
-    Returns
-    -------
-    OnePeriod
-        All NaN where a signal is zero or not finite.
     """
     if len(time) < 5 or not np.isfinite(values).all() or not values.any() or not steering.any():
         return NOTHING

@@ -15,27 +15,18 @@ from hosts.measures.frequency_response import FrequencyResponse
 
 @dataclass(frozen=True)
 class SecondOrder:
-    """Response gain (1 + a s + b s²) / (1 + 2 zeta s / w + s² / w²).
-
-    Parameters
-    ----------
-    gain : float
-        Of the steady state, in units of output over input.
-    natural_frequency : float
-        w, rad/s, undamped.
-    damping_ratio : float
-        zeta.
-    lead : tuple of float
-        a, s, and b, s²: the numerator.
-    misfit : float
-        RMS of the difference from the data over the RMS of the data.
-    """
+    """Response gain (1 + a s + b s²) / (1 + 2 zeta s / w + s² / w²)."""
 
     gain: float
+    """Of the steady state, in units of output over input."""
     natural_frequency: float
+    """w, rad/s, undamped."""
     damping_ratio: float
+    """zeta."""
     lead: tuple[float, float]
+    """a, s, and b, s²: the numerator."""
     misfit: float
+    """RMS of the difference from the data over the RMS of the data."""
 
     def response(self, frequency: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Response at frequencies in Hz."""

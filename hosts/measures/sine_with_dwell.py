@@ -17,29 +17,21 @@ BEGIN = math.radians(5.0)
 
 @dataclass(frozen=True)
 class SineWithDwell:
-    """What is measured of one run; NaN where the record ends before it.
-
-    Parameters
-    ----------
-    begin, completion : float
-        Begin and completion of steer (BOS, COS), s.
-    yaw_rate_peak : float
-        Second peak of the yaw rate, the first after the steering wheel has changed the side, rad/s.
-    ratio_1_00, ratio_1_75 : float
-        Yaw rate 1.00 and 1.75 s after the completion over the peak; negative: the yaw rate has changed its sign.
-    displacement : float
-        Size of the lateral displacement 1.07 s after the beginning, m.
-    sideslip : float
-        Largest size of the sideslip angle until 1.75 s after the completion, rad; NaN without the signal.
-    """
+    """What is measured of one run; NaN where the record ends before it."""
 
     begin: float
     completion: float
+    """`begin`, `completion`: begin and completion of steer (BOS, COS), s."""
     yaw_rate_peak: float
+    """Second peak of the yaw rate, the first after the steering wheel has changed the side, rad/s."""
     ratio_1_00: float
     ratio_1_75: float
+    """`ratio_1_00`, `ratio_1_75`: yaw rate 1.00 and 1.75 s after the completion over the peak; negative: the yaw rate
+    has changed its sign."""
     displacement: float
+    """Size of the lateral displacement 1.07 s after the beginning, m."""
     sideslip: float
+    """Largest size of the sideslip angle until 1.75 s after the completion, rad; NaN without the signal."""
 
 
 NOTHING = SineWithDwell(*7 * (math.nan,))

@@ -13,30 +13,20 @@ from hosts.measures.peak import top
 
 @dataclass(frozen=True)
 class StepResponse:
-    """What is measured of one quantity; NaN where the record does not show it.
-
-    Parameters
-    ----------
-    steady : float
-        Mean over the window of the steady state, less the mean before the step, in the unit of the quantity.
-    response_time : float
-        From the reference time to 90 % of `steady`, s.
-    peak : float
-        Largest value in the direction of `steady` after the step, in the unit of the quantity.
-    peak_response_time : float
-        From the reference time to it, s; NaN if the response does not overshoot.
-    overshoot : float
-        (`peak` - `steady`) / `steady`; 0 if the response does not overshoot.
-    unsteadiness : float
-        Standard deviation in the window of the steady state over the size of `steady`.
-    """
+    """What is measured of one quantity; NaN where the record does not show it."""
 
     steady: float
+    """Mean over the window of the steady state, less the mean before the step, in the unit of the quantity."""
     response_time: float
+    """From the reference time to 90 % of `steady`, s."""
     peak: float
+    """Largest value in the direction of `steady` after the step, in the unit of the quantity."""
     peak_response_time: float
+    """From the reference time to it, s; NaN if the response does not overshoot."""
     overshoot: float
+    """(`peak` - `steady`) / `steady`; 0 if the response does not overshoot."""
     unsteadiness: float
+    """Standard deviation in the window of the steady state over the size of `steady`."""
 
 
 NOTHING = StepResponse(*6 * (float("nan"),))

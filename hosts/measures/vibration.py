@@ -65,7 +65,7 @@ def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.f
 
 
 def largest_running_rms(values: NDArray[np.float64], interval: float, window: float = 1.0) -> float:
-    """Largest root mean square within a window that runs along (MTVV of ISO 2631-1).
+    """Largest root mean square within a window that runs along (MTVV of ISO 2631-1), in the unit of `values`.
 
     Parameters
     ----------
@@ -73,11 +73,6 @@ def largest_running_rms(values: NDArray[np.float64], interval: float, window: fl
         Zero before the first sample.
     interval, window : float
         s.
-
-    Returns
-    -------
-    float
-        In the unit of `values`.
     """
     samples = max(1, round(window / interval))
     squares = np.cumsum(np.concatenate([np.zeros(samples), np.square(values)]))

@@ -30,16 +30,12 @@ def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
 
 
 def lifted_wheels(loads: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Where wheels are off the road.
+    """Where wheels are off the road, shape (n, 4).
 
     Parameters
     ----------
     loads : ndarray of shape (n, 4)
         Normal forces, N.
-
-    Returns
-    -------
-    ndarray of shape (n, 4)
     """
     return np.asarray(loads <= LIFTED)
 

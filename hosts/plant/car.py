@@ -26,21 +26,14 @@ Range: TypeAlias = "Value | tuple[float, float]"
 
 @dataclass(frozen=True)
 class Saved:
-    """A state of a car, of `Car.save`.
-
-    Attributes
-    ----------
-    time : float
-        s.
-    steps : int
-        Communication steps since the start.
-    content : bytes
-        As the FMU writes it.
-    """
+    """A state of a car, of `Car.save`."""
 
     time: float
+    """s."""
     steps: int
+    """Communication steps since the start."""
     content: bytes
+    """As the FMU writes it."""
 
 
 class Car(Closing):

@@ -17,28 +17,20 @@ from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 
 @dataclass(frozen=True)
 class LastDrive:
-    """What led to the end of a recording: the drive since the last start, without what was rewound.
-
-    Parameters
-    ----------
-    start : dict of str to float, int, bool or str
-        Values that were set before it.
-    time : ndarray of shape (n + 1,)
-        Of the FMU, s: of the start and after each step.
-    count, epoch : ndarray of shape (n + 1,)
-        Of the rows of the recording.
-    inputs : ndarray of shape (n + 1, number of inputs)
-        At the start, then of each step; one more row where the recording ends with a step that was refused.
-    whole : bool
-        Whether it begins with a start, and not with a saved state.
-    """
+    """What led to the end of a recording: the drive since the last start, without what was rewound."""
 
     start: dict[str, Value]
+    """Values that were set before it."""
     time: NDArray[np.float64]
+    """Shape (n + 1,): of the FMU, s: of the start and after each step."""
     count: NDArray[np.int64]
     epoch: NDArray[np.int64]
+    """`count`, `epoch`, shape (n + 1,): of the rows of the recording."""
     inputs: NDArray[np.float64]
+    """Shape (n + 1, number of inputs): at the start, then of each step; one more row where the recording ends with a
+    step that was refused."""
     whole: bool
+    """Whether it begins with a start, and not with a saved state."""
 
 
 @dataclass(frozen=True)

@@ -22,18 +22,12 @@ _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": 
 
 @dataclass(frozen=True)
 class RowKey:
-    """Names a row of a recording.
-
-    Parameters
-    ----------
-    count : int
-        Steps computed so far.
-    epoch : int or None
-        None: the last row of this count before; a count stands twice where an epoch begins.
-    """
+    """Names a row of a recording."""
 
     count: int
+    """Steps computed so far."""
     epoch: int | None
+    """None: the last row of this count before; a count stands twice where an epoch begins."""
 
     def fits(self, count: int, epoch: int) -> bool:
         """Whether it names the row of this count and epoch."""
@@ -47,22 +41,15 @@ def _back_to(event: dict[str, Any]) -> RowKey:
 
 @dataclass(frozen=True)
 class RecordedDrive:
-    """A recording.
-
-    Parameters
-    ----------
-    meta : dict
-        Its `recording.json`.
-    events : list of dict
-        In their order.
-    notes : list of str
-        Sentences on what the reader should know.
-    """
+    """A recording."""
 
     folder: Path
     meta: dict[str, Any]
+    """Its `recording.json`."""
     events: list[dict[str, Any]]
+    """In their order."""
     notes: list[str] = field(default_factory=list)
+    """Sentences on what the reader should know."""
 
     @property
     def names(self) -> list[str]:

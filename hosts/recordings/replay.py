@@ -22,21 +22,14 @@ from hosts.recordings.tables import Rows
 
 @dataclass(frozen=True)
 class Difference:
-    """A value that came out otherwise.
-
-    Parameters
-    ----------
-    count : int
-        Steps up to its row.
-    time : float
-        Of the FMU, s.
-    name : str
-        Of the output; ``step``: it was refused, or one that was refused was not.
-    """
+    """A value that came out otherwise."""
 
     count: int
+    """Steps up to its row."""
     time: float
+    """Of the FMU, s."""
     name: str
+    """Of the output; ``step``: it was refused, or one that was refused was not."""
     recorded: float
     repeated: float
 
@@ -49,24 +42,16 @@ class Difference:
 
 @dataclass
 class Replayed:
-    """What a replay found.
-
-    Parameters
-    ----------
-    rows : int
-        That were compared.
-    different : int
-        Rows with another bit.
-    first : list of Difference
-        The first of them, one for each output.
-    notes : list of str
-        Sentences, such as that it is another build of the FMU.
-    """
+    """What a replay found."""
 
     rows: int = 0
+    """That were compared."""
     different: int = 0
+    """Rows with another bit."""
     first: list[Difference] = field(default_factory=list)
+    """The first of them, one for each output."""
     notes: list[str] = field(default_factory=list)
+    """Sentences, such as that it is another build of the FMU."""
 
 
 class Repeater(Closing):

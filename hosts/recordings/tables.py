@@ -24,24 +24,17 @@ _BLOCK = 4096
 
 
 class Rows(NamedTuple):
-    """Rows of a recording, in the order in which they were recorded.
-
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        Time of the FMU, s; it falls where the car was reset or rewound.
-    steps : ndarray of shape (n,)
-        Steps computed so far, whole; the column ``count``.
-    epoch : ndarray of shape (n,)
-        Whole; one more at every reset, rewind, upright.
-    values : ndarray of shape (n, m)
-        Inputs of the step that ends there, then outputs after it; what was not recorded is not a number.
-    """
+    """Rows of a recording, in the order in which they were recorded."""
 
     time: NDArray[np.float64]
+    """Shape (n,): time of the FMU, s; it falls where the car was reset or rewound."""
     steps: NDArray[np.int64]
+    """Shape (n,): steps computed so far, whole; the column ``count``."""
     epoch: NDArray[np.int64]
+    """Shape (n,): whole; one more at every reset, rewind, upright."""
     values: NDArray[np.float64]
+    """Shape (n, m): inputs of the step that ends there, then outputs after it; what was not recorded is not a
+    number."""
 
     def __len__(self) -> int:
         return len(self.time)

@@ -39,13 +39,7 @@ _STATE_EVERY = 20.0  # s of simulated time between states of a recording
 
 @dataclass(frozen=True)
 class Order:
-    """What the process is started with.
-
-    Parameters
-    ----------
-    memory : str
-        Name of the shared memory.
-    """
+    """What the process is started with."""
 
     fmu: Path
     folder: Path
@@ -55,6 +49,7 @@ class Order:
     priority: bool
     sizes: Sizes
     memory: str
+    """Name of the shared memory."""
 
 
 def run_car(order: Order, link: connection.Connection) -> None:

@@ -24,17 +24,12 @@ _AT_REST = (*_INITIAL, _SPEED)
 
 @dataclass(frozen=True)
 class Told:
-    """What happened, for the events.
-
-    Parameters
-    ----------
-    details : dict
-        What a recording needs to repeat it.
-    """
+    """What happened, for the events."""
 
     kind: str
     text: str
     details: dict[str, Any] = field(default_factory=dict)
+    """What a recording needs to repeat it."""
 
 
 class DrivenFmu:

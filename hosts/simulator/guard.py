@@ -14,18 +14,12 @@ _LOCAL_NAMES = ("localhost",)
 
 @dataclass(frozen=True)
 class Guard:
-    """What a request must bring.
-
-    Parameters
-    ----------
-    address : str
-        That the server listens on.
-    token : str
-        Other users of this machine reach its ports too.
-    """
+    """What a request must bring."""
 
     address: str
+    """That the server listens on."""
     token: str
+    """Other users of this machine reach its ports too."""
 
     @classmethod
     def of(cls, address: str) -> Guard:

@@ -95,7 +95,7 @@ def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | No
 def run_headless(
     car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None], bar: bool = True
 ) -> bool:
-    """Drive for a simulated time.
+    """Drive for a simulated time; False where a step was refused.
 
     Parameters
     ----------
@@ -107,11 +107,6 @@ def run_headless(
         Takes kind and text of what there is to be said.
     bar : bool
         Whether a progress bar is shown, where there is a terminal.
-
-    Returns
-    -------
-    bool
-        Whether no step was refused.
 
     Raises
     ------

@@ -32,50 +32,36 @@ _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {
 
 @dataclass(frozen=True)
 class Asked:
-    """What the command line says of the car and its world.
-
-    Parameters
-    ----------
-    world : str, optional
-        Name or file.
-    wishes : Wishes
-        Of ``--set`` and ``--parameters``.
-    manoeuvre : str
-        Its name; empty: none is driven.
-    start : callable
-        Start values of the manoeuvre, which come first, for the names of the variables that there are.
-    """
+    """What the command line says of the car and its world."""
 
     fmu: Path | None
     world: str | None
+    """Name or file."""
     place: str | None
     fidelity: float | None
     wishes: Wishes
+    """Of ``--set`` and ``--parameters``."""
     aliases: Path | None
     record: Path | None
     manoeuvre: str = ""
+    """Its name; empty: none is driven."""
     start: Callable[[Collection[str]], Mapping[str, Value]] = lambda names: {}
+    """Start values of the manoeuvre, which come first, for the names of the variables that there are."""
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """A car that can be started.
-
-    Parameters
-    ----------
-    settings : Settings
-        What is set in it, the road and the place among it.
-    scene : dict or None
-        The drawing of the FMU without roads; None: it has none.
-    """
+    """A car that can be started."""
 
     fmu: FoundFmu
     description: ModelDescription
     variables: Variables
     aliases: Aliases
     settings: Settings
+    """What is set in it, the road and the place among it."""
     world: World
     scene: dict[str, Any] | None
+    """The drawing of the FMU without roads; None: it has none."""
 
     def hello(
         self, constants: Mapping[str, float], columns: tuple[str, ...], step: float, record: str

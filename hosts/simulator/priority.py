@@ -13,13 +13,7 @@ _HIGH_PRIORITY_CLASS, _THREAD_PRIORITY_TIME_CRITICAL = 0x80, 15
 
 
 def ask_for_priority() -> str:
-    """Ask the system to run this thread before others, and to keep its memory.
-
-    Returns
-    -------
-    str
-        What was got, as a sentence.
-    """
+    """Ask the system to run this thread before others, and to keep its memory; a sentence says what was got."""
     if sys.platform == "win32":
         kernel = ctypes.WinDLL("kernel32", use_last_error=True)
         kernel.GetCurrentProcess.restype = kernel.GetCurrentThread.restype = ctypes.c_void_p

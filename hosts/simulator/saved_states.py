@@ -28,22 +28,15 @@ class SavesStates(Protocol):
 
 @dataclass(frozen=True)
 class Mark:
-    """A step of the past.
-
-    Parameters
-    ----------
-    count, epoch : int
-        Of its row.
-    begin : float
-        Time at which the FMU was started, s.
-    steps : int
-        Since that start.
-    """
+    """A step of the past."""
 
     count: int
     epoch: int
+    """`count`, `epoch`: of its row."""
     begin: float
+    """Time at which the FMU was started, s."""
     steps: int
+    """Since that start."""
 
 
 @dataclass(frozen=True)

@@ -43,21 +43,13 @@ class ShownDevices(Protocol):
 
 @dataclass(frozen=True)
 class Content:
-    """What the server hands out.
-
-    Parameters
-    ----------
-    page : str
-        HTML.
-    world : mapping
-        JSON of the drawing of the world, as ``ali3 road --world`` writes it.
-    hello : mapping
-        The first message to a page.
-    places : mapping of str to mapping
-        Start values by name of the places of the world.
-    """
+    """What the server hands out."""
 
     page: str
+    """HTML."""
     world: Mapping[str, Any]
+    """JSON of the drawing of the world, as ``ali3 road --world`` writes it."""
     hello: Mapping[str, Any]
+    """The first message to a page."""
     places: Mapping[str, Mapping[str, Value]]
+    """Start values by name of the places of the world."""

@@ -165,19 +165,13 @@ class ByteRing:
 
 @dataclass(frozen=True)
 class Sizes:
-    """What the layout follows from.
-
-    Parameters
-    ----------
-    inputs, columns : int
-        Number of inputs, and of inputs and outputs.
-    rows : int
-        Rows of a recording that may wait.
-    """
+    """What the layout follows from."""
 
     inputs: int
     columns: int
+    """`inputs`, `columns`: number of inputs, and of inputs and outputs."""
     rows: int
+    """Rows of a recording that may wait."""
 
 
 class SharedValues:

@@ -69,17 +69,12 @@ class TimesRecord:
 
 @dataclass(frozen=True)
 class Spread:
-    """A histogram and its largest value.
-
-    Parameters
-    ----------
-    counts : ndarray of shape (BINS,)
-    largest : float
-        s.
-    """
+    """A histogram and its largest value."""
 
     counts: NDArray[np.float64]
+    """Shape (BINS,)."""
     largest: float
+    """s."""
 
     def quantile(self, part: float) -> float:
         """The time that this part of the steps does not exceed, s: the upper edge of its bin (6 %), 0 without steps."""
@@ -121,52 +116,36 @@ _TOPS = [float(f"{m}e{e}") for e in range(-6, 2) for m in (1, 2, 5)] + [math.inf
 
 @dataclass(frozen=True)
 class StepTimes:
-    """Times of the steps so far.
-
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
-    simulated : float
-        Simulated time of these steps, s.
-    scheduled : float
-        Wall time that they were to take at the speeds that were asked for, s.
-    wall, paused : float
-        Wall time in which the car ran and in which it was paused, s.
-    missed : int
-        Deadlines that were missed: the step was not done when the next was to begin.
-    missed_by : dict of str to int
-        How many of them by each of `CAUSES`; all zero where the system does not tell.
-    skipped : int
-        How often the schedule was moved on because the car was too late.
-    lost : float
-        Wall time by which it was moved, s.
-    cost, lateness : Spread
-        Of the work of a step, and of its begin after its scheduled time.
-    mean : float
-        Of the costs, s.
-    capped : int
-        Inner steps of the FMU that a limit of iterations cut short.
-    capped_residual : float
-        The largest that they left, m.
-    """
+    """Times of the steps so far."""
 
     step: float
+    """Communication step, s."""
     paced: bool
     steps: int
     simulated: float
+    """Simulated time of these steps, s."""
     scheduled: float
+    """Wall time that they were to take at the speeds that were asked for, s."""
     wall: float
     paused: float
+    """`wall`, `paused`: wall time in which the car ran and in which it was paused, s."""
     missed: int
+    """Deadlines that were missed: the step was not done when the next was to begin."""
     missed_by: dict[str, int]
+    """How many of them by each of `CAUSES`; all zero where the system does not tell."""
     skipped: int
+    """How often the schedule was moved on because the car was too late."""
     lost: float
+    """Wall time by which it was moved, s."""
     cost: Spread
     lateness: Spread
+    """`cost`, `lateness`: of the work of a step, and of its begin after its scheduled time."""
     mean: float
+    """Of the costs, s."""
     capped: int
+    """Inner steps of the FMU that a limit of iterations cut short."""
     capped_residual: float
+    """The largest that they left, m."""
 
     @staticmethod
     def of(values: NDArray[np.float64], step: float, paced: bool) -> StepTimes:
@@ -200,25 +179,8 @@ class StepTimes:
 
     def report(self) -> dict[str, Any]:
         """For JSON; times in s, `bins` as upper edge and count."""
-        return {
-            "step": self.step,
-            "paced": self.paced,
-            "steps": self.steps,
-            "simulated": self.simulated,
-            "scheduled": self.scheduled,
-            "wall": self.wall,
-            "paused": self.paused,
-            "factor": self.factor,
-            "missed": self.missed,
-            "missed_by": self.missed_by,
-            "skipped": self.skipped,
-            "lost": self.lost,
-            "mean": self.mean,
-            "capped": self.capped,
-            "capped_residual": self.capped_residual,
-            "cost": self.cost.report(),
-            "lateness": self.lateness.report(),
-        }
+        spreads = {"cost": self.cost.report(), "lateness": self.lateness.report()}
+        return vars(self) | {"factor": self.factor} | spreads
 
     def text(self) -> str:
         """For a person."""

@@ -32,20 +32,14 @@ _EVERYWHERE = ("0.0.0.0", "::")
 
 @dataclass(frozen=True)
 class Opened:
-    """Where pages come from.
-
-    Parameters
-    ----------
-    browser : bool
-        Whether to open one.
-    devices : bool
-        Whether wheels and gamepads of this machine drive.
-    """
+    """Where pages come from."""
 
     listening: socket.socket
     guard: Guard
     browser: bool
+    """Whether to open one."""
     devices: bool
+    """Whether wheels and gamepads of this machine drive."""
 
     @property
     def address(self) -> str:

@@ -29,82 +29,60 @@ _TOLD = 5.0  # s simulated between lines of progress
 
 @dataclass(frozen=True)
 class Task:
-    """What is driven.
-
-    Parameters
-    ----------
-    fidelity : int or None
-        None: the FMU has no choice.
-    step : float
-        Communication step, s.
-    start : dict of str to float, int, bool or str
-        Set before every start, over those of the seed.
-    grounds : list of dict
-        Of `Ground.record`.
-    out : str
-        Folder for failing stretches.
-    """
+    """What is driven."""
 
     fmu: str
     seed: int
     fidelity: int | None
+    """None: the FMU has no choice."""
     seconds: float
     step: float
+    """Communication step, s."""
     start: dict[str, Value]
+    """Set before every start, over those of the seed."""
     grounds: list[dict[str, Any]]
+    """Of `Ground.record`."""
     out: str
+    """Folder for failing stretches."""
     largest_balance: float = LARGEST_BALANCE
 
 
 @dataclass
 class Failure:
-    """A failing stretch.
-
-    Parameters
-    ----------
-    run : int
-        Of the drive, from 0.
-    time : float
-        In the run, s.
-    manoeuvre : str
-        File for ``ali3 run``; empty where it was not written.
-    """
+    """A failing stretch."""
 
     kind: str
     text: str
     run: int
+    """Of the drive, from 0."""
     time: float
+    """In the run, s."""
     road: str
     manoeuvre: str = ""
+    """File for ``ali3 run``; empty where it was not written."""
 
 
 @dataclass
 class Outcome:
-    """What a drive gave.
-
-    Parameters
-    ----------
-    simulated, wall : float
-        s.
-    messages : dict of str to int
-        What the FMU logged, and how often.
-    memory_first, memory_last, memory_growth : float
-        MB: of the process after a quarter of the drive and at its end, and the growth between.
-    """
+    """What a drive gave."""
 
     seed: int
     fidelity: int | None
     simulated: float = 0.0
     wall: float = 0.0
+    """`simulated`, `wall`: s."""
     runs: int = 0
     uprights: int = 0
     rewinds: int = 0
     counts: Counts = field(default_factory=Counts)
     failures: list[Failure] = field(default_factory=list)
     messages: dict[str, int] = field(default_factory=dict)
+    """What the FMU logged, and how often."""
     memory_first: float = 0.0
     memory_last: float = 0.0
     memory_growth: float = 0.0
+    """`memory_first`, `memory_last`, `memory_growth`: MB: of the process after a quarter of the drive and at its end,
+    and the growth between."""
 
 
 class _Drive:

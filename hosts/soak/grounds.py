@@ -37,15 +37,10 @@ _WAVES = (-45.0, 0.0, 20.0, 1.8, 0.03)  # x, y, side, wavelength, amplitude, m
 
 @dataclass(frozen=True)
 class Ground:
-    """A road with what is driven at on it.
-
-    Parameters
-    ----------
-    road : str
-        Of the parameter `road.file`.
-    """
+    """A road with what is driven at on it."""
 
     road: str
+    """Of the parameter `road.file`."""
     targets: tuple[Target, ...]
 
     @property

@@ -34,25 +34,19 @@ _CHUNK_BYTES = 20e6  # of signals that come from a worker at once
 
 @dataclass(frozen=True)
 class Ended:
-    """What a study has come to.
-
-    Parameters
-    ----------
-    good : bool
-        Whether every run has a row, and one at least of those made now has all its measures.
-    failed : int
-        Of the runs that were made now.
-    """
+    """What a study has come to."""
 
     folder: Path
     good: bool
+    """Whether every run has a row, and one at least of those made now has all its measures."""
     failed: int
+    """Of the runs that were made now."""
 
 
 def run_study(
     file: Path, out: Path | None, scheduler: str | None, workers: int | None, dry: bool = False, again: bool = False
 ) -> Ended | None:
-    """Check a study, make the runs that are missing, and write their rows.
+    """Check a study, make the runs that are missing, and write their rows; None after a dry run.
 
     Parameters
     ----------
@@ -62,11 +56,6 @@ def run_study(
         Only print the plan.
     again : bool
         Make failed runs again.
-
-    Returns
-    -------
-    Ended or None
-        None after a dry run.
 
     Raises
     ------

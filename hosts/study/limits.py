@@ -32,37 +32,26 @@ _NO_INTERVAL = {
 
 @dataclass(frozen=True)
 class Share:
-    """How many runs keep a limit.
-
-    Parameters
-    ----------
-    measure : str
-        Its column; `ALL` for variants, the points of the study, that keep every limit in all their runs.
-    manoeuvre : str
-        Empty for `ALL`.
-    limit : Limit
-        In `unit`.
-    within, outside : int
-        Runs, of `ALL` points.
-    without_result : int
-        Those of `outside` that failed, or did not yield a measure that there should be.
-    absent : int
-        Runs in which there is no such measure, as the critical speed of a car that understeers; neither within nor
-        outside.
-    low, high : float
-        Wilson's score interval of the share, 95 %; NaN where the runs are no random sample.
-    """
+    """How many runs keep a limit."""
 
     measure: str
+    """Its column; `ALL` for variants, the points of the study, that keep every limit in all their runs."""
     manoeuvre: str
+    """Empty for `ALL`."""
     limit: Limit
+    """In `unit`."""
     unit: str
     within: int
     outside: int
+    """`within`, `outside`: runs, of `ALL` points."""
     without_result: int
+    """Those of `outside` that failed, or did not yield a measure that there should be."""
     absent: int
+    """Runs in which there is no such measure, as the critical speed of a car that understeers; neither within nor
+    outside."""
     low: float
     high: float
+    """`low`, `high`: Wilson's score interval of the share, 95 %; NaN where the runs are no random sample."""
 
     @property
     def share(self) -> float:

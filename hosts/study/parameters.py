@@ -18,30 +18,21 @@ from hosts.study.study_file import ParameterEntry
 
 @dataclass(frozen=True)
 class Parameter:
-    """One that is varied.
-
-    Parameters
-    ----------
-    kind : str
-        Of its variable: ``Real``, ``Integer``, ``Boolean``, ``String`` or ``Enumeration``.
-    unit : str
-        Of the FMU.
-    low, high : float
-        Range; NaN where there are values.
-    values : tuple of float, int, bool or str
-        Empty where there is a range.
-    count : int or None
-        Values of the range in a grid.
-    """
+    """One that is varied."""
 
     name: str
     kind: str
+    """Of its variable: ``Real``, ``Integer``, ``Boolean``, ``String`` or ``Enumeration``."""
     unit: str
+    """Of the FMU."""
     low: float = math.nan
     high: float = math.nan
+    """`low`, `high`: range; NaN where there are values."""
     log: bool = False
     values: tuple[Value, ...] = ()
+    """Empty where there is a range."""
     count: int | None = None
+    """Values of the range in a grid."""
 
     @property
     def length(self) -> int:

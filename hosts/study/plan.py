@@ -33,19 +33,7 @@ OWN_COLUMNS = (
 
 @dataclass(frozen=True)
 class Plan:
-    """What is run.
-
-    Parameters
-    ----------
-    kinds : dict of str to str
-        ``Real``, ``Integer``, ... of the parameters.
-    units : dict of str to str
-        Of all columns and signals that have one.
-    outputs : tuple of str
-        Inputs and outputs of the FMU: all that a run records.
-    record : dict
-        All of it for JSON; two plans with the same are the same study.
-    """
+    """What is run."""
 
     name: str
     file: Path
@@ -53,10 +41,14 @@ class Plan:
     work: Work
     points: Points
     kinds: dict[str, str]
+    """``Real``, ``Integer``, ... of the parameters."""
     units: dict[str, str]
+    """Of all columns and signals that have one."""
     outputs: tuple[str, ...]
+    """Inputs and outputs of the FMU: all that a run records."""
     seed: int
     record: dict[str, Any]
+    """All of it for JSON; two plans with the same are the same study."""
     notes: tuple[str, ...] = ()
 
     @property

@@ -22,23 +22,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PlannedRuns:
-    """Runs of a study.
-
-    Parameters
-    ----------
-    fmu : SimulatedFmu
-        Under our names, where there is an alias file.
-    parameters : dict of str to object
-        A record of each parameter by its name.
-    jobs : list of Job
-        What is done at each point.
-    """
+    """Runs of a study."""
 
     fmu: SimulatedFmu
+    """Under our names, where there is an alias file."""
     aliases: Aliases | None
     points: Points
     parameters: dict[str, Any]
+    """A record of each parameter by its name."""
     jobs: list[Job]
+    """What is done at each point."""
 
 
 def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:

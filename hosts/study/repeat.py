@@ -24,19 +24,13 @@ FOLDER = "repeat"
 
 @dataclass(frozen=True)
 class Repeat:
-    """Lines for a shell.
-
-    Parameters
-    ----------
-    drive : str
-        Makes the run again and writes its table, or does the test again; empty for a manoeuvre under names of an alias
-        file.
-    view : str
-        Shows it moving; empty for a test.
-    """
+    """Lines for a shell."""
 
     drive: str
+    """Makes the run again and writes its table, or does the test again; empty for a manoeuvre under names of an alias
+    file."""
     view: str
+    """Shows it moving; empty for a test."""
 
 
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:

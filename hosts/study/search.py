@@ -25,56 +25,38 @@ _NEAR = 0.05  # of the range, or of the value: farther ones tell another slope
 
 @dataclass(frozen=True)
 class Run:
-    """A run of a search.
-
-    Parameters
-    ----------
-    y : float
-        Of the measure; NaN where the run does not yield it.
-    reason : str
-        Why it does not, else empty.
-    """
+    """A run of a search."""
 
     x: float
     y: float
+    """Of the measure; NaN where the run does not yield it."""
     reason: str = ""
+    """Why it does not, else empty."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """What a search has come to.
-
-    Parameters
-    ----------
-    runs : tuple of Run
-        In the order in which they were made.
-    best : Run or None
-        Whose measure is nearest to what is wanted; None if no run yields it.
-    met : bool
-        Whether that is within the tolerance.
-    tolerance : float
-        In the unit of the measure.
-    slope : float
-        Change of the measure by that of the parameter at `best`: of the parabola through it and its neighbours, or of
-        the line where there is one neighbour; NaN without any.
-    between : tuple of float
-        Values of the parameter of these neighbours.
-    rises, falls : bool
-        Whether the measure does so anywhere between neighbouring runs, by more than the tolerance; both: it is not
-        monotone.
-    crossed : bool
-        Whether the wanted value lies between those of two runs.
-    """
+    """What a search has come to."""
 
     runs: tuple[Run, ...]
+    """In the order in which they were made."""
     best: Run | None
+    """Whose measure is nearest to what is wanted; None if no run yields it."""
     met: bool
+    """Whether that is within the tolerance."""
     tolerance: float
+    """In the unit of the measure."""
     slope: float
+    """Change of the measure by that of the parameter at `best`: of the parabola through it and its neighbours, or of
+    the line where there is one neighbour; NaN without any."""
     between: tuple[float, float]
+    """Values of the parameter of these neighbours."""
     rises: bool
     falls: bool
+    """`rises`, `falls`: whether the measure does so anywhere between neighbouring runs, by more than the tolerance;
+    both: it is not monotone."""
     crossed: bool
+    """Whether the wanted value lies between those of two runs."""
 
 
 class _End(Exception):  # noqa: N818

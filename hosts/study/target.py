@@ -39,23 +39,16 @@ _VALUE = re.compile(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\d,;\s].*?|)\s*")
 
 @dataclass(frozen=True)
 class Target:
-    """What is asked for.
-
-    Parameters
-    ----------
-    measure : str
-        As the user names it.
-    unit : str
-        Of `value`; empty: that of the measure.
-    range : tuple of float, optional
-        In the unit of the FMU; None: that of the study file, else of the FMU.
-    """
+    """What is asked for."""
 
     measure: str
+    """As the user names it."""
     value: float
     unit: str
+    """Of `value`; empty: that of the measure."""
     by: str
     range: tuple[float, float] | None
+    """In the unit of the FMU; None: that of the study file, else of the FMU."""
 
 
 def target_of(text: str, by: str, limits: str | None) -> Target:

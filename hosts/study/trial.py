@@ -23,21 +23,14 @@ _COMPRESSED = 1.0  # of signals, at worst
 
 @dataclass(frozen=True)
 class Trial:
-    """What the runs before a study have told.
-
-    Parameters
-    ----------
-    seconds : float
-        Of a run, mean over the manoeuvres.
-    reuse : bool
-        Whether an instance gives the same bits after a reset.
-    columns : dict of str to str
-        Measures of tests, with units.
-    """
+    """What the runs before a study have told."""
 
     seconds: float
+    """Of a run, mean over the manoeuvres."""
     reuse: bool
+    """Whether an instance gives the same bits after a reset."""
     columns: dict[str, str]
+    """Measures of tests, with units."""
     notes: tuple[str, ...]
 
 

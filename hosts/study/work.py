@@ -26,55 +26,38 @@ MISSING = ", "
 
 @dataclass(frozen=True)
 class Work:
-    """A study for a worker.
-
-    Parameters
-    ----------
-    fmu : str
-        File name of the FMU.
-    program : str
-        Digest of the program that makes the runs.
-    columns : tuple of str
-        All measures of the table.
-    aliases : Aliases, optional
-        Of an alias file.
-    reuse : bool
-        Whether an instance of the FMU is used again after a reset.
-    time_limit : float, optional
-        s a run may take.
-    """
+    """A study for a worker."""
 
     fmu: str
+    """File name of the FMU."""
     guid: str
     sha256: str
     program: str
+    """Digest of the program that makes the runs."""
     jobs: tuple[Job, ...]
     parameters: tuple[str, ...]
     measures: tuple[StudyMeasure, ...]
     columns: tuple[str, ...]
+    """All measures of the table."""
     signals: tuple[str, ...]
     aliases: Aliases | None = None
+    """Of an alias file."""
     reuse: bool = False
+    """Whether an instance of the FMU is used again after a reset."""
     time_limit: float | None = None
+    """s a run may take."""
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Runs that are done one after the other by one worker.
-
-    Parameters
-    ----------
-    indices : list of int
-        Of the runs, n of them.
-    values : dict of str to list
-        n values of each parameter.
-    isolated : bool
-        Whether each run has a process of its own, so that one that crashes is found.
-    """
+    """Runs that are done one after the other by one worker."""
 
     indices: list[int]
+    """Of the runs, n of them."""
     values: Mapping[str, list[Value]]
+    """n values of each parameter."""
     isolated: bool = False
+    """Whether each run has a process of its own, so that one that crashes is found."""
 
     def __len__(self) -> int:
         return len(self.indices)
@@ -87,30 +70,22 @@ class Chunk:
 
 @dataclass
 class Outcome:
-    """How a run ended.
-
-    Parameters
-    ----------
-    simulated, wall : float
-        s.
-    signals : ndarray of shape (samples, signals), optional
-    units : dict of str to str
-        Of the measures of a test, where it is not yet known which there are.
-    messages : tuple of str
-        What the FMU said, and notes of a test; each sentence once.
-    missing : tuple of str
-        Measures that there should be and that the run did not yield; other NaN are of measures that it has not.
-    """
+    """How a run ended."""
 
     status: str = DONE
     reason: str = ""
     measures: dict[str, float] = field(default_factory=dict)
     simulated: float = 0.0
     wall: float = 0.0
+    """`simulated`, `wall`: s."""
     signals: NDArray[np.float64] | None = None
+    """Shape (samples, signals)."""
     units: dict[str, str] = field(default_factory=dict)
+    """Of the measures of a test, where it is not yet known which there are."""
     messages: tuple[str, ...] = ()
+    """What the FMU said, and notes of a test; each sentence once."""
     missing: tuple[str, ...] = ()
+    """Measures that there should be and that the run did not yield; other NaN are of measures that it has not."""
 
 
 def seed_of(study_seed: int, point: int) -> int:

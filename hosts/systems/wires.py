@@ -20,20 +20,14 @@ from hosts.fmu.fmu import Fmu
 
 @dataclass(frozen=True)
 class Wire:
-    """One connection: the input takes the output.
-
-    Parameters
-    ----------
-    source, output : str
-        Part and its variable.
-    target, input : str
-        Part and its variable.
-    """
+    """One connection: the input takes the output."""
 
     source: str
     output: str
+    """`source`, `output`: part and its variable."""
     target: str
     input: str
+    """`target`, `input`: part and its variable."""
 
 
 def fmus_of(parts: Mapping[str, Path], stack: ExitStack) -> dict[str, Fmu]:

@@ -30,25 +30,18 @@ _ROADS = "roads/"
 
 @dataclass(frozen=True)
 class FmuParts:
-    """An FMU as a page runs it.
-
-    Parameters
-    ----------
-    wasm : bytes or None
-        The binary; None: the FMU has none.
-    resources : dict of str to bytes
-        Files that the binary reads, by their paths inside the folder of the resources.
-    own_road : Path, optional
-        A road file of the user among them.
-    """
+    """An FMU as a page runs it."""
 
     path: Path
     description: ModelDescription
     variables: Variables
     scene: dict[str, Any]
     wasm: bytes | None
+    """The binary; None: the FMU has none."""
     resources: dict[str, bytes]
+    """Files that the binary reads, by their paths inside the folder of the resources."""
     own_road: Path | None = None
+    """A road file of the user among them."""
 
     @property
     def name(self) -> str:

@@ -17,28 +17,19 @@ from viewer.recording import Recording
 
 @dataclass(frozen=True)
 class Page:
-    """What a page shows.
-
-    Parameters
-    ----------
-    fmus : sequence of FmuParts
-        Each with its binary; they run in step, with the same inputs.
-    options : mapping
-        Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``.
-    manoeuvre : Manoeuvre, optional
-        Inputs over time, which a person may take over.
-    recordings : sequence of Recording
-        Drawn beside the FMUs at the same time.
-    ends : sequence of str
-        What is said when a recording is over, one for each.
-    """
+    """What a page shows."""
 
     fmus: Sequence[FmuParts]
+    """Each with its binary; they run in step, with the same inputs."""
     names: Sequence[str]
     options: Mapping[str, Any] = field(default_factory=dict)
+    """Of the page: ``name`` of what it records, ``run`` at once, ``start`` values, ``step``, ``plots``."""
     manoeuvre: Manoeuvre | None = None
+    """Inputs over time, which a person may take over."""
     recordings: Sequence[Recording] = ()
+    """Drawn beside the FMUs at the same time."""
     ends: Sequence[str] = ()
+    """What is said when a recording is over, one for each."""
 
     def text(self, title: str) -> str:
         """The HTML file.

@@ -18,24 +18,16 @@ _FEWEST_ROWS = 20_000
 
 @dataclass(frozen=True)
 class Table:
-    """A table of results.
-
-    Parameters
-    ----------
-    t : ndarray of shape (n,)
-        s.
-    columns : dict of str to ndarray of shape (n,)
-        By name.
-    units : dict of str to str
-        Where the headings give them.
-    note : str
-        A sentence where not all rows were read, else empty.
-    """
+    """A table of results."""
 
     t: NDArray[np.float64]
+    """Shape (n,): s."""
     columns: dict[str, NDArray[np.float64]]
+    """Each of shape (n,): by name."""
     units: dict[str, str]
+    """Where the headings give them."""
     note: str
+    """A sentence where not all rows were read, else empty."""
 
 
 def read_table(path: Path) -> Table:

@@ -27,19 +27,13 @@ _ON_THE_GROUND = "what the manoeuvre has on the ground"
 
 @dataclass(frozen=True)
 class RunWishes:
-    """How an FMU is run that is to be shown.
-
-    Parameters
-    ----------
-    manoeuvre : str, optional
-        As for the command run.
-    stop_time, step : float, optional
-        s.
-    """
+    """How an FMU is run that is to be shown."""
 
     manoeuvre: str | None
+    """As for the command run."""
     stop_time: float | None
     step: float | None
+    """`stop_time`, `step`: s."""
     wishes: Wishes
 
     def __bool__(self) -> bool:

@@ -47,18 +47,13 @@ OSCILLATION_TOLERANCE = 1e-9  # imaginary part over modulus of an eigenvalue bel
 
 @dataclass(frozen=True)
 class Mode:
-    """One natural motion ``shape * exp(eigenvalue * t)``.
-
-    Parameters
-    ----------
-    eigenvalue : complex
-        1/s; of a conjugate pair the one with positive imaginary part.
-    shape : array of shape (nq,), complex
-        Displacement by coordinate, in the order of `LinearModel.coordinates`, scaled so that the largest is 1.
-    """
+    """One natural motion ``shape * exp(eigenvalue * t)``."""
 
     eigenvalue: complex
+    """1/s; of a conjugate pair the one with positive imaginary part."""
     shape: NDArray[np.complex128]
+    """Shape (nq,): displacement by coordinate, in the order of `LinearModel.coordinates`, scaled so that the largest is
+    1."""
 
     @property
     def frequency_hz(self) -> float:
@@ -78,29 +73,20 @@ class Mode:
 
 @dataclass(frozen=True)
 class LinearModel:
-    """Linear model ``xd = A x`` about a state, with x = (z, zd, y), or (z, w, y) with conditions on velocities.
-
-    Parameters
-    ----------
-    A : array of shape (2 n + ny, 2 n + ny)
-        State-space matrix, 1/s. Element slots without dynamics of their own have been dropped from y. Each independent
-        condition on velocities takes one row and column.
-    basis : array of shape (nq, n)
-        Displacement of the coordinates per unit of z; ``basis' M basis`` is the unit matrix.
-    slots : tuple of int
-        Numbers of the element states that are part of x.
-    modes : tuple of Mode
-        By rising frequency.
-    frame_turning : tuple of float
-        Angular velocity of the frame in which frequencies are seen, earth axes, rad/s: three numbers, planar one.
-    """
+    """Linear model ``xd = A x`` about a state, with x = (z, zd, y), or (z, w, y) with conditions on velocities."""
 
     A: Array
+    """Shape (2 n + ny, 2 n + ny): state-space matrix, 1/s. Element slots without dynamics of their own have been
+    dropped from y. Each independent condition on velocities takes one row and column."""
     basis: Array
+    """Shape (nq, n): displacement of the coordinates per unit of z; ``basis' M basis`` is the unit matrix."""
     slots: tuple[int, ...]
+    """Numbers of the element states that are part of x."""
     coordinates: tuple[str, ...]
     modes: tuple[Mode, ...]
+    """By rising frequency."""
     frame_turning: tuple[float, ...] = ()
+    """Angular velocity of the frame in which frequencies are seen, earth axes, rad/s: three numbers, planar one."""
 
     @property
     def degrees_of_freedom(self) -> int:

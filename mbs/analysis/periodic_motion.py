@@ -27,21 +27,14 @@ CLOSED = 1e-4  # largest distance of the state after a period, share of the size
 
 @dataclass(frozen=True)
 class FloquetModel:
-    """Disturbances of a periodic motion after one period.
-
-    Parameters
-    ----------
-    period : float
-        s.
-    monodromy : array of shape (n, n)
-        Map of the admissible displacements and velocities over one period.
-    multipliers : array of shape (n,), complex
-        Its eigenvalues, by falling modulus.
-    """
+    """Disturbances of a periodic motion after one period."""
 
     period: float
+    """s."""
     monodromy: Array
+    """Shape (n, n): map of the admissible displacements and velocities over one period."""
     multipliers: NDArray[np.complex128]
+    """Shape (n,): its eigenvalues, by falling modulus."""
 
     @property
     def exponents(self) -> NDArray[np.complex128]:

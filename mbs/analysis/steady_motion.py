@@ -36,21 +36,14 @@ SKEW = np.array(
 
 @dataclass(frozen=True)
 class SteadyFrame:
-    """The moving frame of a steady motion.
-
-    Parameters
-    ----------
-    G : array of shape (nq, nq)
-        Rate of change of a displacement that is constant in the frame, 1/s.
-    turning : array of shape (1,) or (3,)
-        Angular velocity of the frame, earth axes, rad/s.
-    unsteady : array of shape (nq,)
-        Accelerations that the frame does not explain, m/s2.
-    """
+    """The moving frame of a steady motion."""
 
     G: Array
+    """Shape (nq, nq): rate of change of a displacement that is constant in the frame, 1/s."""
     turning: Array
+    """Shape (1,) or (3,): angular velocity of the frame, earth axes, rad/s."""
     unsteady: Array
+    """Shape (nq,): accelerations that the frame does not explain, m/s2."""
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 class Affine:
     """A scalar ``sum(terms[i] * q_full[i]) + constant``.
 
-    Parameters
-    ----------
-    terms : mapping of int to float
-        Full-coordinate number to coefficient; zeros are left out.
-
     Examples
     --------
     >>> x, y = Affine({0: 1.0}), Affine({1: 1.0})
@@ -28,6 +23,7 @@ class Affine:
     """
 
     terms: Mapping[int, float] = field(default_factory=dict)
+    """Full-coordinate number to coefficient; zeros are left out."""
     constant: float = 0.0
 
     def __add__(self, other: Affine | float) -> Affine:

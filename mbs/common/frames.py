@@ -13,44 +13,30 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FlexibleShapes:
-    """How the nodes of a flexible body turn in its floating frame.
-
-    Parameters
-    ----------
-    first : int
-        Its first amplitude among the full coordinates; the others follow.
-    turns : array of shape (nodes, 3, modes)
-        Rotation of each node per unit amplitude, rad.
-    """
+    """How the nodes of a flexible body turn in its floating frame."""
 
     name: str
     first: int
+    """Its first amplitude among the full coordinates; the others follow."""
     turns: Array
+    """Shape (nodes, 3, modes): rotation of each node per unit amplitude, rad."""
 
 
 @dataclass(frozen=True)
 class Frames:
-    """Full coordinates ``T q + constant`` of a System: points and axes along the earth axes, angles, amplitudes.
-
-    Parameters
-    ----------
-    T : sparse array of shape (nf, nq)
-    constant : array of shape (nf,)
-    dimension : int
-        2 or 3.
-    points, vectors : tuple of int
-        First of the `dimension` full coordinates of each point and of each vector.
-    bodies : tuple of int
-        First full coordinate of each rigid body: centre of mass, then unit axes (spatial a, b, c; planar a).
-    scalars : tuple of int
-        Full coordinates that a shift or turn of the scene leaves as they are, and that may turn on: angles and spins.
-    """
+    """Full coordinates ``T q + constant`` of a System: points and axes along the earth axes, angles, amplitudes."""
 
     T: sparse.csr_matrix
+    """Shape (nf, nq)."""
     constant: Array
+    """Shape (nf,)."""
     dimension: int
+    """2 or 3."""
     points: tuple[int, ...]
     vectors: tuple[int, ...]
+    """`points`, `vectors`: first of the `dimension` full coordinates of each point and of each vector."""
     bodies: tuple[int, ...]
+    """First full coordinate of each rigid body: centre of mass, then unit axes (spatial a, b, c; planar a)."""
     scalars: tuple[int, ...]
+    """Full coordinates that a shift or turn of the scene leaves as they are, and that may turn on: angles and spins."""
     flexible: tuple[FlexibleShapes, ...] = ()

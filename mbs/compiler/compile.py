@@ -6,6 +6,7 @@ from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
 from mbs.compiler.model_to_system import to_system
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
+from mbs.compiler.ports import with_ports_of
 from mbs.model.model import Model
 from mbs.system.system import System
 
@@ -36,4 +37,4 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     ModelError
         If the assembly cannot be closed or the model is not possible; the message names the joints.
     """
-    return to_system(model, closing=closed_loops(tolerance), drawing=drawing, watch=mode_arrays)
+    return to_system(model, closing=closed_loops(tolerance), drawing=drawing, watch=mode_arrays, ports=with_ports_of)

@@ -24,24 +24,16 @@ CONSISTENT = 1e-9
 
 @dataclass(frozen=True)
 class Elimination:
-    """Result of `eliminate`.
-
-    Attributes
-    ----------
-    remaining : list of int
-        Full coordinates that stay: z.
-    expressions : list of Affine
-        Every full coordinate as an expression of z (terms count in z).
-    redundant : int
-        Equations that followed from others.
-    left : list of (int, Affine)
-        Numbers of the equations between coordinates that stay, as expressions of z.
-    """
+    """Result of `eliminate`."""
 
     remaining: list[int]
+    """Full coordinates that stay: z."""
     expressions: list[Affine]
+    """Every full coordinate as an expression of z (terms count in z)."""
     redundant: int
+    """Equations that followed from others."""
     left: list[tuple[int, Affine]]
+    """Numbers of the equations between coordinates that stay, as expressions of z."""
 
 
 def eliminate(

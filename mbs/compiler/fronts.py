@@ -22,24 +22,17 @@ MERGE_ZEROS = 0.25
 
 @dataclass(frozen=True)
 class Fronts:
-    """Fronts in elimination order.
-
-    Attributes
-    ----------
-    order : ndarray, shape (n,)
-        Entry k is the coordinate (before this order) that is eliminated k-th; all else counts in the new order.
-    col : ndarray, shape (nf + 1,)
-        Front s eliminates col[s] .. col[s+1]-1.
-    index : list of ndarray
-        Coordinates of each front, ascending, pivots first.
-    parent : ndarray, shape (nf,)
-        Parent front or -1.
-    """
+    """Fronts in elimination order."""
 
     order: Index
+    """Shape (n,): entry k is the coordinate (before this order) that is eliminated k-th; all else counts in the new
+    order."""
     col: Index
+    """Shape (nf + 1,): front s eliminates col[s] .. col[s+1]-1."""
     index: list[Index]
+    """Coordinates of each front, ascending, pivots first."""
     parent: Index
+    """Shape (nf,): parent front or -1."""
 
     @property
     def factor_nonzeros(self) -> int:

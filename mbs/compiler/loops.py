@@ -18,17 +18,12 @@ from mbs.model.model import Model
 
 @dataclass(eq=False)
 class Vertex:
-    """Welded bodies, or a massless rod, which has none.
-
-    Attributes
-    ----------
-    edges : dict of Vertex to Edge
-        By the vertex at the other end.
-    """
+    """Welded bodies, or a massless rod, which has none."""
 
     name: str
     bodies: list[Body] = field(default_factory=list)
     edges: dict[Vertex, Edge] = field(default_factory=dict)
+    """By the vertex at the other end."""
 
     @property
     def is_rod(self) -> bool:
@@ -43,24 +38,17 @@ class Vertex:
 
 @dataclass(eq=False)
 class Edge:
-    """All joints between two vertices.
-
-    Attributes
-    ----------
-    point : AffineVector
-        Of the first joint.
-    axis : AffineVector or None
-        Of a hinge, or of two ball joints the line through them, about which the vertices turn; of a slide its line.
-    line_of : Vertex or None
-        Which vertex the line of a point that slides belongs to; None where it belongs to both.
-    """
+    """All joints between two vertices."""
 
     ends: tuple[Vertex, Vertex]
     joints: list[Joint]
     point: AffineVector
+    """Of the first joint."""
     axis: AffineVector | None = None
+    """Of a hinge, or of two ball joints the line through them, about which the vertices turn; of a slide its line."""
     slides: bool = False
     line_of: Vertex | None = None
+    """Which vertex the line of a point that slides belongs to; None where it belongs to both."""
 
     def other(self, vertex: Vertex) -> Vertex:
         """The end that is not `vertex`."""
@@ -69,17 +57,12 @@ class Edge:
 
 @dataclass(eq=False)
 class Block:
-    """Edges of which any two lie on a ring, and their vertices.
-
-    Attributes
-    ----------
-    held : Vertex
-        Against which its motion is seen: the ground, else the vertex with the most edges in the model.
-    """
+    """Edges of which any two lie on a ring, and their vertices."""
 
     vertices: list[Vertex]
     edges: list[Edge]
     held: Vertex
+    """Against which its motion is seen: the ground, else the vertex with the most edges in the model."""
 
 
 def blocks_of_loops(model: Model) -> list[Block]:

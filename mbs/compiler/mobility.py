@@ -28,29 +28,20 @@ CONVERGED = 1e-15
 
 @dataclass
 class Closed:
-    """Loops closed as far as they can be.
-
-    Attributes
-    ----------
-    rank : int
-        Number of singular values above the tolerance.
-    values : ndarray, shape (n,)
-        Singular values, the largest 1, padded by zeros to the number of unknowns.
-    left, right : ndarray
-        Singular vectors of the others, shapes (m, m - rank) and (n, n - rank).
-    misfit : ndarray, shape (m - rank,)
-        What stays open, in sizes.
-    good : bool
-        Whether all else is closed.
-    """
+    """Loops closed as far as they can be."""
 
     places: Places
     rank: int
+    """Number of singular values above the tolerance."""
     values: Array
+    """Shape (n,): singular values, the largest 1, padded by zeros to the number of unknowns."""
     left: Array
     right: Array
+    """`left`, `right`: singular vectors of the others, shapes (m, m - rank) and (n, n - rank)."""
     misfit: Array
+    """Shape (m - rank,): what stays open, in sizes."""
     good: bool
+    """Whether all else is closed."""
 
     @property
     def open(self) -> float:

@@ -35,7 +35,6 @@ from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
 from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
 from mbs.compiler.polynomial import RowTerms, row_terms
-from mbs.compiler.ports import with_ports_of
 from mbs.compiler.pose import pose_arrays, pose_partners
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.row_scale import row_scale
@@ -72,6 +71,7 @@ Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]
 LoopWatch = Callable[
     [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
+Ports = Callable[[System, System], System | None]
 
 
 def to_system(
@@ -80,6 +80,7 @@ def to_system(
     closing: Callable[[Model], Correction] | None = None,
     drawing: Drawer | None = None,
     watch: LoopWatch | None = None,
+    ports: Ports | None = None,
 ) -> System:
     """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it, and have no loops to close.
 
@@ -92,13 +93,15 @@ def to_system(
     drawing : callable, optional
         Makes what the System carries for those who draw it, of the model, the matrix T (full, nq) and the constant
         (full,) of its full coordinates ``T q + constant``, and the start q (nq,).
+    ports : callable, optional
+        `with_ports_of`: makes the System with ports that follows the one without.
     """
     instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     corrected: Correction = closing(model) if closing else lambda: nullcontext({})
     with corrected() as closed:
-        system = _compile(model, closed, closing, watch)
+        system = _compile(model, closed, closing, watch, ports)
     if drawing is None:
         return system
     frames, start = system.frames, system.arrays["q0"]
@@ -116,6 +119,7 @@ def _compile(
     closed: dict[str, tuple[float, float]],
     closing: Callable[[Model], Correction] | None,
     watch: LoopWatch | None,
+    ports: Ports | None,
 ) -> System:
     """The System of a model whose loops are closed; `closed` is for its report."""
     linear, others = _equations(model)
@@ -226,23 +230,23 @@ def _compile(
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch))
+        return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch, ports))
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
     resting = System(tables, meta, frames)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch))
+    return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch, ports))
 
 
 def _ported(
-    model: Model, closing: Callable[[Model], Correction] | None, watch: LoopWatch | None
+    model: Model, closing: Callable[[Model], Correction] | None, watch: LoopWatch | None, ports: Ports | None
 ) -> Callable[[System], System | None] | None:
     """What makes the System with ports of the System of a model."""
     make = model.with_ports
-    if make is None:
+    if make is None or ports is None:
         return None
-    return lambda system: with_ports_of(to_system(make(), closing=closing, watch=watch), system)
+    return lambda system: ports(to_system(make(), closing=closing, watch=watch), system)
 
 
 def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

@@ -30,16 +30,11 @@ DROP = 1e-13
 
 @dataclass(frozen=True)
 class NaturalCoordinates:
-    """Full coordinates of a model.
-
-    Attributes
-    ----------
-    expressions : list of Affine
-        The coordinates of the model (centre of mass and unit axes) as expressions of these.
-    """
+    """Full coordinates of a model."""
 
     info: list[CoordinateInfo]
     expressions: list[Affine]
+    """The coordinates of the model (centre of mass and unit axes) as expressions of these."""
 
 
 def natural_coordinates(model: Model) -> NaturalCoordinates:

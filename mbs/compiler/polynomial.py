@@ -21,37 +21,26 @@ DROP = 1e-12
 
 @dataclass
 class RowTerms:
-    """One constraint row over z.
-
-    Attributes
-    ----------
-    name, kind : str
-        Joint or body it comes from, and what it states.
-    joint, part : int
-        Number of the joint and of its equation, or -1 for rigid-body rows.
-    main : Polynomial
-        Quadratic part.
-    theta : int
-        Coordinate of the angle part, or -1.
-    cosine, sine : Polynomial
-        C and S of the angle part.
-    switch : int
-        Number of the switch that turns it on and off, or -1.
-    rates : RateTerms
-        Of a condition on velocities, which has nothing else.
-    """
+    """One constraint row over z."""
 
     name: str
     kind: str
+    """`name`, `kind`: joint or body it comes from, and what it states."""
     joint: int
     part: int
+    """`joint`, `part`: number of the joint and of its equation, or -1 for rigid-body rows."""
     main: Polynomial
+    """Quadratic part."""
     theta: int = -1
+    """Coordinate of the angle part, or -1."""
     cosine: Polynomial = field(default_factory=dict)
     sine: Polynomial = field(default_factory=dict)
+    """`cosine`, `sine`: C and S of the angle part."""
     guides: list[tuple[int, int, Polynomial]] = field(default_factory=list)
     switch: int = -1
+    """Number of the switch that turns it on and off, or -1."""
     rates: RateTerms = field(default_factory=dict)
+    """Of a condition on velocities, which has nothing else."""
 
     @property
     def plain(self) -> bool:

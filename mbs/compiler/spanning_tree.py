@@ -33,29 +33,21 @@ class NoTreeError(Exception):
 
 @dataclass(eq=False)
 class Group:
-    """Bodies welded to each other, with one drawing.
-
-    Attributes
-    ----------
-    number : int
-        In depth-first order; 0 is the ground.
-    depth : int
-        Joints between the ground and it.
-    origin, axes : ndarray, shapes (3,) and (3, 3)
-        The frame (columns x, y, z) in the drawing.
-    base : ndarray, shape (12,)
-        Origin and columns of the joint's frame on the parent, in the frame of the parent.
-    """
+    """Bodies welded to each other, with one drawing."""
 
     bodies: list[Body]
     number: int = 0
+    """In depth-first order; 0 is the ground."""
     depth: int = 0
+    """Joints between the ground and it."""
     parent: Group | None = None
     children: list[Group] = field(default_factory=list)
     slides: bool = False
     origin: Array = field(default_factory=lambda: np.zeros(3))
     axes: Array = field(default_factory=lambda: np.eye(3))
+    """`origin`, `axes`, shapes (3,) and (3, 3): the frame (columns x, y, z) in the drawing."""
     base: Array = field(default_factory=lambda: np.zeros(12))
+    """Shape (12,): origin and columns of the joint's frame on the parent, in the frame of the parent."""
 
     @property
     def height(self) -> int:

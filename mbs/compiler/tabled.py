@@ -21,25 +21,17 @@ NONE = [-1] * 12
 
 @dataclass(frozen=True)
 class Dependents:
-    """Expressions of z, those of tabled bodies and numbers apart from the others.
-
-    Attributes
-    ----------
-    remaining : list of int
-        Natural coordinates that are z.
-    full, of_z : list of Affine
-        As of `reduce_coordinates`; tabled ones are constants, as drawn.
-    seen : list of Affine
-        As `full`, the tabled ones numbered behind z: for signals.
-    left : list of RowTerms
-        Linear equations between coordinates that stay, over z.
-    """
+    """Expressions of z, those of tabled bodies and numbers apart from the others."""
 
     remaining: list[int]
+    """Natural coordinates that are z."""
     full: list[Affine]
     of_z: list[Affine]
+    """`full`, `of_z`: as of `reduce_coordinates`; tabled ones are constants, as drawn."""
     seen: list[Affine]
+    """As `full`, the tabled ones numbered behind z: for signals."""
     left: list[RowTerms]
+    """Linear equations between coordinates that stay, over z."""
 
 
 def tabled_coordinates(model: Model) -> list[int]:

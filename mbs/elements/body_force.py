@@ -14,15 +14,10 @@ from mbs.kernel.header.enumerations import ElementType
 
 @dataclass(frozen=True)
 class BodyForce:
-    """Force with components from inputs, N.
-
-    Parameters
-    ----------
-    inputs : sequence of int or None
-        Numbers of the inputs along the axes, three in space and two in the plane; None: no force along that axis.
-    """
+    """Force with components from inputs, N."""
 
     inputs: Sequence[int | None]
+    """Numbers of the inputs along the axes, three in space and two in the plane; None: no force along that axis."""
 
     def record(self, name: str, point: AffineVector, axes: Sequence[AffineVector]) -> ElementRecord:
         """The force element.

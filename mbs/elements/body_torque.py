@@ -16,18 +16,12 @@ from mbs.kernel.header.enumerations import ElementType
 
 @dataclass(frozen=True)
 class BodyTorque:
-    """Torque with components from inputs, N m.
-
-    Parameters
-    ----------
-    inputs : sequence of int or None
-        Numbers of the inputs: three in space, one in the plane; None: no torque about that axis.
-    axes : {"earth", "body"}
-        Axes of the components.
-    """
+    """Torque with components from inputs, N m."""
 
     inputs: Sequence[int | None]
+    """Numbers of the inputs: three in space, one in the plane; None: no torque about that axis."""
     axes: Literal["earth", "body"] = "earth"
+    """Axes of the components."""
 
     def record(self, name: str, frame: Sequence[AffineVector]) -> ElementRecord:
         """The force element.

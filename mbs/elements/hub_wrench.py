@@ -17,14 +17,10 @@ class HubWrench:
     """Force and moment at the centre of a wheel that is reduced to its spin, earth axes.
 
     The part of the moment about the axis of the wheel turns the wheel, the rest acts on its carrier.
-
-    Parameters
-    ----------
-    inputs : sequence of int
-        Numbers of the inputs: three components of the force, N, three of the moment, N m.
     """
 
     inputs: Sequence[int]
+    """Numbers of the inputs: three components of the force, N, three of the moment, N m."""
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
         """The force element.

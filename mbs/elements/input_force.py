@@ -16,16 +16,11 @@ from mbs.kernel.header.enumerations import ElementType
 
 @dataclass(frozen=True)
 class InputForce:
-    """An input times constant weights on some expressions.
-
-    Parameters
-    ----------
-    weights : sequence of float
-        Force on each expression per unit of the input.
-    """
+    """An input times constant weights on some expressions."""
 
     input: int
     weights: Sequence[float] = (1.0,)
+    """Force on each expression per unit of the input."""
 
     def record(self, name: str, signals: Sequence[Affine]) -> ElementRecord:
         """The force element.

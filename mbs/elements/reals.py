@@ -24,21 +24,14 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class Real:
-    """What a number of an element must satisfy; it stands in the type of its field.
-
-    Parameters
-    ----------
-    check : callable
-        Returns the number or raises one sentence.
-    parts : tuple of str
-        Of several numbers in one field: the ends of their names.
-    words : str
-        What a sentence calls it, where that is not its name.
-    """
+    """What a number of an element must satisfy; it stands in the type of its field."""
 
     check: Check
+    """Returns the number or raises one sentence."""
     parts: tuple[str, ...] = ()
+    """Of several numbers in one field: the ends of their names."""
     words: str = ""
+    """What a sentence calls it, where that is not its name."""
 
 
 Number = Annotated[float, Real(number)]

@@ -23,41 +23,28 @@ class Output:
 
 @dataclass(frozen=True)
 class ElementRecord:
-    """A force element in the terms of the System file.
-
-    Parameters
-    ----------
-    type : ElementType
-        Kernel type; it fixes the meaning and order of all that follows.
-    signals : sequence of Affine
-        Local variables u, in the order of the type.
-    real_names : sequence of str
-        Names of the first entries of `real`, so that a parameter can be tied to one.
-    real_checks : sequence of callable
-        What each of these must satisfy, also as a parameter writes it; by default any finite number will do.
-    integer : sequence of int
-        Numbers of inputs and roads, and sizes.
-    states : sequence of float
-        Initial values of its slots.
-    outputs : sequence of Output
-        What it computes beside its force.
-    tangent : bool
-        Whether its force depends on the signals or their rates, so that the tangent couples their coordinates.
-    elastic : bool
-        Whether a spring in it holds the bodies it acts on.
-    """
+    """A force element in the terms of the System file."""
 
     name: str
     type: ElementType
+    """Kernel type; it fixes the meaning and order of all that follows."""
     signals: Sequence[Affine]
+    """Local variables u, in the order of the type."""
     real: Sequence[float] = ()
     real_names: Sequence[str] = ()
+    """Names of the first entries of `real`, so that a parameter can be tied to one."""
     real_checks: Sequence[Check] = ()
+    """What each of these must satisfy, also as a parameter writes it; by default any finite number will do."""
     integer: Sequence[int] = ()
+    """Numbers of inputs and roads, and sizes."""
     states: Sequence[float] = ()
+    """Initial values of its slots."""
     outputs: Sequence[Output] = ()
+    """What it computes beside its force."""
     tangent: bool = True
+    """Whether its force depends on the signals or their rates, so that the tangent couples their coordinates."""
     elastic: bool = False
+    """Whether a spring in it holds the bodies it acts on."""
 
 
 def columns(reals: Reals, *more: float) -> tuple[tuple[float, ...], tuple[str, ...], tuple[Check, ...]]:

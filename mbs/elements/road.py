@@ -87,27 +87,18 @@ class KerbRoad(
 
 @dataclass(frozen=True)
 class GridRoad:
-    """Heights and frictions on a regular grid; C1 bicubic in between, the border goes on outside.
-
-    Parameters
-    ----------
-    origin : (float, float)
-        x and y of the first point, m.
-    spacing : (float, float)
-        Distances of the points in x and y, m.
-    heights : array_like, shape (nx, ny)
-        m.
-    frictions : array_like, shape (nx, ny) or scalar
-        Coefficients of friction as in `PlaneRoad`, bilinear in between.
-    friction_factor : float
-        Multiplies all frictions.
-    """
+    """Heights and frictions on a regular grid; C1 bicubic in between, the border goes on outside."""
 
     origin: Sequence[float]
+    """x and y of the first point, m."""
     spacing: Sequence[float]
+    """Distances of the points in x and y, m."""
     heights: ArrayLike
+    """Shape (nx, ny): m."""
     frictions: ArrayLike = 0.9
+    """Shape (nx, ny), or a number: coefficients of friction as in `PlaneRoad`, bilinear in between."""
     friction_factor: float = 1.0
+    """Multiplies all frictions."""
     type: ClassVar[RoadType] = RoadType.GRID
     real_names: ClassVar[tuple[str, ...]] = ("nx", "ny", "x0", "y0", "dx", "dy", "friction_factor")
     real_checks: ClassVar[tuple[Check, ...]] = (positive, positive, number, number, positive, positive, not_negative)
@@ -143,16 +134,11 @@ ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
 
 @dataclass(frozen=True)
 class PortRoad:
-    """A road that other programs answer for: a plane by inputs, made by `Model.road_answer`.
-
-    Parameters
-    ----------
-    first : sequence of int
-        Of each answer the number of the first of its inputs `ANSWER`. Of several answers a place has the mean, by the
-        inverse squares of its distances to their points.
-    """
+    """A road that other programs answer for: a plane by inputs, made by `Model.road_answer`."""
 
     first: Sequence[int]
+    """Of each answer the number of the first of its inputs `ANSWER`. Of several answers a place has the mean, by the
+    inverse squares of its distances to their points."""
     type: ClassVar[RoadType] = RoadType.PORT
     real_names: ClassVar[tuple[str, ...]] = ()
     real_checks: ClassVar[tuple[Check, ...]] = ()

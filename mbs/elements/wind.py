@@ -9,17 +9,12 @@ from mbs.elements.record_checks import index
 
 @dataclass(frozen=True)
 class Wind:
-    """Air that moves over the ground, by two inputs.
-
-    Parameters
-    ----------
-    speed, heading : int
-        Numbers of the inputs: speed of the air, m/s, and the heading that it moves to, rad from the x axis of the earth
-        to the left.
-    """
+    """Air that moves over the ground, by two inputs."""
 
     speed: int
     heading: int
+    """`speed`, `heading`: numbers of the inputs: speed of the air, m/s, and the heading that it moves to, rad from the
+    x axis of the earth to the left."""
 
     def integers(self, what: str) -> tuple[int, int]:
         """Checked numbers of the inputs.

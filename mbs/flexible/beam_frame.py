@@ -29,25 +29,17 @@ class Beam:
 
 @dataclass(frozen=True)
 class BeamFrame:
-    """Nodes, rigidly joined beams and lumped masses.
-
-    Parameters
-    ----------
-    positions : array_like, shape (n, 3)
-        Nodes, m.
-    masses : array_like, shape (n,), or mapping of node name or number to kg
-        Lumped masses carried by the nodes in addition to the beams.
-    names : sequence of str, optional
-        One per node; by default the node numbers.
-    theory : str
-        "euler_bernoulli" or "timoshenko".
-    """
+    """Nodes, rigidly joined beams and lumped masses."""
 
     positions: np.ndarray
+    """Shape (n, 3): nodes, m."""
     beams: tuple[Beam, ...]
     masses: np.ndarray
+    """Shape (n,), or by node name or number: lumped masses carried by the nodes in addition to the beams."""
     names: tuple[str, ...]
+    """One per node; by default the node numbers."""
     theory: str = field(default="euler_bernoulli")
+    """Either "euler_bernoulli" or "timoshenko"."""
 
     def __init__(
         self,

@@ -20,29 +20,21 @@ Reference = str | int | Sequence[str | int]
 
 @dataclass(frozen=True)
 class FiniteElementModel:
-    """Linear model in its own axes, which become the axes of the floating frame; SI units.
-
-    Parameters
-    ----------
-    positions : ndarray, shape (n, 3)
-        Nodes, m.
-    names : tuple of str
-        One per node.
-    dof : ndarray of int, shape (n, 6)
-        Number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 where a node has none
-        (nodes of solid elements have no rotations).
-    K : sparse array, shape (n_dof, n_dof)
-        Stiffness, symmetric, of the free model: six rigid motions and nothing else cost no energy.
-    frame : BeamFrame, optional
-        Beams it was made of, with its nodes; None for models of other programs.
-    """
+    """Linear model in its own axes, which become the axes of the floating frame; SI units."""
 
     positions: np.ndarray
+    """Shape (n, 3): nodes, m."""
     names: tuple[str, ...]
+    """One per node."""
     dof: np.ndarray
+    """Shape (n, 6): number of each displacement x, y, z and rotation rx, ry, rz (rad) in the matrices; -1 where a node
+    has none (nodes of solid elements have no rotations)."""
     K: sp.csc_array
+    """Shape (n_dof, n_dof): stiffness, symmetric, of the free model: six rigid motions and nothing else cost no
+    energy."""
     mass: MassPoints
     frame: BeamFrame | None = None
+    """Beams it was made of, with its nodes; None for models of other programs."""
 
     @property
     def n_dof(self) -> int:

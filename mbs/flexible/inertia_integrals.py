@@ -15,29 +15,20 @@ class ShapeIntegrals:
 
     The coordinates are q = (r_o, a, b, c, eta): 12 + n with A = [a b c] and n amplitudes eta. Every mass point moves
     with ``A' v = A' (rd_o + Ad (x + phi eta)) + phi etad``, the paper's equation (6).
-
-    Parameters
-    ----------
-    mass : float
-        kg.
-    S0 : ndarray, shape (3,)
-        sum m x, kg m.
-    P : ndarray, shape (3, n)
-        sum m phi_j in column j, kg.
-    J0 : ndarray, shape (3, 3)
-        sum m x x', kg m2 (second moments of mass, not the tensor of inertia).
-    c : ndarray, shape (3, n, 3)
-        c[i, j] = sum m x_i phi_j, kg m.
-    T : ndarray, shape (n, n, 3, 3)
-        T[j, l] = sum m phi_l phi_j', kg; T[l, j] is its transpose.
     """
 
     mass: float
+    """kg."""
     S0: np.ndarray
+    """Shape (3,): sum m x, kg m."""
     P: np.ndarray
+    """Shape (3, n): sum m phi_j in column j, kg."""
     J0: np.ndarray
+    """Shape (3, 3): sum m x x', kg m2 (second moments of mass, not the tensor of inertia)."""
     c: np.ndarray
+    """Shape (3, n, 3): c[i, j] = sum m x_i phi_j, kg m."""
     T: np.ndarray
+    """Shape (n, n, 3, 3): T[j, l] = sum m phi_l phi_j', kg; T[l, j] is its transpose."""
 
     @property
     def n_modes(self) -> int:

@@ -17,20 +17,14 @@ class MassPoints:
     Isotropy is what lets ``B' M_FEM B`` of the paper's equation (13) collapse to constant shape integrals: A'A = I
     drops out point by point. Points at the nodes give the lumped mass matrix; points at the Gauss stations of the
     elements give the consistent one, to the last digit, and the collapse holds all the same.
-
-    Parameters
-    ----------
-    positions : ndarray, shape (p, 3)
-        Undeformed, in the axes of the finite-element model, m.
-    masses : ndarray, shape (p,)
-        kg.
-    interpolation : sparse array, shape (3 p, n_dof)
-        Rows 3 k to 3 k + 2 give the displacement of point k from the nodal displacements.
     """
 
     positions: np.ndarray
+    """Shape (p, 3): undeformed, in the axes of the finite-element model, m."""
     masses: np.ndarray
+    """Shape (p,): kg."""
     interpolation: sp.csr_array
+    """Shape (3 p, n_dof): rows 3 k to 3 k + 2 give the displacement of point k from the nodal displacements."""
 
     def mass_matrix(self) -> sp.csc_array:
         """``sum_k m_k N_k' N_k``, shape (n_dof, n_dof), kg and m."""

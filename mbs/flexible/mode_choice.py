@@ -19,21 +19,14 @@ RESONANT = 1.5  # modes below this multiple of the frequency that matters are al
 
 @dataclass(frozen=True)
 class ModeChoice:
-    """Chosen fixed-interface modes and what they leave out.
-
-    Parameters
-    ----------
-    modes : tuple of int
-        Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`.
-    left_out : float
-        Largest error of the output over the accelerations considered, as a fraction of its largest value.
-    frequencies : ndarray
-        Of the chosen modes, Hz.
-    """
+    """Chosen fixed-interface modes and what they leave out."""
 
     modes: tuple[int, ...]
+    """Numbers of the modes (0 is the lowest), ascending; for `craig_bampton`."""
     left_out: float
+    """Largest error of the output over the accelerations considered, as a fraction of its largest value."""
     frequencies: np.ndarray
+    """Of the chosen modes, Hz."""
 
 
 def modes_for_output(

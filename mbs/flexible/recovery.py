@@ -77,21 +77,15 @@ def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray
 
 @dataclass(frozen=True)
 class StrainGauge:
-    """Strain gauges on a beam, as single ones or joined to bridges.
-
-    Parameters
-    ----------
-    xi : float
-        Place along it, 0 at its start and 1 at its end.
-    fibre : tuple of float, optional
-        Point (y, z) of the section where a gauge sits, m; by default the highest fibre. The second gauge of a
-        half-bridge sits on the opposite point.
-    """
+    """Strain gauges on a beam, as single ones or joined to bridges."""
 
     name: str
     element: int
     xi: float = 0.5
+    """Place along it, 0 at its start and 1 at its end."""
     fibre: tuple[float, float] | None = None
+    """Point (y, z) of the section where a gauge sits, m; by default the highest fibre. The second gauge of a
+    half-bridge sits on the opposite point."""
 
     def bending_moment(self, frame: BeamFrame) -> sp.csr_array:
         """Moment about the axis across the fibre, positive when the fibre is stretched; My for the highest fibre.

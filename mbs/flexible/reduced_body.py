@@ -15,22 +15,16 @@ from mbs.flexible.sparse import Sparse
 
 @dataclass(frozen=True)
 class InterfaceModes:
-    """Where an interface node is and which modal amplitudes are its displacements.
-
-    Parameters
-    ----------
-    position : ndarray, shape (3,)
-        Undeformed, from the reference node in body axes, m.
-    translation : ndarray of int, shape (3,), optional
-        Modes whose amplitudes are the displacements x, y, z of the node, m; None if the node has no such modes.
-    rotation : ndarray of int, shape (3,), optional
-        Modes whose amplitudes are the rotations of the node, rad.
-    """
+    """Where an interface node is and which modal amplitudes are its displacements."""
 
     node: int
     position: np.ndarray
+    """Shape (3,): undeformed, from the reference node in body axes, m."""
     translation: np.ndarray | None
+    """Shape (3,): modes whose amplitudes are the displacements x, y, z of the node, m; None if the node has no such
+    modes."""
     rotation: np.ndarray | None
+    """Shape (3,): modes whose amplitudes are the rotations of the node, rad."""
 
 
 @dataclass(frozen=True)
@@ -38,52 +32,39 @@ class ReducedBody:
     """Modes of a flexible body in its floating frame: origin at the reference node, axes of the finite-element model.
 
     ``m`` modes, ``n`` nodes, ``p`` mass points, ``d`` degrees of freedom of the finite-element model.
-
-    Parameters
-    ----------
-    origin : ndarray, shape (3,)
-        Reference node in the axes of the finite-element model, m.
-    node_positions : ndarray, shape (n, 3)
-        Undeformed, from the reference node, m.
-    node_translations, node_rotations : ndarray, shape (n, 3, m)
-        Displacement and rotation of every node per unit amplitude; zero rotations where a node has none.
-    modes : ndarray, shape (d, m)
-        The same over the degrees of freedom of the finite-element model.
-    mass_positions : ndarray, shape (p, 3)
-        Mass points from the reference node, m.
-    masses : ndarray, shape (p,)
-        kg.
-    mass_shapes : ndarray, shape (p, 3, m)
-        Displacement of every mass point per unit amplitude.
-    K, M, C : ndarray, shape (m, m)
-        Modal stiffness, mass and damping; ``K`` has no entries between static and dynamic modes.
-    interfaces : mapping of str to InterfaceModes
-        By name of the node.
-    n_static : int
-        The first modes are the static ones.
-    frequencies : ndarray, shape (m - n_static,)
-        Fixed-interface frequencies of the dynamic modes, Hz.
-    frame : BeamFrame, optional
-        Beams of the finite-element model, with its nodes; None where it was given as matrices.
     """
 
     origin: np.ndarray
+    """Shape (3,): reference node in the axes of the finite-element model, m."""
     node_names: tuple[str, ...]
     node_positions: np.ndarray
+    """Shape (n, 3): undeformed, from the reference node, m."""
     node_translations: np.ndarray
     node_rotations: np.ndarray
+    """`node_translations`, `node_rotations`, shape (n, 3, m): displacement and rotation of every node per unit
+    amplitude; zero rotations where a node has none."""
     modes: np.ndarray
+    """Shape (d, m): the same over the degrees of freedom of the finite-element model."""
     mass_positions: np.ndarray
+    """Shape (p, 3): mass points from the reference node, m."""
     masses: np.ndarray
+    """Shape (p,): kg."""
     mass_shapes: np.ndarray
+    """Shape (p, 3, m): displacement of every mass point per unit amplitude."""
     K: np.ndarray
     M: np.ndarray
     C: np.ndarray
+    """`K`, `M`, `C`, shape (m, m): modal stiffness, mass and damping; ``K`` has no entries between static and dynamic
+    modes."""
     mode_names: tuple[str, ...]
     interfaces: Mapping[str, InterfaceModes]
+    """By name of the node."""
     n_static: int
+    """The first modes are the static ones."""
     frequencies: np.ndarray
+    """Shape (m - n_static,): fixed-interface frequencies of the dynamic modes, Hz."""
     frame: BeamFrame | None = None
+    """Beams of the finite-element model, with its nodes; None where it was given as matrices."""
 
     @property
     def n_modes(self) -> int:

@@ -12,29 +12,21 @@ from mbs.common.errors import ModelError
 
 @dataclass(frozen=True)
 class Section:
-    """Constants of a cross-section in its principal axes y, z (x runs along the beam).
-
-    Parameters
-    ----------
-    area : float
-        m2.
-    Iy, Iz : float
-        Second moments of area about y and z, m4: ``Iy`` is for bending in the x-z plane.
-    J : float
-        Torsion constant, m4.
-    shear_y, shear_z : tuple of float
-        Coefficients ``(a, b, c, d)`` of the shear factor ``(a + b nu) / (c + d nu)`` along y and z (Cowper 1966).
-    fibres : tuple of (float, float)
-        Points (y, z) of the outline, m, at which stresses are wanted; the first two are the highest and the lowest.
-    """
+    """Constants of a cross-section in its principal axes y, z (x runs along the beam)."""
 
     area: float
+    """m2."""
     Iy: float
     Iz: float
+    """`Iy`, `Iz`: second moments of area about y and z, m4: ``Iy`` is for bending in the x-z plane."""
     J: float
+    """Torsion constant, m4."""
     shear_y: tuple[float, float, float, float]
     shear_z: tuple[float, float, float, float]
+    """`shear_y`, `shear_z`: coefficients ``(a, b, c, d)`` of the shear factor ``(a + b nu) / (c + d nu)`` along y and z
+    (Cowper 1966)."""
     fibres: tuple[tuple[float, float], ...]
+    """Points (y, z) of the outline, m, at which stresses are wanted; the first two are the highest and the lowest."""
 
     def shear_factors(self, nu: float) -> tuple[float, float]:
         """Shear factors along y and z.

@@ -8,17 +8,26 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import Vector, array, capital, direction, is_number, mapping, positive, shown, vector
+from mbs.common.checks import (
+    Vector,
+    array,
+    capital,
+    direction,
+    is_number,
+    mapping,
+    not_negative,
+    positive,
+    shown,
+    vector,
+)
 from mbs.common.errors import ModelError
 from mbs.flexible.reduced_body import ReducedBody
-from mbs.model.body import Body, Ground, PointMass
+from mbs.model.body import SAME_PLACE, Body, Ground, PointMass
 from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.inertia import inertia_matrix
-from mbs.model.payload import new_payload
 from mbs.model.ports import PortedBody
-from mbs.model.written_inertia import new_written_inertia
 
 SIZES = (1e-12, 1e8)
 """Radii of gyration, m."""
@@ -115,7 +124,28 @@ class BodyVocabulary(ModelCore):
         ModelError
             The body is the ground or has no such point, or `point` is drawn elsewhere.
         """
-        return new_payload(self, name, self.owned(body, f"The payload {shown(name)}"), position, mass, point)
+        what = f"payload {shown(name)}"
+        self.owned(body, f"The {what}")
+        m = not_negative(mass, f"The mass of {what}")
+        place = vector(position, self.dimension, f"the position of {what}")
+        if body.is_ground:
+            raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
+        if body.is_tabled:
+            raise ModelError(
+                f"The {what} sits on tabled body '{body.name}', whose mass is part of its table; give it to its base."
+            )
+        if point is not None:
+            drawn = self.expressions(point, f"The {what}").value(self.drawn())
+            if np.linalg.norm(drawn - place) > SAME_PLACE:
+                raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
+            carrier = point
+        elif isinstance(body, FlexibleBody):  # the origin of a floating frame is no material point, a node is
+            carrier = body.interface_at(place, what).point()
+        else:
+            carrier = body.point(place)
+        new = Payload(self.unique("payload", name), body, place, carrier, m, point is not None)
+        self.payloads.append(new)
+        return new
 
     def written_inertia(
         self,
@@ -147,7 +177,22 @@ class BodyVocabulary(ModelCore):
         inertia : array_like, shape (3,) or (3, 3)
             About the centre of mass, along these axes, kg m2.
         """
-        return new_written_inertia(self, name, point, axes, mass, com, inertia)
+        what = f"written inertia {shown(name)}"
+        if self.dimension != 3:
+            raise ModelError(f"The {what} needs a spatial model.")
+        m = positive(mass, f"The mass of {what}")
+        tensor = inertia_matrix(inertia, 3, f"the inertia of {what}")
+        if not isinstance(axes, (list, tuple)) or len(axes) != 3 or not all(isinstance(a, AffineVector) for a in axes):
+            raise ModelError(f"The axes of {what} are {shown(axes)}; they must be three vectors of a body.")
+        x, y, z = (self.expressions(axis, f"The {what}") for axis in axes)
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
+        place = vector(com, 3, f"the centre of mass of {what}").tolist()
+        reals = (m, *place, xx, yy, zz, xy, xz, yz)
+        new = WrittenInertia(
+            self.unique("written inertia", name), (self.expressions(point, f"The {what}"), x, y, z), reals
+        )
+        self.written_inertias.append(new)
+        return new
 
     def flexible_body(
         self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None

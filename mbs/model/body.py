@@ -231,11 +231,6 @@ class PointMass(Body):
         position : array_like, shape (dimension,), optional
             May only be its own place, m.
 
-        Returns
-        -------
-        AffineVector
-            The point as expressions of coordinates, m.
-
         Raises
         ------
         ModelError
@@ -256,11 +251,6 @@ class PointMass(Body):
         ----------
         components : array_like, shape (dimension,)
             Earth axes in the reference configuration.
-
-        Returns
-        -------
-        AffineVector
-            Never.
 
         Raises
         ------

@@ -12,28 +12,19 @@ from mbs.model.coordinate import Coordinate
 
 @dataclass(frozen=True)
 class Payload:
-    """A point mass that sits on a body; made by `Model.payload`.
-
-    Parameters
-    ----------
-    body : Body
-        What it sits on.
-    position : ndarray, shape (dimension,)
-        In earth axes in the reference configuration, m.
-    point : AffineVector
-        The point of the body as expressions of coordinates, m.
-    mass : float
-        kg.
-    shared : bool
-        Whether several points carry it.
-    """
+    """A point mass that sits on a body; made by `Model.payload`."""
 
     name: str
     body: Body
+    """What it sits on."""
     position: Vector
+    """Shape (dimension,): in earth axes in the reference configuration, m."""
     point: AffineVector
+    """The point of the body as expressions of coordinates, m."""
     mass: float
+    """kg."""
     shared: bool = False
+    """Whether several points carry it."""
 
 
 INERTIA_REALS = ("mass", "com_x", "com_y", "com_z", "xx", "yy", "zz", "xy", "xz", "yz")
@@ -42,19 +33,13 @@ INERTIA_REALS = ("mass", "com_x", "com_y", "com_z", "xx", "yy", "zz", "xy", "xz"
 
 @dataclass(frozen=True)
 class WrittenInertia:
-    """Mass that a body has as drawn, and what carries its change; made by `Model.written_inertia`.
-
-    Attributes
-    ----------
-    vectors : tuple of AffineVector
-        The centre of mass as drawn, and the axes x, y and z, as expressions of coordinates.
-    reals : tuple of float
-        In the order of `INERTIA_REALS`.
-    """
+    """Mass that a body has as drawn, and what carries its change; made by `Model.written_inertia`."""
 
     name: str
     vectors: tuple[AffineVector, AffineVector, AffineVector, AffineVector]
+    """The centre of mass as drawn, and the axes x, y and z, as expressions of coordinates."""
     reals: tuple[float, ...]
+    """In the order of `INERTIA_REALS`."""
 
 
 @dataclass(frozen=True)
@@ -63,15 +48,6 @@ class Spin(Coordinate):
 
     The coordinate is a quasi coordinate: its rate is the absolute angular velocity of the wheel along `axis`; its
     value has no meaning. Mass and diametral inertia are lumped on the carrier, with zero axial inertia.
-
-    Attributes
-    ----------
-    centre, axis, f, g : AffineVector
-        Wheel centre and unit vectors of the carrier with axis = f x g; nothing else has the expressions of these.
-    rolling_radius : float
-        Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none.
-    drawn : tuple of tuple of float
-        f, g and axis in the drawing.
     """
 
     carrier: Body
@@ -79,10 +55,14 @@ class Spin(Coordinate):
     axis: AffineVector
     f: AffineVector
     g: AffineVector
+    """`centre`, `axis`, `f`, `g`: wheel centre and unit vectors of the carrier with axis = f x g; nothing else has the
+    expressions of these."""
     spin_inertia: float
     diametral_inertia: float
     rolling_radius: float
+    """Radius, m, that gives the spin of a pose with a speed (positive speed along +x); 0: none."""
     drawn: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+    """f, g and axis in the drawing."""
 
     @property
     def axis_reference(self) -> tuple[float, ...]:
@@ -101,23 +81,16 @@ AXIS_REALS = ("azimuth", "elevation")
 
 @dataclass(frozen=True)
 class WrittenAxis:
-    """Direction that the axis of a wheel has as drawn, and what turns it; made by `Model.written_axis`.
-
-    Attributes
-    ----------
-    frame : tuple of AffineVector
-        Axes of the drawing, as vectors of the carrier.
-    reals : (float, float)
-        In the order of `AXIS_REALS`.
-    leaning : float
-        Growth of the rolling radius by one over the cosine of the elevation, m.
-    """
+    """Direction that the axis of a wheel has as drawn, and what turns it; made by `Model.written_axis`."""
 
     name: str
     spin: Spin
     frame: tuple[AffineVector, AffineVector, AffineVector]
+    """Axes of the drawing, as vectors of the carrier."""
     reals: tuple[float, float]
+    """In the order of `AXIS_REALS`."""
     leaning: float
+    """Growth of the rolling radius by one over the cosine of the elevation, m."""
 
     @property
     def vectors(self) -> tuple[AffineVector, AffineVector, AffineVector]:
@@ -127,17 +100,11 @@ class WrittenAxis:
 
 @dataclass(frozen=True)
 class SlidingPoint:
-    """``p = start + sum of s_k * direction_k`` with the guides s in m; an end of `Model.distance`.
-
-    Attributes
-    ----------
-    start : AffineVector
-        Point of the body.
-    ways : tuple of (AffineVector, int)
-        Unit vectors of the body, at right angles, each with the number of its guide.
-    """
+    """``p = start + sum of s_k * direction_k`` with the guides s in m; an end of `Model.distance`."""
 
     name: str
     body: Body
     start: AffineVector
+    """Point of the body."""
     ways: tuple[tuple[AffineVector, int], ...]
+    """Unit vectors of the body, at right angles, each with the number of its guide."""

@@ -9,39 +9,26 @@ from mbs.common.affine import Affine
 
 @dataclass(frozen=True)
 class CoordinateInfo:
-    """What a full coordinate is.
-
-    Parameters
-    ----------
-    name : str
-        For messages and for the list of coordinates.
-    kind : {"point", "vector", "angle", "spin", "mode"}
-        What it is a component of.
-    component : int
-        0, 1 or 2: along which earth axis.
-    reference : float
-        Its value in the reference configuration; m, rad or without unit.
-    """
+    """What a full coordinate is."""
 
     name: str
+    """For messages and for the list of coordinates."""
     kind: str
+    """What it is a component of: "point", "vector", "angle", "spin" or "mode"."""
     component: int
+    """0, 1 or 2: along which earth axis."""
     reference: float
+    """Its value in the reference configuration; m, rad or without unit."""
 
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A scalar coordinate a model added: an unwrapped relative angle or a spin.
-
-    Parameters
-    ----------
-    unit : str
-        Unit of its value, rad.
-    """
+    """A scalar coordinate a model added: an unwrapped relative angle or a spin."""
 
     name: str
     index: int
     unit: str
+    """Unit of its value, rad."""
 
     @property
     def affine(self) -> Affine:

@@ -31,25 +31,18 @@ class AnglePart:
 
 @dataclass(frozen=True)
 class Equation:
-    """``sum c * A * B + linear + guide terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``.
-
-    Parameters
-    ----------
-    name : str
-        Name of the joint, or of its part, for messages and the list of rows.
-    kind : str
-        What the equation states: point, axis, distance, angle ...
-    rates : sequence of (c, A, B)
-        Of a condition on velocities, which has nothing else.
-    """
+    """``sum c * A * B + linear + guide terms + angle part = 0``, or on velocities ``sum c * A * dB/dt = 0``."""
 
     name: str
+    """Name of the joint, or of its part, for messages and the list of rows."""
     kind: str
+    """What the equation states: point, axis, distance, angle ..."""
     products: Sequence[Product] = ()
     linear: Affine = field(default_factory=Affine)
     guides: Sequence[GuideTerm] = ()
     angle: AnglePart | None = None
     rates: Sequence[Product] = ()
+    """Of a condition on velocities, which has nothing else."""
 
     @property
     def is_linear(self) -> bool:

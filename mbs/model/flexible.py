@@ -165,11 +165,6 @@ class FlexibleBody(Body):
         position : array_like, shape (3,)
             Earth axes in the reference configuration, m.
 
-        Returns
-        -------
-        AffineVector
-            The point as expressions of coordinates, m.
-
         Raises
         ------
         ModelError
@@ -181,13 +176,7 @@ class FlexibleBody(Body):
         return self.interface_at(position, "a point").point()
 
     def node(self, node: str | int) -> AffineVector:
-        """A node as a point; it brings three coordinates and rows unless it is there already.
-
-        Returns
-        -------
-        AffineVector
-            The point as expressions of coordinates, m.
-        """
+        """A node as a point; it brings three coordinates and rows unless it is there already."""
         return self.interface(node).point()
 
     def mass_block(self) -> NDArray[np.float64]:
@@ -293,11 +282,6 @@ class Interface(Body):
         ----------
         position : array_like, shape (3,), optional
             Earth axes in the reference configuration, m; by default the node.
-
-        Returns
-        -------
-        AffineVector
-            The point as expressions of coordinates, m.
         """
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth

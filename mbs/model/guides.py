@@ -4,6 +4,7 @@ filter, or by a table from another guide.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,42 +15,13 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline, PchipInterpolator
 from mbs.common.checks import LARGEST, array, number, positive, shown, text
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import GuideType
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.carried import SlidingPoint
 from mbs.model.core import ModelCore
+from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input
-
-
-def guide_input(model: ModelCore, name: str, input: Input, gain: float, frequency: float, unit: str) -> Guide:
-    """``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency: a critically damped follower that starts at rest
-    on the input.
-    """
-    owned_input(model, input, f"The guide '{name}'")
-    w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
-    k = number(gain, f"The gain of guide '{name}'")
-    return _register(model, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
-
-
-def guide_inputs(
-    model: ModelCore,
-    name: str,
-    inputs: tuple[Input, Input],
-    gains: tuple[float, float],
-    limits: tuple[float, float],
-    frequency: float,
-    unit: str,
-) -> Guide:
-    """As `guide_input`, with ``gain_1 u_1 + gain_2 u_2`` held between two limits in place of ``gain u``."""
-    what = f"guide '{name}'"
-    first, second = (owned_input(model, u, f"The {what}") for u in pair(inputs, f"The inputs of {what}"))
-    w = 2.0 * np.pi * positive(frequency, f"The frequency of {what}")
-    k_1, k_2 = (number(k, f"A gain of {what}") for k in pair(gains, f"The gains of {what}"))
-    low, high = (number(k, f"A limit of {what}") for k in pair(limits, f"The limits of {what}"))
-    if low > high:
-        raise ModelError(f"The {what} has the limits {low:g} and {high:g}; the first must not be above the second.")
-    asked = k_1 * first.start + k_2 * second.start
-    start = min(max(asked, low), high)
-    reals = [w, k_1, start, k_2, low, high]
-    return _register(model, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
 
 
 def pair(given: object, what: str) -> tuple[Any, Any]:
@@ -57,25 +29,6 @@ def pair(given: object, what: str) -> tuple[Any, Any]:
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise ModelError(f"{what} must be two, as (first, second), not {shown(given)}.")
     return given[0], given[1]
-
-
-def guide_time(model: ModelCore, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], unit: str) -> Guide:
-    """A motion in time: a `scipy.interpolate.PPoly` of degree 5 or less, or (times, values) through which a cubic
-    spline goes.
-
-    Outside its pieces the motion stands still, so it should begin and end with zero rates.
-    """
-    pieces = motion if isinstance(motion, PPoly) else _spline(motion, f"guide '{name}'")
-    c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
-    if c.ndim != 2 or c.shape[0] > 6:
-        raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
-    if not (np.all(np.abs(c) < LARGEST) and np.all(np.abs(b) < LARGEST) and np.all(np.diff(b) > 0.0)):
-        raise ModelError(f"The motion of guide '{name}' needs finite coefficients and rising times.")
-    ascending = np.zeros((c.shape[1], 6))
-    ascending[:, : c.shape[0]] = c[::-1].T
-    reals = [float(c.shape[1]), *b, *ascending.ravel()]
-    start = float(pieces(min(max(0.0, b[0]), b[-1])))
-    return _register(model, name, GuideType.OF_TIME, -1, reals, start, unit)
 
 
 def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
@@ -90,34 +43,6 @@ def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
             "and a value for each."
         )
     return CubicSpline(times, values, bc_type="clamped")
-
-
-def guide_table(
-    model: ModelCore, name: str, source: Guide, table: ArrayLike, slopes: ArrayLike | None, unit: str
-) -> Guide:
-    """``s = f(u)`` over another guide u, f a monotone cubic through points, straight beyond them (F. N. Fritsch, R. E.
-    Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator).
-    """
-    what = f"guide '{name}'"
-    u = owned_guide(model, source, f"The {what}")
-    if u.type == GuideType.BY_TABLE:
-        raise ModelError(f"The {what} is over guide '{u.name}', which is by a table too; give one table of both.")
-    rows = array(table, (None, 2), f"the table of {what}")
-    if len(rows) < 2:
-        raise ModelError(f"The table of {what} has {len(rows)} rows; it needs two at least.")
-    if not np.all(np.diff(rows[:, 0]) > 0.0):
-        k = int(np.argmin(np.diff(rows[:, 0])))
-        raise ModelError(
-            f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
-            "from row to row."
-        )
-    given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
-    m = curve(rows).derivative()(rows[:, 0]) if given is None else given
-    reals = [float(x) for x in np.concatenate([*rows.T, m])]
-    guide = _register(model, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
-    value, _ = of_table(guide, u.start)
-    model.guides[-1] = replace(guide, start=value)
-    return model.guides[-1]
 
 
 def of_table(guide: Guide, u: float) -> tuple[float, float]:
@@ -166,3 +91,181 @@ def _register(
     guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit, second)
     model.guides.append(guide)
     return guide
+
+
+class GuideVocabulary(BodyVocabulary):
+    """The guides of a model, and what they slide."""
+
+    def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
+        """A prescribed motion that follows ``gain * input`` through a critically damped filter.
+
+        ``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency, at rest on the input at the start.
+
+        Parameters
+        ----------
+        gain : float
+            Of the filter, in units of the guide per unit of the input.
+        frequency : float
+            Of the filter, Hz.
+        unit : str
+            Of the guide, rad or m.
+        """
+        owned_input(self, input, f"The guide '{name}'")
+        w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
+        k = number(gain, f"The gain of guide '{name}'")
+        return _register(self, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
+
+    def guide_inputs(
+        self,
+        name: str,
+        *,
+        inputs: tuple[Input, Input],
+        gains: tuple[float, float],
+        limits: tuple[float, float],
+        frequency: float,
+        unit: str = "1",
+    ) -> Guide:
+        """A prescribed motion that follows the sum of two inputs, held between two limits, through the filter of
+        `guide_input`.
+
+        Parameters
+        ----------
+        gains : tuple of float
+            Of each input, in units of the guide per unit of the input.
+        limits : tuple of float
+            Between which the sum is held, in units of the guide; the "excess" of `sense_guide` is what they take away.
+        frequency : float
+            Of the filter, Hz.
+        unit : str
+            Of the guide, rad or m.
+
+        Raises
+        ------
+        ModelError
+            The limits are the wrong way round, or the frequency is not positive.
+        """
+        what = f"guide '{name}'"
+        first, second = (owned_input(self, u, f"The {what}") for u in pair(inputs, f"The inputs of {what}"))
+        w = 2.0 * np.pi * positive(frequency, f"The frequency of {what}")
+        k_1, k_2 = (number(k, f"A gain of {what}") for k in pair(gains, f"The gains of {what}"))
+        low, high = (number(k, f"A limit of {what}") for k in pair(limits, f"The limits of {what}"))
+        if low > high:
+            raise ModelError(f"The {what} has the limits {low:g} and {high:g}; the first must not be above the second.")
+        asked = k_1 * first.start + k_2 * second.start
+        start = min(max(asked, low), high)
+        reals = [w, k_1, start, k_2, low, high]
+        return _register(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
+
+    def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
+        """A prescribed motion in time; it stands still outside its pieces, so it should begin and end with zero rates.
+
+        Parameters
+        ----------
+        motion : scipy.interpolate.PPoly or (times, values)
+            Pieces of degree 5 or less over s; or points, of shape (n,) each, through which a cubic spline goes that
+            begins and ends at rest.
+        unit : str
+            Of the guide, rad or m.
+
+        Raises
+        ------
+        ModelError
+            The degree is above 5, or the times do not rise.
+        """
+        pieces = motion if isinstance(motion, PPoly) else _spline(motion, f"guide '{name}'")
+        c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
+        if c.ndim != 2 or c.shape[0] > 6:
+            raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
+        if not (np.all(np.abs(c) < LARGEST) and np.all(np.abs(b) < LARGEST) and np.all(np.diff(b) > 0.0)):
+            raise ModelError(f"The motion of guide '{name}' needs finite coefficients and rising times.")
+        ascending = np.zeros((c.shape[1], 6))
+        ascending[:, : c.shape[0]] = c[::-1].T
+        reals = [float(c.shape[1]), *b, *ascending.ravel()]
+        start = float(pieces(min(max(0.0, b[0]), b[-1])))
+        return _register(self, name, GuideType.OF_TIME, -1, reals, start, unit)
+
+    def guide_table(
+        self, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
+    ) -> Guide:
+        """A motion that follows another guide by a curve, such as a rack the steering wheel.
+
+        Between the points it is a monotone cubic with the slopes of scipy's PchipInterpolator (F. N. Fritsch, R. E.
+        Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246), beyond them a straight line.
+
+        Parameters
+        ----------
+        source : Guide
+            That it follows, not by a table itself.
+        table : array_like, shape (n, 2)
+            Rows of the value of `source`, rising, and of the guide.
+        slopes : array_like, shape (n,), optional
+            At the rows, where they are known; the cubics are then not held monotone.
+        unit : str
+            Of the guide, rad or m.
+
+        Raises
+        ------
+        ModelError
+            Fewer than two rows, the first column does not rise, or not as many slopes as rows.
+        """
+        what = f"guide '{name}'"
+        u = owned_guide(self, source, f"The {what}")
+        if u.type == GuideType.BY_TABLE:
+            raise ModelError(f"The {what} is over guide '{u.name}', which is by a table too; give one table of both.")
+        rows = array(table, (None, 2), f"the table of {what}")
+        if len(rows) < 2:
+            raise ModelError(f"The table of {what} has {len(rows)} rows; it needs two at least.")
+        if not np.all(np.diff(rows[:, 0]) > 0.0):
+            k = int(np.argmin(np.diff(rows[:, 0])))
+            raise ModelError(
+                f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
+                "from row to row."
+            )
+        given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
+        m = curve(rows).derivative()(rows[:, 0]) if given is None else given
+        reals = [float(x) for x in np.concatenate([*rows.T, m])]
+        guide = _register(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
+        value, _ = of_table(guide, u.start)
+        self.guides[-1] = replace(guide, start=value)
+        return self.guides[-1]
+
+    def slide(
+        self,
+        name: str,
+        body: Body,
+        *,
+        point: ArrayLike,
+        direction: ArrayLike | Sequence[ArrayLike],
+        guide: Guide | Sequence[Guide],
+    ) -> SlidingPoint:
+        """A point that a guide slides along a direction fixed in a body, such as the rack of a car.
+
+        Parameters
+        ----------
+        body : Body
+            Of a flexible one its floating frame is meant.
+        point : array_like, shape (dimension,)
+            Where it is when the guide is 0, m, earth axes in the reference configuration.
+        direction : array_like, shape (dimension,) or (n, dimension)
+            Along what it slides, of any length, in the same axes; several are at right angles to each other.
+        guide : Guide or sequence of Guide
+            m; one for each direction.
+
+        Returns
+        -------
+        SlidingPoint
+            An end of `distance`.
+
+        Raises
+        ------
+        ModelError
+            Directions are not at right angles, or there are not as many as guides.
+        """
+        what = f"slide '{name}'"
+        several: Any = guide if isinstance(guide, (list, tuple)) else [guide]
+        guides = [owned_guide(self, g, f"The {what}") for g in several]
+        start = self.anchor(body, point, what)
+        turning = body.frame if isinstance(body, FlexibleBody) else body
+        rows = at_right_angles(direction, len(guides), self.dimension, what) if several is guide else [direction]
+        ways = tuple((self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True))
+        return SlidingPoint(self.unique("slide", name), body, start, ways)

@@ -1,4 +1,4 @@
-"""Parameters: numbers of a System that are set without compiling it again."""
+"""Numbers of a System that are set without compiling it again, and constants, which only its users need."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
 from mbs.model.carried import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
 from mbs.model.core import ModelCore
-from mbs.model.payload import REALS as PAYLOAD_REALS
-from mbs.model.records import Armature, Guide, Parameter
-from mbs.model.written_axis import STEEPEST
+from mbs.model.records import Armature, Constant, Guide, Parameter
+from mbs.model.spin import STEEPEST
 
 _OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
 GUIDE_REALS = {
@@ -56,48 +55,6 @@ class _Target:
         """What the parameter writes."""
         *_, scale, offset, inverse = self.where
         return (scale / value if inverse else value * scale) + offset
-
-
-def new_parameter(
-    model: ModelCore,
-    name: str,
-    value: float,
-    min: float,
-    max: float,
-    unit: str,
-    description: str,
-    targets: Sequence[Target],
-    tunable: bool,
-    works: tuple[float, float] | None,
-) -> Parameter:
-    """Register a parameter; see `Model.parameter`."""
-    what = f"parameter {shown(name)}"
-    start = number(value, f"The value of {what}")
-    low, high = number(min, f"The min of {what}"), number(max, f"The max of {what}")
-    if low > high:
-        raise ModelError(f"The {what} has the limits {low:g} and {high:g}; min must not be above max.")
-    if not low <= start <= high:
-        raise ModelError(f"The {what} is {start:g}, which is not between its limits {low:g} and {high:g}.")
-    if not isinstance(targets, (list, tuple)) or not targets:
-        raise ModelError(
-            f"The {what} has no target; its targets must be a list of (element, name of a real, scale[, offset]), "
-            f"not {shown(targets)}."
-        )
-    found = [_target(model, what, target) for target in targets]
-    _written_once(model, what, found)
-    for end, limit in (("min", low), ("max", high)):
-        for target in found:
-            target.check(target.written(limit), f"At the {end} {limit:g} of {what}, {target.what}")
-    span = None if works is None else _span(works, what)
-    text(unit, f"The unit of {what}")
-    text(description, f"The description of {what}", lines=True)
-    if flag(tunable, f"The tunable of {what}"):
-        _moving(what, found)
-    model.unique("parameter", name)
-    places = tuple(target.where for target in found)
-    parameter = Parameter(name, start, low, high, unit, description, places, tunable, span)
-    model.parameters.append(parameter)
-    return parameter
 
 
 def _span(works: object, what: str) -> tuple[float, float]:
@@ -161,9 +118,8 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
             k, check = list(reals).index(str(real)), reals[str(real)]
             return _Target((ParameterTarget.GUIDE, guide.index, k, *line), f"the {real} of guide '{owner_name}'", check)
     for k, payload in enumerate(model.payloads):
-        if payload.name == owner_name and real in PAYLOAD_REALS:
-            name = f"the {real} of payload '{owner_name}'"
-            return _Target((ParameterTarget.PAYLOAD, k, 0, *line), name, not_negative)
+        if payload.name == owner_name and real == "mass":
+            return _Target((ParameterTarget.PAYLOAD, k, 0, *line), f"the mass of payload '{owner_name}'", not_negative)
     for k, armature in enumerate(model.armatures):
         if armature.name == owner_name and real == "ratio":
             return _Target((ParameterTarget.ARMATURE, k, 0, *line), f"the ratio of armature '{owner_name}'", positive)
@@ -222,3 +178,100 @@ def _road(model: ModelCore, what: str, number_of: object, real: str | int, line:
         real = names.index(real)
     n = whole(real, f"The number of the real of road {k} for {what}", 0, len(names) - 1)
     return _Target((ParameterTarget.ROAD, k, n, *line), f"the {names[n]} of road {k}", road.real_checks[n])
+
+
+class ParameterVocabulary(ModelCore):
+    """Numbers that are set without compiling again, and those that stay."""
+
+    def parameter(
+        self,
+        name: str,
+        value: float,
+        min: float,
+        max: float,
+        unit: str = "1",
+        description: str = "",
+        *,
+        targets: Sequence[Target],
+        tunable: bool = True,
+        works: tuple[float, float] | None = None,
+    ) -> Parameter:
+        """A number that is set without compiling again: it is written to elements, guides, roads and payloads.
+
+        Parameters
+        ----------
+        value : float
+            As the model is compiled, in `unit`.
+        min, max : float
+            Limits, in `unit`.
+        unit : str
+            "1" for a pure number.
+        targets : sequence of (owner, real, scale) or (owner, real, scale, offset)
+            ``value * scale + offset`` is written to the real of the owner: an element, a guide of an input, or their
+            name, and one of its `real_names`; ("road", number) and the name or number of a real of the road; or a
+            payload and "mass", an armature and "ratio"; or the name of a switch and "on", which takes 0 or 1. A real
+            belongs to one parameter.
+        tunable : bool
+            Whether it may be set while the model moves; False: before the start only, as masses of payloads, ratios of
+            armatures and switches must be.
+        works : (float, float), optional
+            Least and largest value, in `unit`, with which the model does what it is made for; an FMU and a
+            `Simulation` say so when another is set.
+
+        Raises
+        ------
+        ModelError
+            The value is not between the limits, a target does not exist or is another parameter's, or what it writes at
+            one of the limits is no value that the target can have.
+        """
+        what = f"parameter {shown(name)}"
+        start = number(value, f"The value of {what}")
+        low, high = number(min, f"The min of {what}"), number(max, f"The max of {what}")
+        if low > high:
+            raise ModelError(f"The {what} has the limits {low:g} and {high:g}; min must not be above max.")
+        if not low <= start <= high:
+            raise ModelError(f"The {what} is {start:g}, which is not between its limits {low:g} and {high:g}.")
+        if not isinstance(targets, (list, tuple)) or not targets:
+            raise ModelError(
+                f"The {what} has no target; its targets must be a list of (element, name of a real, scale[, offset]), "
+                f"not {shown(targets)}."
+            )
+        found = [_target(self, what, target) for target in targets]
+        _written_once(self, what, found)
+        for end, limit in (("min", low), ("max", high)):
+            for target in found:
+                target.check(target.written(limit), f"At the {end} {limit:g} of {what}, {target.what}")
+        span = None if works is None else _span(works, what)
+        text(unit, f"The unit of {what}")
+        text(description, f"The description of {what}", lines=True)
+        if flag(tunable, f"The tunable of {what}"):
+            _moving(what, found)
+        self.unique("parameter", name)
+        places = tuple(target.where for target in found)
+        parameter = Parameter(name, start, low, high, unit, description, places, tunable, span)
+        self.parameters.append(parameter)
+        return parameter
+
+    def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
+        """A number about the model that its users need and its equations do not, such as a wheelbase.
+
+        An FMU has it as a constant; it is no output and takes no part in a run.
+
+        Parameters
+        ----------
+        name : str
+            Unique, such as ``vehicle.wheelbase``.
+        value : float
+            Finite, in `unit`.
+        unit : str
+            SI unit.
+        """
+        what = f"constant {shown(name)}"
+        constant = Constant(
+            self.unique("constant", name),
+            number(value, f"The value of {what}"),
+            text(unit, f"The unit of {what}"),
+            text(description, f"The description of {what}", lines=True),
+        )
+        self.constants.append(constant)
+        return constant

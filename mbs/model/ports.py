@@ -52,11 +52,6 @@ class PortedBody(Body):
         ----------
         position : array_like, shape (3,)
             Earth axes in the reference configuration, m.
-
-        Returns
-        -------
-        AffineVector
-            The point as expressions of coordinates, m.
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:

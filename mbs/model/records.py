@@ -11,18 +11,12 @@ from mbs.kernel.header.enumerations import GuideType, ParameterTarget
 
 @dataclass(frozen=True)
 class Constant:
-    """A number that is stated, not computed.
-
-    Parameters
-    ----------
-    name : str
-        Unique, such as ``vehicle.wheelbase``.
-    value : float
-        In `unit`.
-    """
+    """A number that is stated, not computed."""
 
     name: str
+    """Unique, such as ``vehicle.wheelbase``."""
     value: float
+    """In `unit`."""
     unit: str
     description: str
 
@@ -83,19 +77,13 @@ class Switch:
 
 @dataclass(frozen=True)
 class Armature:
-    """Inertia that turns `ratio` times as fast as a coordinate; made by `Model.armature`.
-
-    Attributes
-    ----------
-    coordinate : Affine
-        The angle as an expression, rad.
-    inertia : float
-        Of what turns, about its own axis, kg m2.
-    """
+    """Inertia that turns `ratio` times as fast as a coordinate; made by `Model.armature`."""
 
     name: str
     coordinate: Affine
+    """The angle as an expression, rad."""
     inertia: float
+    """Of what turns, about its own axis, kg m2."""
     ratio: float
 
 
@@ -115,29 +103,21 @@ class Guide:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that writes value * scale + offset to data of elements, guides, roads, payloads and others.
-
-    Parameters
-    ----------
-    value, min, max : float
-        As compiled, and its limits.
-    targets : tuple of (int, int, int, float, float)
-        Family, index in the family, index of the real, scale, offset, whether the scale is divided by the value.
-    tunable : bool
-        Whether it may be set while the model moves.
-    works : (float, float), optional
-        Least and largest value with which the model does what it is made for.
-    """
+    """A number that writes value * scale + offset to data of elements, guides, roads, payloads and others."""
 
     name: str
     value: float
     min: float
     max: float
+    """`value`, `min`, `max`: as compiled, and its limits."""
     unit: str
     description: str
     targets: tuple[tuple[int, int, int, float, float, bool], ...]
+    """Family, index in the family, index of the real, scale, offset, whether the scale is divided by the value."""
     tunable: bool = True
+    """Whether it may be set while the model moves."""
     works: tuple[float, float] | None = None
+    """Least and largest value with which the model does what it is made for."""
 
     @property
     def whole(self) -> bool:
@@ -147,17 +127,12 @@ class Parameter:
 
 @dataclass(frozen=True)
 class RoadFileParameter:
-    """A parameter that is text: the file in place of a road.
-
-    Parameters
-    ----------
-    start : str
-        Path of the file; empty: none, the road of the model.
-    """
+    """A parameter that is text: the file in place of a road."""
 
     name: str
     road: int
     start: str
+    """Path of the file; empty: none, the road of the model."""
 
     @property
     def description(self) -> str:

@@ -13,44 +13,31 @@ from mbs.model.reactions import Term
 
 @dataclass(frozen=True)
 class Sensor:
-    """One output.
-
-    Parameters
-    ----------
-    type : SensorType
-        Sensor type of the System file.
-    signals : sequence of Affine
-        Its signals; their numbers are put after `integers`.
-    joint : Joint, optional
-        For joint forces: the joint whose rows are weighted; ``integers`` are then numbers of its equations.
-    joints : sequence of Joint
-        Joints whose three rows each come last among the integers.
-    terms : sequence of Term
-        Products with multipliers of `joint`, which make up all integers and reals.
-    whole : bool
-        Whether its values are whole numbers.
-    display_unit : str
-        What engineers read it in, if that is not `unit`.
-    notice : str
-        What a run reports when the value is not zero; empty: nothing.
-    computed : bool
-        False for a number that only stands for one that the same scene computes at another fidelity.
-    """
+    """One output."""
 
     name: str
     unit: str
     description: str
     type: SensorType
+    """Sensor type of the System file."""
     signals: Sequence[Affine] = ()
+    """Its signals; their numbers are put after `integers`."""
     integers: Sequence[int] = ()
     reals: Sequence[float] = ()
     joint: Joint | None = None
+    """For joint forces: the joint whose rows are weighted; ``integers`` are then numbers of its equations."""
     joints: Sequence[Joint] = ()
+    """Joints whose three rows each come last among the integers."""
     terms: Sequence[Term] = ()
+    """Products with multipliers of `joint`, which make up all integers and reals."""
     whole: bool = False
+    """Whether its values are whole numbers."""
     display_unit: str = ""
+    """What engineers read it in, if that is not `unit`."""
     notice: str = ""
+    """What a run reports when the value is not zero; empty: nothing."""
     computed: bool = True
+    """False for a number that only stands for one that the same scene computes at another fidelity."""
 
     @property
     def factors(self) -> int:

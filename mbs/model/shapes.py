@@ -66,25 +66,17 @@ KINDS: Mapping[str, _Kind] = {
 
 @dataclass(frozen=True)
 class Turning:
-    """Something that turns about an axis of a body without being one itself, such as a steering wheel.
-
-    Attributes
-    ----------
-    carrier : Body or Turning
-        On which it turns.
-    centre : ndarray, shape (3,)
-        From the origin of the carrier, along the earth axes as drawn, m.
-    axis_reference : tuple of float
-        Unit vector, earth axes as drawn.
-    angle : Affine or str
-        Angle of the turn, rad: an expression of coordinates, or the name of a sensor.
-    """
+    """Something that turns about an axis of a body without being one itself, such as a steering wheel."""
 
     name: str
     carrier: Body | Turning
+    """On which it turns."""
     centre: Vector
+    """Shape (3,): from the origin of the carrier, along the earth axes as drawn, m."""
     axis_reference: tuple[float, ...]
+    """Unit vector, earth axes as drawn."""
     angle: Affine | str
+    """Angle of the turn, rad: an expression of coordinates, or the name of a sensor."""
 
     @property
     def body(self) -> Body:
@@ -99,22 +91,15 @@ Place: TypeAlias = "ArrayLike | tuple[Owner, ArrayLike]"
 
 @dataclass(frozen=True)
 class Shape:
-    """A shape as `Model.shape` checked it.
-
-    Attributes
-    ----------
-    owner : Body, Spin or Turning
-        What it is of.
-    fields : mapping
-        Numbers and texts of the shape; places are from the origin of the owner, along the earth axes as drawn.
-    anchors : sequence of (owner, ndarray)
-        Points of tubes, plates, springs and dampers: of what, and where from its origin, m.
-    """
+    """A shape as `Model.shape` checked it."""
 
     kind: str
     owner: Owner
+    """What it is of."""
     fields: Mapping[str, Any] = field(default_factory=dict)
+    """Numbers and texts of the shape; places are from the origin of the owner, along the earth axes as drawn."""
     anchors: Sequence[tuple[Owner, Vector]] = ()
+    """Points of tubes, plates, springs and dampers: of what, and where from its origin, m."""
 
     @property
     def name(self) -> str:

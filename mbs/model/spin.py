@@ -1,18 +1,23 @@
-"""An axisymmetric wheel reduced to one coordinate: its absolute axial rate."""
+"""Axisymmetric wheels reduced to one coordinate, their absolute axial rate, and their axes, which parameters turn."""
 
 from __future__ import annotations
+
+from math import asin, atan2
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import direction, not_negative, positive, vector
+from mbs.common.checks import direction, instance_of, not_negative, number, positive, shown, vector
 from mbs.common.errors import ModelError
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried import Spin, WrittenAxis
 from mbs.model.perpendicular import perpendicular
+
+STEEPEST = 1.4
+"""rad of elevation, as in `mbs/kernel/src/system/turned.c`."""
 
 
 def _own(vector: AffineVector) -> AffineVector:
@@ -20,56 +25,117 @@ def _own(vector: AffineVector) -> AffineVector:
     return AffineVector(tuple(Affine(c.terms, c.constant) for c in vector.components))
 
 
-def spin(
-    model: BodyVocabulary,
-    name: str,
-    carrier: Body,
-    centre: ArrayLike,
-    axis: ArrayLike,
-    mass: float,
-    spin_inertia: float,
-    diametral_inertia: float,
-    rolling_radius: float,
-) -> Spin:
-    """Lump the wheel on its carrier and add its spin and gyroscopic moment."""
-    what = f"spin '{name}'"
-    if model.dimension == 2:
-        raise ModelError(f"The {what} needs a spatial model; in the plane a wheel is a body.")
-    model.owned(carrier, f"The {what}")
-    if carrier.is_ground or carrier.is_point or carrier.is_flexible:
-        raise ModelError(f"The carrier of {what} must be a rigid body, not '{carrier.name}'.")
-    m = positive(mass, f"The mass of {what}")
-    I_s = positive(spin_inertia, f"The spin inertia of {what}")
-    I_d = not_negative(diametral_inertia, f"The diametral inertia of {what}")
-    if I_s > 2.0 * I_d * (1.0 + 1e-9):
-        raise ModelError(
-            f"The spin inertia {I_s:g} of {what} is more than twice its diametral inertia {I_d:g}; no wheel has that."
+class SpinVocabulary(BodyVocabulary):
+    """Wheels of a model that are one coordinate each."""
+
+    def spin(
+        self,
+        name: str,
+        *,
+        carrier: Body,
+        centre: ArrayLike,
+        axis: ArrayLike,
+        mass: float,
+        spin_inertia: float,
+        diametral_inertia: float,
+        rolling_radius: float = 0.0,
+    ) -> Spin:
+        """An axisymmetric wheel as one coordinate, its absolute axial rate.
+
+        Mass and diametral inertia are added to the carrier.
+
+        Parameters
+        ----------
+        name : str
+            Name of the coordinate; unique among the spins.
+        carrier : Body
+            A rigid body of a spatial model.
+        centre, axis : array_like, shape (3,)
+            Earth axes in the reference configuration, m and of any length.
+        mass : float
+            kg.
+        spin_inertia, diametral_inertia : float
+            About the axis and across it, kg m2.
+        rolling_radius : float
+            Radius that gives the spin when an initial pose has a speed, m; 0: none.
+
+        Raises
+        ------
+        ModelError
+            The model is planar, the carrier is not rigid, or no wheel has these inertias.
+        """
+        what = f"spin '{name}'"
+        if self.dimension == 2:
+            raise ModelError(f"The {what} needs a spatial model; in the plane a wheel is a body.")
+        self.owned(carrier, f"The {what}")
+        if carrier.is_ground or carrier.is_point or carrier.is_flexible:
+            raise ModelError(f"The carrier of {what} must be a rigid body, not '{carrier.name}'.")
+        m = positive(mass, f"The mass of {what}")
+        I_s = positive(spin_inertia, f"The spin inertia of {what}")
+        I_d = not_negative(diametral_inertia, f"The diametral inertia of {what}")
+        if I_s > 2.0 * I_d * (1.0 + 1e-9):
+            raise ModelError(
+                f"The spin inertia {I_s:g} of {what} is more than twice its diametral inertia {I_d:g}; no wheel has "
+                "that."
+            )
+        radius = not_negative(rolling_radius, f"The rolling radius of {what}")
+        e = direction(axis, 3, f"the axis of {what}")
+        c = vector(centre, 3, f"the centre of {what}")
+        x, y = perpendicular(e)
+        self.remember(carrier)
+        carrier.joint_axes.append(e)
+        # I = I_d (1 - e e'), zero about the axis, has the second moment J = tr(I)/2 - I = I_d e e'
+        carrier.add_mass(m, c, I_d * np.outer(e, e))
+        index = self.new_coordinate(self.unique("spin", name), "spin", 0.0)
+        self.inertias[index] = I_s
+        along, across, aside = (_own(carrier.vector(v)) for v in (e, x, y))
+        new = Spin(
+            name,
+            index,
+            "rad",
+            carrier,
+            carrier.point(c),
+            along,
+            across,
+            aside,
+            I_s,
+            I_d,
+            radius,
+            (tuple(x), tuple(y), tuple(e)),
         )
-    radius = not_negative(rolling_radius, f"The rolling radius of {what}")
-    e = direction(axis, 3, f"the axis of {what}")
-    c = vector(centre, 3, f"the centre of {what}")
-    x, y = perpendicular(e)
-    model.remember(carrier)
-    carrier.joint_axes.append(e)
-    # I = I_d (1 - e e'), zero about the axis, has the second moment J = tr(I)/2 - I = I_d e e'
-    carrier.add_mass(m, c, I_d * np.outer(e, e))
-    index = model.new_coordinate(model.unique("spin", name), "spin", 0.0)
-    model.inertias[index] = I_s
-    along, across, aside = (_own(carrier.vector(v)) for v in (e, x, y))
-    new = Spin(
-        name,
-        index,
-        "rad",
-        carrier,
-        carrier.point(c),
-        along,
-        across,
-        aside,
-        I_s,
-        I_d,
-        radius,
-        (tuple(x), tuple(y), tuple(e)),
-    )
-    model.add(GyroscopicSpin(I_s).record(f"{name}.gyroscopic", new.f, new.g, new.affine))
-    model.spins.append(new)
-    return new
+        self.add(GyroscopicSpin(I_s).record(f"{name}.gyroscopic", new.f, new.g, new.affine))
+        self.spins.append(new)
+        return new
+
+    def written_axis(self, spin: Spin, *, leaning: float = 0.0) -> WrittenAxis:
+        """Let parameters turn the axis of a wheel on its carrier, about the centre of the wheel.
+
+        A parameter writes to its ``azimuth``, the angle of the axis about the vertical of the drawing from y to -x, or
+        its ``elevation`` above the level there, both in rad, and is fixed. Steps cost nothing while both are as drawn.
+
+        Parameters
+        ----------
+        spin : Spin
+            What `Model.spin` returned.
+        leaning : float
+            By how much its rolling radius grows with 1 over the cosine of the elevation, m: a hub that stays at its
+            height is farther from where a leaning wheel stands.
+
+        Raises
+        ------
+        ModelError
+            The axis stands upright.
+        """
+        what = "wheel of Model.written_axis"
+        wheel = instance_of(Spin, spin, f"The {what}", "what Model.spin returned")
+        if not any(wheel is known for known in self.spins):
+            raise ModelError(f"The {what}, {shown(wheel.name)}, is not of this model.")
+        grows = number(leaning, f"The leaning of the {what}")
+        x, y, z = wheel.axis_reference
+        if abs(asin(min(max(z, -1.0), 1.0))) > STEEPEST:
+            raise ModelError(f"The axis of the {what} '{wheel.name}' stands upright; its azimuth is not known.")
+        name = self.unique("written axis", wheel.name)
+        frame = tuple(wheel.carrier.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
+        new = WrittenAxis(name, wheel, (frame[0], frame[1], frame[2]), (atan2(-x, y), asin(z)), grows)
+        self.written_axes.append(new)
+        return new

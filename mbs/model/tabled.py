@@ -31,18 +31,12 @@ DRAWN = 1e-6
 
 @dataclass(frozen=True)
 class SmoothTable:
-    """Functions of one or two variables at equally spaced points, smooth between them.
-
-    Attributes
-    ----------
-    axes : tuple of ndarray
-        Points along each variable.
-    coefficients : ndarray, shape (n0 + 2, n1 + 2, k), or (n0 + 2, 1, k) of one variable
-        Control points of the cubic B-splines.
-    """
+    """Functions of one or two variables at equally spaced points, smooth between them."""
 
     axes: tuple[Array, ...]
+    """Points along each variable."""
     coefficients: Array
+    """Shape (n0 + 2, n1 + 2, k), or (n0 + 2, 1, k) of one variable: control points of the cubic B-splines."""
 
     def value(self, *at: float) -> Array:
         """The functions at a place, shape (k,)."""
@@ -124,17 +118,7 @@ def _weights(axis: Array, x: float) -> Array:
 
 
 class TabledBody(Body):
-    """A rigid body that a table places on another; made by `Model.tabled_body`. It takes forces and sensors, no joints.
-
-    Attributes
-    ----------
-    base : Body
-        What it is placed on.
-    parameters : tuple of Coordinate
-        Variables of its table.
-    table : SmoothTable
-        Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes.
-    """
+    """A rigid body that a table places on another (`Model.tabled_body`); it takes forces and sensors, no joints."""
 
     is_tabled = True
     outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
@@ -144,8 +128,11 @@ class TabledBody(Body):
         return [CoordinateInfo(c.name, "tabled", c.component, c.reference) for c in super().coordinates()]
 
     base: Body
+    """What it is placed on."""
     parameters: tuple[Coordinate, ...]
+    """Variables of its table."""
     table: SmoothTable
+    """Along the axes of the base: p, the place of `com` from the base's, then R's columns, the axes."""
 
 
 @dataclass(frozen=True)

@@ -11,18 +11,12 @@ from mbs.model.equation import Equation, dot_products
 
 @dataclass(frozen=True)
 class Turning:
-    """What a joint holds of the turning of its bodies.
-
-    Parameters
-    ----------
-    points : pair of AffineVector
-        Of the first and the second body, where the joint is.
-    pairs : sequence of (u, v, value)
-        Vectors of the first and the second body whose product keeps the value.
-    """
+    """What a joint holds of the turning of its bodies."""
 
     points: tuple[AffineVector, AffineVector]
+    """Of the first and the second body, where the joint is."""
     pairs: Sequence[tuple[AffineVector, AffineVector, float]]
+    """Vectors of the first and the second body whose product keeps the value."""
 
     def equations(self, name: str) -> list[Equation]:
         """One per pair."""

@@ -46,43 +46,29 @@ class AccuracyWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Accuracy:
-    """What is known of the error of a run.
-
-    Parameters
-    ----------
-    energy_balance : float or None
-        Work that constraint forces and projections did, over the energy that was in the motion; they should do none.
-        None where the method measures none (see `Report.energy_error`).
-    energy_error : float or None
-        That work, J.
-    halvings_per_step : float
-        How often steps were halved.
-    repeated_with : float or None
-        Step of the last repeat, s; None where there was none. Above that of the run it was a coarser one.
-    repeat_cost : float
-        Steps of all repeats over those of the run: what the check cost.
-    order : float or None
-        With which errors fall, as the energy of the two runs shows, else that of the method.
-    units : dict of str to float
-        Estimated largest error over the largest range, per unit that was judged ("1": coordinates of the System).
-    sensors : dict of str to float
-        Estimated largest error of the sensors that were judged, in their units.
-    message : str
-        Evidence against the result, with a remedy; empty where there is none.
-    branch : str
-        A sentence about a change of the assembly mode that the repeat does not make; empty where there is none.
-    """
+    """What is known of the error of a run."""
 
     energy_balance: float | None
+    """Work that constraint forces and projections did, over the energy that was in the motion; they should do none.
+    None where the method measures none (see `Report.energy_error`)."""
     energy_error: float | None
+    """That work, J."""
     halvings_per_step: float
+    """How often steps were halved."""
     repeated_with: float | None = None
+    """Step of the last repeat, s; None where there was none. Above that of the run it was a coarser one."""
     repeat_cost: float = 0.0
+    """Steps of all repeats over those of the run: what the check cost."""
     order: float | None = None
+    """With which errors fall, as the energy of the two runs shows, else that of the method."""
     units: dict[str, float] = field(default_factory=dict)
+    """Estimated largest error over the largest range, per unit that was judged ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)
+    """Estimated largest error of the sensors that were judged, in their units."""
     message: str = ""
+    """Evidence against the result, with a remedy; empty where there is none."""
     branch: str = ""
+    """A sentence about a change of the assembly mode that the repeat does not make; empty where there is none."""
 
     @property
     def error(self) -> float | None:

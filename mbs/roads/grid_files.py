@@ -25,21 +25,15 @@ MOST_BYTES = 2**31
 
 @dataclass(frozen=True)
 class Grid:
-    """A grid of numbers.
-
-    Parameters
-    ----------
-    values : ndarray, shape (nx, ny)
-    origin, spacing : (float, float), optional
-        Of its points in x and y, m, where the file says it.
-    frictions : ndarray, shape (nx, ny), optional
-        Where the same file has them.
-    """
+    """A grid of numbers."""
 
     values: NDArray[np.float64]
+    """Shape (nx, ny)."""
     origin: tuple[float, float] | None = None
     spacing: tuple[float, float] | None = None
+    """`origin`, `spacing`: of its points in x and y, m, where the file says it."""
     frictions: NDArray[np.float64] | None = None
+    """Shape (nx, ny): where the same file has them."""
 
 
 def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] | None, what: str) -> Grid:

@@ -31,18 +31,13 @@ class RoadFile(RoadOfFile):
     """A road of a file that ``ali3 road`` or `write_road` made, of which the kernel keeps in memory what is near.
 
     A table with coordinates (``.csv``, ``.txt``) is taken too; it is kept as a whole.
-
-    Parameters
-    ----------
-    path : path
-        The file; `Model.road` takes it relative to the current folder.
-    road : PlaneRoad, KerbRoad or GridRoad
-        The road in the file's place while the equilibrium of a model is sought, and where the file is taken away. Its
-        friction factor multiplies the frictions of the file.
     """
 
     path: str | os.PathLike[str]
+    """The file; `Model.road` takes it relative to the current folder."""
     road: PlaneRoad | KerbRoad | GridRoad = field(default_factory=PlaneRoad)
+    """The road in the file's place while the equilibrium of a model is sought, and where the file is taken away. Its
+    friction factor multiplies the frictions of the file."""
 
     def __post_init__(self) -> None:
         instance_of((str, os.PathLike), self.path, "The path of a RoadFile", "a path")

@@ -37,32 +37,22 @@ class RoadFileError(ValueError):
 
 @dataclass(frozen=True)
 class Header:
-    """What the beginning of a road file says.
-
-    Parameters
-    ----------
-    nx, ny : int
-        Points of the grid, 0 without one.
-    maps : int
-        1: heights, 2: heights and frictions.
-    real : tuple of float
-        Eight numbers of the road.
-    contents : int
-        CRC-32 of the checksums of all tiles, or of the table of them.
-    version : int
-        1: each tile in its place; 2: equal tiles once.
-    written_bytes : int
-        Size of the file, of version 2.
-    """
+    """What the beginning of a road file says."""
 
     kind: RoadType
     nx: int
     ny: int
+    """`nx`, `ny`: points of the grid, 0 without one."""
     maps: int
+    """1: heights, 2: heights and frictions."""
     real: tuple[float, ...]
+    """Eight numbers of the road."""
     contents: int = 0
+    """CRC-32 of the checksums of all tiles, or of the table of them."""
     version: int = ROAD_VERSION
+    """1: each tile in its place; 2: equal tiles once."""
     written_bytes: int = 0
+    """Size of the file, of version 2."""
 
     @property
     def tiles(self) -> tuple[int, int]:

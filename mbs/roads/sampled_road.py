@@ -26,21 +26,15 @@ BETWEEN = 0.382, 0.618
 
 @dataclass(frozen=True)
 class SampledRoad(GridRoad):
-    """A grid that was taken from a surface of another form.
-
-    Parameters
-    ----------
-    largest, rms : float
-        Difference of its heights from the surface where that is, between the points of the grid and at those of the
-        surface, m.
-    place : (float, float)
-        x and y of the largest, m.
-    """
+    """A grid that was taken from a surface of another form."""
 
     source: str = ""
     largest: float = 0.0
     rms: float = 0.0
+    """`largest`, `rms`: difference of its heights from the surface where that is, between the points of the grid and at
+    those of the surface, m."""
     place: tuple[float, float] = (0.0, 0.0)
+    """x and y of the largest, m."""
 
     @property
     def sentence(self) -> str:

@@ -14,51 +14,37 @@ ALLOWED = 3.0
 
 @dataclass(frozen=True)
 class Control:
-    """How `simulate` chose its steps.
-
-    Parameters
-    ----------
-    tolerance : float
-        Accepted error of positions in parts of `length`.
-    length : float
-        Of the model, m.
-    method : str
-        Name of the method that made the run.
-    reason : str
-        Why this method; empty where the caller named it.
-    error : float
-        Guess of the largest error of positions over the run in parts of `length`: its distance from a coarser run,
-        times what its steps err over what those of the other do. In nine of ten random mechanisms it is within ten
-        times the error; what both runs miss is not in it, and where guides prescribe all motion it is 0. NaN where the
-        step was given: nothing was compared.
-    h : float or None
-        The fixed step, s; None: steps under error control.
-    steps, rejected, failed : int
-        Steps of the run that is shown; those that erred too much, and those that did not converge, were repeated.
-    forced : int
-        Steps that err more than their share of the tolerance and no less when they are shorter.
-    smallest, largest : float
-        Accepted steps, s.
-    side_steps : int
-        Made for times between the steps, where no polynomial through the steps served.
-    runs : int
-        Whole runs that were made, those for the estimate and for the choice of the method included.
-    """
+    """How `simulate` chose its steps."""
 
     tolerance: float
+    """Accepted error of positions in parts of `length`."""
     length: float
+    """Of the model, m."""
     method: str
+    """Name of the method that made the run."""
     reason: str
+    """Why this method; empty where the caller named it."""
     error: float
+    """Guess of the largest error of positions over the run in parts of `length`: its distance from a coarser run, times
+    what its steps err over what those of the other do. In nine of ten random mechanisms it is within ten times the
+    error; what both runs miss is not in it, and where guides prescribe all motion it is 0. NaN where the step was
+    given: nothing was compared."""
     h: float | None
+    """The fixed step, s; None: steps under error control."""
     steps: int
     rejected: int
     failed: int
+    """`steps`, `rejected`, `failed`: steps of the run that is shown; those that erred too much, and those that did not
+    converge, were repeated."""
     forced: int
+    """Steps that err more than their share of the tolerance and no less when they are shorter."""
     smallest: float
     largest: float
+    """`smallest`, `largest`: accepted steps, s."""
     side_steps: int
+    """Made for times between the steps, where no polynomial through the steps served."""
     runs: int
+    """Whole runs that were made, those for the estimate and for the choice of the method included."""
 
     @property
     def kept(self) -> bool:

@@ -10,40 +10,29 @@ from mbs.kernel.header.enumerations import METHOD_ORDERS, MethodNumber
 
 @dataclass(frozen=True)
 class Method:
-    """A time integrator, with settings that belong to it.
-
-    Parameters
-    ----------
-    number : MethodNumber
-        In the kernel.
-    title : str
-        In tables and charts.
-    order : int
-        With which errors of fixed steps fall.
-    project : bool or None
-        Value of the setting `project` that the name stands for; None: that of the settings.
-    smooth_miss : float
-        Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
-        checked by another; infinite where they say nothing.
-    balance_decides : bool
-        Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
-        runge_kutta_8 errs where it is stiff.
-    conservative_only, tree_only, positions_only : bool
-        Whether it takes only Systems without damping, with a spanning tree, without rows of velocities.
-    cost : float
-        Of one unit of work of a controlled run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule.
-    """
+    """A time integrator, with settings that belong to it."""
 
     number: MethodNumber
+    """In the kernel."""
     title: str
+    """In tables and charts."""
     order: int = 2
+    """With which errors of fixed steps fall."""
     project: bool | None = None
+    """Value of the setting `project` that the name stands for; None: that of the settings."""
     smooth_miss: float = math.inf
+    """Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
+    checked by another; infinite where they say nothing."""
     balance_decides: bool = False
+    """Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
+    runge_kutta_8 errs where it is stiff."""
     conservative_only: bool = False
     tree_only: bool = False
     positions_only: bool = False
+    """`conservative_only`, `tree_only`, `positions_only`: whether it takes only Systems without damping, with a
+    spanning tree, without rows of velocities."""
     cost: float = 1.0
+    """Of one unit of work of a controlled run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule."""
 
     @property
     def order_of_changing_steps(self) -> int:

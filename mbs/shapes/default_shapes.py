@@ -34,18 +34,13 @@ Shape = dict[str, Any]
 
 @dataclass(frozen=True)
 class Defaults:
-    """Makes the default shapes of a model.
-
-    Parameters
-    ----------
-    extent : float
-        Size of the drawing, m.
-    """
+    """Makes the default shapes of a model."""
 
     model: Model
     names: FrameNames
     touched: Touched
     extent: float
+    """Size of the drawing, m."""
 
     @cached_property
     def tube(self) -> float:

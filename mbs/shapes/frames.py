@@ -32,21 +32,14 @@ def numbers(v: NDArray[np.float64] | Sequence[float]) -> list[float]:
 
 @dataclass(frozen=True)
 class FrameNames:
-    """Names of the frames and of their columns in recordings.
-
-    Parameters
-    ----------
-    bodies : mapping of int to str
-        Frame by number of the body.
-    turns : mapping of str to str
-        Frame by name of the spin or turning.
-    columns : mapping of str to str
-        Column by name as `Poses` has it: sensors of that name go first.
-    """
+    """Names of the frames and of their columns in recordings."""
 
     bodies: Mapping[int, str]
+    """Frame by number of the body."""
     turns: Mapping[str, str]
+    """Frame by name of the spin or turning."""
     columns: Mapping[str, str]
+    """Column by name as `Poses` has it: sensors of that name go first."""
 
     @classmethod
     def of(cls, model: Model) -> FrameNames:

@@ -55,24 +55,17 @@ class Slide:
 
 @dataclass
 class Touched:
-    """Where the bodies of a model are touched.
-
-    Parameters
-    ----------
-    points : dict of str to list of ndarray
-        Places by frame, earth axes as drawn, m.
-    sliding : list of str
-        Rods with an end that a guide slides, which no sensor reads.
-    frames : dict of str to dict
-        Frames of such ends that one reads.
-    """
+    """Where the bodies of a model are touched."""
 
     points: dict[str, list[Vector]] = field(default_factory=dict)
+    """Places by frame, earth axes as drawn, m."""
     pivots: list[Pivot] = field(default_factory=list)
     slides: list[Slide] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     sliding: list[str] = field(default_factory=list)
+    """Rods with an end that a guide slides, which no sensor reads."""
     frames: dict[str, dict[str, Any]] = field(default_factory=dict)
+    """Frames of such ends that one reads."""
 
 
 def touched(model: Model, names: FrameNames) -> Touched:

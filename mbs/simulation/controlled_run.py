@@ -27,19 +27,13 @@ ROUND_OFF = 1e-13  # m at coordinates of 1 m
 
 @dataclass(frozen=True)
 class Task:
-    """What all runs of one call have in common.
-
-    Parameters
-    ----------
-    t0, t_end : float
-        s.
-    times : array of shape (n,)
-        To record at, ascending, behind t0.
-    """
+    """What all runs of one call have in common."""
 
     t0: float
     t_end: float
+    """`t0`, `t_end`: s."""
     times: Array
+    """Shape (n,): to record at, ascending, behind t0."""
     inputs: Mapping[str, Signal]
 
     @property

@@ -60,44 +60,29 @@ _STARTING = threading.Lock()  # what a start warns of is caught for all threads 
 
 @dataclass(frozen=True)
 class Variant:
-    """What one of many runs has of its own.
-
-    Parameters
-    ----------
-    parameters : mapping of str to float
-        Values that differ from their declaration.
-    inputs : mapping of str to signal
-        As of `simulate`.
-    pose : Pose, optional
-        Start of a scene that is not tied to the ground.
-    """
+    """What one of many runs has of its own."""
 
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    """Values that differ from their declaration."""
     inputs: Mapping[str, Signal] = field(default_factory=dict)
+    """As of `simulate`."""
     pose: Pose | None = None
+    """Start of a scene that is not tied to the ground."""
 
 
 @dataclass(frozen=True)
 class ManyRuns:
-    """The runs of `simulate_many`, in the order of the variants.
-
-    Attributes
-    ----------
-    trajectories : list of Trajectory or None
-        Of a run that failed what was recorded until then; None where its start was refused.
-    failures : dict of int to SimulationError
-        Why a run failed, by the number of its variant.
-    alone : list of int
-        Steps that each run made alone: halved ones, failed ones, those without a neighbour, the first six of a flexible
-        System with modes that the step does not resolve, and all of Systems and settings that are not stepped together.
-    lanes : int
-        Runs of a whole group, which advance together; the last group may have fewer.
-    """
+    """The runs of `simulate_many`, in the order of the variants."""
 
     trajectories: list[Trajectory | None]
+    """Of a run that failed what was recorded until then; None where its start was refused."""
     failures: dict[int, SimulationError]
+    """Why a run failed, by the number of its variant."""
     alone: list[int]
+    """Steps that each run made alone: halved ones, failed ones, those without a neighbour, the first six of a flexible
+    System with modes that the step does not resolve, and all of Systems and settings that are not stepped together."""
     lanes: int
+    """Runs of a whole group, which advance together; the last group may have fewer."""
 
 
 class _Found(NamedTuple):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from mbs.common.errors import ModelError
 from mbs.kernel.binding import KernelError, LoadedSystem, open_row
-from mbs.settings.settings import Settings
 from mbs.simulation.system_instance import SystemInstance
 from mbs.system.system import System
 
@@ -21,7 +20,7 @@ class StandingSystem(SystemInstance):
 
     def __init__(self, system: System) -> None:
         loaded = LoadedSystem(system.to_bytes(drawing=False, modes=False))
-        super().__init__(system, Settings(), loaded, system.meta)
+        super().__init__(system, loaded, system.meta)
         try:
             self.instance.initialise()
         except KernelError as error:

@@ -14,19 +14,6 @@ from mbs.common.checks import finite, number
 class Pose:
     """Where a scene that is not tied to the ground starts.
 
-    Parameters
-    ----------
-    x, y, z : float
-        Shift from the reference configuration, earth axes, m.
-    yaw : float
-        Turn about the vertical, rad.
-    speed : float
-        Along the turned forward direction, wheels rolling, m/s.
-    lateral_speed : float
-        To the left of it, m/s.
-    yaw_rate : float
-        Positive to the left, rad/s. Both speeds are those of the origin of the drawing, about which it turns.
-
     Raises
     ------
     ValueError
@@ -36,10 +23,15 @@ class Pose:
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
+    """`x`, `y`, `z`: shift from the reference configuration, earth axes, m."""
     yaw: float = 0.0
+    """Turn about the vertical, rad."""
     speed: float = 0.0
+    """Along the turned forward direction, wheels rolling, m/s."""
     lateral_speed: float = 0.0
+    """To the left of it, m/s."""
     yaw_rate: float = 0.0
+    """Positive to the left, rad/s. Both speeds are those of the origin of the drawing, about which it turns."""
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "z", "yaw", "speed", "lateral_speed", "yaw_rate"):

@@ -23,7 +23,8 @@ class SteppedSystem(SystemInstance):
     """
 
     def __init__(self, system: System, settings: Settings) -> None:
-        super().__init__(system, settings, *prepared(system))
+        super().__init__(system, *prepared(system))
+        self.change_settings(settings)
         self.bending = BendingWatch(system.frames)
         self.step_tried = 0.0
         self.road_paths: dict[int, str] = {}

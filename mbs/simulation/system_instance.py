@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from mbs.kernel.binding import Instance, LoadedSystem
-from mbs.settings.settings import Settings
 from mbs.simulation.state import State
 from mbs.system.system import System
 
@@ -23,10 +22,9 @@ class SystemInstance:
         Its names, which are not changed.
     """
 
-    def __init__(self, system: System, settings: Settings, loaded: LoadedSystem, meta: dict[str, Any]) -> None:
-        self.system, self.settings, self._meta = system, settings, meta
+    def __init__(self, system: System, loaded: LoadedSystem, meta: dict[str, Any]) -> None:
+        self.system, self._meta = system, meta
         self.instance = Instance(loaded)
-        self.instance.set_settings(**settings.kernel_fields())
 
     @property
     def time(self) -> float:

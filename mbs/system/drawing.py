@@ -22,79 +22,55 @@ _SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2, "pose": 7}
 
 @dataclass(frozen=True)
 class BodyPlace:
-    """Where a body is among the rows of `Places`.
-
-    Parameters
-    ----------
-    kind : {"rigid", "planar", "point", "planar point", "pose"}
-        What its full coordinates are: position, then axes; or the seven parts of the pose themselves.
-    row : int
-        First of them.
-    columns : sequence of str
-        Names of the seven parts of its pose in recordings.
-    """
+    """Where a body is among the rows of `Places`."""
 
     name: str
     kind: str
+    """What its full coordinates are: position, then axes, of "rigid", "planar", "point" and "planar point"; or "pose",
+    the seven parts of the pose themselves."""
     row: int
+    """First of them."""
     columns: tuple[str, ...]
+    """Names of the seven parts of its pose in recordings."""
 
 
 @dataclass(frozen=True)
 class TurnPlace:
-    """An angle by which a frame turns about an axis of a body.
-
-    Parameters
-    ----------
-    row : int
-        The coordinate.
-    axis : sequence of float
-        Unit vector of the carrier.
-    absolute : bool
-        Whether the coordinate counts from the earth, as that of a spin, so that the turning of the carrier about the
-        axis is taken off.
-    column : str
-        Name in recordings.
-    """
+    """An angle by which a frame turns about an axis of a body."""
 
     name: str
     row: int
+    """The coordinate."""
     carrier: str
     axis: tuple[float, ...]
+    """Unit vector of the carrier."""
     absolute: bool
+    """Whether the coordinate counts from the earth, as that of a spin, so that the turning of the carrier about the
+    axis is taken off."""
     column: str
+    """Name in recordings."""
 
 
 @dataclass(frozen=True)
 class AmplitudePlace:
-    """Amplitudes of a flexible body.
-
-    Parameters
-    ----------
-    row : int
-        The first amplitude; the others follow.
-    columns : sequence of str
-        Names in recordings.
-    """
+    """Amplitudes of a flexible body."""
 
     body: str
     modes: tuple[str, ...]
     row: int
+    """The first amplitude; the others follow."""
     columns: tuple[str, ...]
+    """Names in recordings."""
 
 
 @dataclass(frozen=True)
 class Places:
-    """Full coordinates ``matrix q + constant`` that place bodies.
-
-    Parameters
-    ----------
-    matrix : sparse array of shape (rows, nq)
-    constant : array of shape (rows,)
-    """
+    """Full coordinates ``matrix q + constant`` that place bodies."""
 
     matrix: sparse.csr_matrix
+    """Shape (rows, nq)."""
     constant: Array
+    """Shape (rows,)."""
     bodies: tuple[BodyPlace, ...]
     turns: tuple[TurnPlace, ...] = ()
     amplitudes: tuple[AmplitudePlace, ...] = ()
@@ -165,23 +141,16 @@ class Places:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A scene and the places of its frames.
-
-    Parameters
-    ----------
-    base : mapping
-        The scene in the format of `docs/animation.md`, without what is made late.
-    shared : sequence of (frame, place, frame, place)
-        Points that two frames share by their joint, each with its place in both, m.
-    late : tuple of callable
-        Each makes entries of the scene's ``flexible``, which takes as long as compiling a model and is not always
-        wanted.
-    """
+    """A scene and the places of its frames."""
 
     base: Mapping[str, Any]
+    """The scene in the format of `docs/animation.md`, without what is made late."""
     places: Places
     shared: Sequence[tuple[str, Sequence[float], str, Sequence[float]]] = ()
+    """Points that two frames share by their joint, each with its place in both, m."""
     late: tuple[Callable[[], list[dict[str, Any]]], ...] = ()
+    """Each makes entries of the scene's ``flexible``, which takes as long as compiling a model and is not always
+    wanted."""
 
     @cached_property
     def scene(self) -> dict[str, Any]:

@@ -89,28 +89,19 @@ _MOST_LOAD = 5.0  # nominal loads, where a file has no range
 
 @dataclass(frozen=True)
 class TyreFile:
-    """A Magic Formula tyre as its file has it.
-
-    Attributes
-    ----------
-    name : str
-        Of the file, for messages.
-    values : dict
-        Arguments of `MagicTyre` but for side, signs and pressure.
-    side : str
-        "left" or "right": where it was measured; "symmetric".
-    pressure, nominal_pressure : float
-        Pa; 0 where the file has none.
-    notes : tuple of str
-        What the file lacks or what is not used, a sentence each.
-    """
+    """A Magic Formula tyre as its file has it."""
 
     name: str
+    """Of the file, for messages."""
     values: Mapping[str, Any]
+    """Arguments of `MagicTyre` but for side, signs and pressure."""
     side: str
+    """Where it was measured, "left" or "right"; or "symmetric"."""
     pressure: float
     nominal_pressure: float
+    """`pressure`, `nominal_pressure`: Pa; 0 where the file has none."""
     notes: tuple[str, ...]
+    """What the file lacks or what is not used, a sentence each."""
 
     def tyre(
         self, mounted: str = SIDE_OF_FILE, signs: str = "iso", pressure: float | None = None, **more: float

@@ -27,19 +27,13 @@ class TyreFileError(ModelError):
 
 @dataclass(frozen=True)
 class PropertyText:
-    """Sections of a tyre property file.
-
-    Parameters
-    ----------
-    sections : dict
-        Of keys to words or numbers, all in capitals; words without quotation marks.
-    tables : frozenset of str
-        Sections with lines of numbers.
-    """
+    """Sections of a tyre property file."""
 
     name: str
     sections: dict[str, dict[str, str | float]] = field(default_factory=dict)
+    """Of keys to words or numbers, all in capitals; words without quotation marks."""
     tables: frozenset[str] = frozenset()
+    """Sections with lines of numbers."""
 
     def fault(self, sentence: str) -> TyreFileError:
         """An error that names the file."""

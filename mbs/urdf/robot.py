@@ -41,26 +41,18 @@ class UrdfWarning(UserWarning):
 
 @dataclass
 class Robot:
-    """A robot as a model, to which tools, loads, sensors and forces may be added.
-
-    Attributes
-    ----------
-    model : Model
-        Its inputs are ``JOINT.torque``, N m, or ``JOINT.force``, N, unless the joint has a guide; its sensors
-        ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of guides ``JOINT.torque``. A
-        joint that follows another has sensors only.
-    bodies : dict of str to Body
-        By the names of links; links that are fixed to each other are one body, the ground where they are fixed to it.
-    poses : dict of str to ndarray, shape (4, 4)
-        Of the frames of links in earth axes in the reference configuration, m.
-    angles : dict of str to Coordinate
-        Of turning joints, rad, as the file counts them.
-    """
+    """A robot as a model, to which tools, loads, sensors and forces may be added."""
 
     model: Model
+    """Its inputs are ``JOINT.torque``, N m, or ``JOINT.force``, N, unless the joint has a guide; its sensors
+    ``JOINT.angle`` and ``JOINT.rate``, ``JOINT.position`` and ``JOINT.speed``, and of guides ``JOINT.torque``. A joint
+    that follows another has sensors only."""
     bodies: dict[str, Body] = field(default_factory=dict)
+    """By the names of links; links that are fixed to each other are one body, the ground where they are fixed to it."""
     poses: dict[str, Pose] = field(default_factory=dict)
+    """Each of shape (4, 4): of the frames of links in earth axes in the reference configuration, m."""
     angles: dict[str, Coordinate] = field(default_factory=dict)
+    """Of turning joints, rad, as the file counts them."""
 
 
 def read_urdf(

@@ -34,44 +34,30 @@ class _Tied:
 
 @dataclass
 class CarBuilder:
-    """The model so far, its inputs, and the parameters that will be in it.
-
-    Attributes
-    ----------
-    m : Model
-        Gets bodies, joints and elements.
-    road : int
-        Number of the road under the chassis.
-    wheel_roads : mapping of str to int
-        Those under wheels that have one of their own.
-    port_senses : list of callable
-        Add the outputs of ports, which come after all others.
-    inputs : mapping of str to Input
-        Of the driver, by name.
-    ports : Ports
-        Which parts other programs replace.
-    port_inputs : list of Input
-        Those of the ports so far.
-    chassis : Mount
-        What the rest of the car is fixed to; set once the chassis is there.
-    rack : Coordinate or None
-        Travel of the rack, m, of a front axle by its curves.
-    """
+    """The model so far, its inputs, and the parameters that will be in it."""
 
     m: Model
+    """Gets bodies, joints and elements."""
     road: int
+    """Number of the road under the chassis."""
     inputs: Mapping[str, Input]
+    """Of the driver, by name."""
     ports: Ports = field(default_factory=Ports)
+    """Which parts other programs replace."""
     port_inputs: list[Input] = field(default_factory=list)
+    """Those of the ports so far."""
     wheel_roads: Mapping[str, int] = field(default_factory=dict)
+    """Those under wheels that have one of their own."""
     port_senses: list[Callable[[], object]] = field(default_factory=list)
+    """Add the outputs of ports, which come after all others."""
     rack: Coordinate | None = None
+    """Travel of the rack, m, of a front axle by its curves."""
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 
     @property
     def chassis(self) -> Mount:
-        """What the rest of the car is fixed to."""
+        """What the rest of the car is fixed to; set once the chassis is there."""
         assert self._chassis is not None, "the chassis is made first"
         return self._chassis
 

@@ -16,18 +16,11 @@ TieRodEnd: TypeAlias = Callable[[Side, Point], End]
 
 @dataclass(frozen=True)
 class Corner:
-    """One wheel's side of a suspension.
-
-    Attributes
-    ----------
-    side : Side
-        Axle, and left or right.
-    carrier : Body
-        Carries the wheel.
-    parts : mapping of str to Body
-        Bodies by their names in the file, for anti-roll bars.
-    """
+    """One wheel's side of a suspension."""
 
     side: Side
+    """Axle, and left or right."""
     carrier: Body
+    """Carries the wheel."""
     parts: Mapping[str, Body]
+    """Bodies by their names in the file, for anti-roll bars."""

@@ -12,14 +12,10 @@ class Fidelity(IntEnum):
 
     The numbers only identify: a simpler model, or one with compliances, takes a free number. Those from 100 on are for
     comparison.
-
-    Attributes
-    ----------
-    description : str
-        What the model contains.
     """
 
     description: str
+    """What the model contains."""
 
     def __new__(cls, number: int, description: str) -> Fidelity:
         """The number with its description."""

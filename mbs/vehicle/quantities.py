@@ -15,27 +15,19 @@ Change = Literal["tunable", "fixed"]
 
 @dataclass(frozen=True)
 class Quantity:
-    """Unit and range of a number.
-
-    Parameters
-    ----------
-    unit : str
-        SI unit; "1" for a number without one.
-    low, high : float
-        Least and largest plausible value. Where `low` is positive they are less than a factor of 1000 apart, so that
-        a value in a unit 1000 times too large or too small is always outside; of inertias the radius of gyration and
-        the two other moments tell it.
-    zero : bool
-        Whether 0 is allowed too; a parameter may then be anywhere between 0 and `high`.
-    change : {"tunable", "fixed"} or None
-        Whether the FMU has it as a parameter that may change while driving, or before the start only.
-    """
+    """Unit and range of a number."""
 
     unit: str
+    """SI unit; "1" for a number without one."""
     low: float
     high: float
+    """`low`, `high`: least and largest plausible value. Where `low` is positive they are less than a factor of 1000
+    apart, so that a value in a unit 1000 times too large or too small is always outside; of inertias the radius of
+    gyration and the two other moments tell it."""
     zero: bool = False
+    """Whether 0 is allowed too; a parameter may then be anywhere between 0 and `high`."""
     change: Change | None = None
+    """Whether the FMU has it as a parameter: one that may change while driving, or before the start only."""
 
     def check(self, value: float) -> float:
         """The value, if it is in the range.

@@ -211,17 +211,12 @@ class AxleSprings:
 def spring_and_damper(
     b: CarBuilder, name: str, lower: tuple[Body, Point], upper: tuple[Body, Point], springs: AxleSprings
 ) -> ElementRecord:
-    """Add the spring of a wheel with its damper and stops between two ends.
+    """Add the spring of a wheel with its damper and stops between two ends; its numbers are tied to the file's.
 
     Parameters
     ----------
     lower, upper : (Body, point)
         The ends as drawn, m.
-
-    Returns
-    -------
-    ElementRecord
-        Its numbers are tied to the file's.
     """
     return _between(b, name, lower, upper, springs.spring, springs.damper, springs.stops)
 

@@ -15,21 +15,14 @@ from mbs.vehicle.files import beside
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a table.
-
-    Attributes
-    ----------
-    where : str
-        Key path, file and line, for messages.
-    cells : dict of str to str
-        By the titles.
-    decimal : str
-        See `ali3.tables.TextTable`.
-    """
+    """A line of a table."""
 
     where: str
+    """Key path, file and line, for messages."""
     cells: dict[str, str]
+    """By the titles."""
     decimal: str
+    """See `ali3.tables.TextTable`."""
 
     def __getitem__(self, column: str) -> str:
         return self.cells[column]

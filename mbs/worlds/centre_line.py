@@ -26,21 +26,14 @@ GAP = 0.05
 
 @dataclass(frozen=True)
 class CentreLine:
-    """A cubic spline through points at equal distances.
-
-    Parameters
-    ----------
-    step : float
-        Of the points, m.
-    points : ndarray, shape (n, 2)
-        The first one again at the end of a closed line, m.
-    coefficients : ndarray, shape (2, 4, n - 1)
-        Of x and y by powers of the way behind a point.
-    """
+    """A cubic spline through points at equal distances."""
 
     step: float
+    """Of the points, m."""
     points: Float
+    """Shape (n, 2): the first one again at the end of a closed line, m."""
     coefficients: Float
+    """Shape (2, 4, n - 1): of x and y by powers of the way behind a point."""
     closed: bool
     straight: bool
 

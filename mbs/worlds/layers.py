@@ -24,24 +24,16 @@ FAR = 1e6
 
 @dataclass(frozen=True)
 class Found:
-    """A layer at places.
-
-    Parameters
-    ----------
-    excess : ndarray
-        Distance from its surface, m; 0 or less on it.
-    height : ndarray
-        m.
-    station : ndarray
-        Of a course, m.
-    offset : ndarray
-        From the middle of a course to the left, m.
-    """
+    """A layer at places."""
 
     excess: Float
+    """Distance from its surface, m; 0 or less on it."""
     height: Float
+    """m."""
     station: Float
+    """Of a course, m."""
     offset: Float
+    """From the middle of a course to the left, m."""
 
 
 class Layer(Protocol):

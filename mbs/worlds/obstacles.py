@@ -16,22 +16,16 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Footprint:
-    """A rectangle on the ground: from u = 0 to its length ahead, from `right` to `left` across.
-
-    Parameters
-    ----------
-    x, y, yaw : float
-        Of its frame, m and rad.
-    length, right, left : float
-        m.
-    """
+    """A rectangle on the ground: from u = 0 to its length ahead, from `right` to `left` across."""
 
     x: float
     y: float
     yaw: float
+    """`x`, `y`, `yaw`: of its frame, m and rad."""
     length: float
     right: float
     left: float
+    """`length`, `right`, `left`: m."""
 
     def local(self, x: Float, y: Float) -> tuple[Float, Float]:
         """Places in its frame."""

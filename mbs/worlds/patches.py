@@ -25,23 +25,16 @@ BATCH = 256
 
 @dataclass(frozen=True)
 class DrawnPatch:
-    """A rectangle of 17 x 17 points.
-
-    Parameters
-    ----------
-    x, y : float
-        First point, m.
-    dx, dy : float
-        Distances of the points, m.
-    heights : ndarray, shape (17, 17)
-        m.
-    """
+    """A rectangle of 17 x 17 points."""
 
     x: float
     y: float
+    """`x`, `y`: first point, m."""
     dx: float
     dy: float
+    """`dx`, `dy`: distances of the points, m."""
     heights: Float
+    """Shape (17, 17): m."""
 
 
 def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:

@@ -35,17 +35,12 @@ _SETTINGS: Mapping[Any, Any] = {**STYLE, "svg.fonttype": "path", "svg.hashsalt":
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawn plot.
-
-    Parameters
-    ----------
-    words : str
-        For who cannot see it.
-    """
+    """A drawn plot."""
 
     title: str
     svg: bytes
     words: str
+    """For who cannot see it."""
 
     @property
     def source(self) -> str:

@@ -52,7 +52,6 @@ class BrakingInATurn:
     )
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         radius, levels = settings["radius"], settings["levels"]
         if abs(radius) < 10.0:
             raise HostError(f"The radius is {radius:g} m; it must be 10 m or more, or -10 m or less.")

@@ -56,7 +56,7 @@ _QUANTITIES = (
 
 
 class ChirpSteer:
-    """The test; see `hosts.catalogue.record.StandardTest`."""
+    """See `hosts.catalogue.record.StandardTest`."""
 
     name = "chirp_steer"
     title = "Chirp steer"
@@ -99,7 +99,6 @@ class ChirpSteer:
         return None
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         given = SteeringInput.of(car.facts)
         speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
         low, high = settings["lowest_frequency"], settings["highest_frequency"]

@@ -81,7 +81,6 @@ class DoubleLaneChange:
     )
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         if settings["course"] not in (0.0, 1.0, 2.0):
             raise HostError(f"The course is {settings['course']:g}; it must be 0 (both), 1 or 2.")
         if settings["lowest"] >= settings["highest"]:

@@ -36,7 +36,6 @@ class Drop:
     needs = ("initial.z", *(f"wheel_{wheel}.Fz" for wheel in WHEELS))
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         car, notes = with_step_up_to(car, STEP, "the peak of the load")
         inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.3}
         manoeuvre = held(car, self.name, settings["duration"], inputs, {"initial.z": settings["height"]})

@@ -41,7 +41,6 @@ class Kerb:
     needs = ("initial.speed", "road.kerb_x", "road.kerb_height", *(f"wheel_{wheel}.Fz" for wheel in WHEELS))
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         car, notes = with_step_up_to(car, STEP, "the passage of an edge")
         down: dict[str, Value] = {
             "initial.speed": settings["speed"] / 3.6,

@@ -22,7 +22,7 @@ _POINTS = 400
 
 
 class SineSteer:
-    """The test; see `hosts.catalogue.record.StandardTest`."""
+    """See `hosts.catalogue.record.StandardTest`."""
 
     name = "sine_steer"
     title = "One period of sinusoidal steering"
@@ -48,7 +48,6 @@ class SineSteer:
     needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         given = SteeringInput.of(car.facts)
         speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
         ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)

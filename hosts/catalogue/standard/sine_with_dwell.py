@@ -26,7 +26,7 @@ _TRANSLATED = "Read in an English translation: "
 
 
 class SineWithDwellTest:
-    """The test; see `hosts.catalogue.record.StandardTest`."""
+    """See `hosts.catalogue.record.StandardTest`."""
 
     name = "sine_with_dwell"
     title = "Sine with dwell"
@@ -92,7 +92,6 @@ class SineWithDwellTest:
         return SteeringInput.of(car.facts).why_no_angles(self.name)
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         given = SteeringInput.of(car.facts)
         speed = settings["speed"] / 3.6
         ramps = []

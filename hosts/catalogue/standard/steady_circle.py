@@ -25,7 +25,7 @@ _WHEELBASE = "vehicle.wheelbase"
 
 
 class SteadyCircle:
-    """The test; see `hosts.catalogue.record.StandardTest`."""
+    """See `hosts.catalogue.record.StandardTest`."""
 
     name = "steady_circle"
     title = "Steady circle"
@@ -79,7 +79,6 @@ class SteadyCircle:
         return None
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         ratio = steering_ratio(car)
         progress(0.04)
         runs: dict[str, CircleRun] = {}

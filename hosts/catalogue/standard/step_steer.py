@@ -23,7 +23,7 @@ _LEVEL = "steady lateral acceleration; 0: left out"
 
 
 class StepSteer:
-    """The test; see `hosts.catalogue.record.StandardTest`."""
+    """See `hosts.catalogue.record.StandardTest`."""
 
     name = "step_steer"
     title = "Step steer"
@@ -66,7 +66,6 @@ class StepSteer:
         return None
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         levels = {name: settings[name] for name in _LEVELS if settings[name] > 0.0}
         given = SteeringInput.of(car.facts)
         speed = settings["speed"] / 3.6

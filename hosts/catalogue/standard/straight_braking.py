@@ -61,7 +61,6 @@ class StraightBraking:
     needs = ("steering", "throttle", "brake", "speed")
 
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """See `hosts.catalogue.record.StandardTest.perform`."""
         car, notes = with_step_up_to(car, STEP, "the rise of the deceleration")
         if settings["neutral"] >= 0.5 and "selector" not in car.facts.inputs:
             notes += ("The car has no selector: it is braked in the gear it has.",)

@@ -13,39 +13,28 @@ from hosts.driving.pilots.speed_holder import SpeedHolder
 
 @dataclass(frozen=True)
 class DriverSettings:
-    """What a driver knows of the car and wants.
-
-    Parameters
-    ----------
-    speed : float
-        To be held, m/s.
-    wheelbase : float
-        m.
-    wheel_angle_max : float
-        Mean angle of the front wheels at full steering, rad.
-    vehicle_length, vehicle_width : float
-        Outline centred on the origin of the vehicle axes, m.
-    curvature_preview, heading_preview : float
-        How far ahead the driver reads the curvature and the direction of the path, s; it makes up for the car's delay.
-    heading_gain : float
-        Wheel angle per error of the heading.
-    lateral_gain : float
-        Wheel angle per distance from the path, rad/m.
-    speed_gain, speed_integral : float
-        Pedal per m/s, pedal per m.
-    """
+    """What a driver knows of the car and wants."""
 
     speed: float
+    """To be held, m/s."""
     wheelbase: float
+    """m."""
     wheel_angle_max: float
+    """Mean angle of the front wheels at full steering, rad."""
     vehicle_length: float
     vehicle_width: float
+    """`vehicle_length`, `vehicle_width`: outline centred on the origin of the vehicle axes, m."""
     curvature_preview: float = 0.25
     heading_preview: float = 0.1
+    """`curvature_preview`, `heading_preview`: how far ahead the driver reads the curvature and the direction of the
+    path, s; it makes up for the car's delay."""
     heading_gain: float = 0.8
+    """Wheel angle per error of the heading."""
     lateral_gain: float = 0.05
+    """Wheel angle per distance from the path, rad/m."""
     speed_gain: float = 0.3
     speed_integral: float = 0.1
+    """`speed_gain`, `speed_integral`: pedal per m/s, pedal per m."""
 
 
 class CourseFollower:

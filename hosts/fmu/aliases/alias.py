@@ -25,22 +25,15 @@ class Alias:
 
 @dataclass(frozen=True)
 class Aliases:
-    """Those of a file.
-
-    Parameters
-    ----------
-    constants : mapping of str to float
-        By our names.
-    derived : tuple of Derived
-        Each after those that it needs.
-    missing : mapping of str to str
-        Our names that the file has and this FMU cannot have, and why, in a sentence.
-    """
+    """Those of a file."""
 
     aliases: tuple[Alias, ...] = ()
     constants: Mapping[str, float] = field(default_factory=dict)
+    """By our names."""
     derived: tuple[Derived, ...] = ()
+    """Each after those that it needs."""
     missing: Mapping[str, str] = field(default_factory=dict)
+    """Our names that the file has and this FMU cannot have, and why, in a sentence."""
 
     def names(self, theirs: Sequence[str]) -> tuple[str, ...]:
         """Our names of variables; those without an alias keep theirs."""

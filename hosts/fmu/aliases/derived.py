@@ -12,19 +12,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Derived:
-    """One variable.
-
-    Parameters
-    ----------
-    formula : str
-        Of `FORMULAS`.
-    arguments : tuple of str or float
-        Names of ours, else of the FMU; or numbers.
-    """
+    """One variable."""
 
     ours: str
     formula: str
+    """Of `FORMULAS`."""
     arguments: tuple[str | float, ...]
+    """Names of ours, else of the FMU; or numbers."""
 
     @property
     def how(self) -> Formula:

@@ -19,24 +19,16 @@ _SLOWEST = 0.1
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula.
-
-    Parameters
-    ----------
-    arguments : tuple of str
-        For people; the last may end with ``...``.
-    compute : callable
-        Of the time, shape (n,), and the arguments, each of that shape or a number; in SI units.
-    needs_past : bool
-        Whether it looks at other rows than the one it is for.
-    turns : bool
-        Whether it is an angle that counts whole turns.
-    """
+    """A formula."""
 
     arguments: tuple[str, ...]
+    """For people; the last may end with ``...``."""
     compute: Callable[..., Array]
+    """Of the time, shape (n,), and the arguments, each of that shape or a number; in SI units."""
     needs_past: bool = False
+    """Whether it looks at other rows than the one it is for."""
     turns: bool = False
+    """Whether it is an angle that counts whole turns."""
 
     def takes(self, count: int) -> bool:
         """Whether it can have so many arguments."""

@@ -139,19 +139,13 @@ class Calibration:
 
 @dataclass
 class Assignment:
-    """An input waits for the axis or button that a person moves for it.
-
-    Parameters
-    ----------
-    base : Reading
-        When it began.
-    until : float
-        s, when it gives up.
-    """
+    """An input waits for the axis or button that a person moves for it."""
 
     name: str
     base: Reading
+    """When it began."""
     until: float
+    """s, when it gives up."""
 
     WAY = 0.5
     """Movement of an axis that is meant."""

@@ -28,7 +28,7 @@ _HAT_BITS = {1: "up", 2: "right", 4: "down", 8: "left"}
 
 
 def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collection[str]) -> DeviceMapping:
-    """A first guess.
+    """A first guess; empty for a device that nothing is known of.
 
     Parameters
     ----------
@@ -38,11 +38,6 @@ def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collecti
         As it came: a pedal that rests at the high end of its axis is inverted.
     bindings : str
         SDL's table of a gamepad.
-
-    Returns
-    -------
-    DeviceMapping
-        Empty for a device that nothing is known of.
     """
     if kind == "gamepad":
         found, settings = _of_gamepad(bindings), DeviceSettings()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import asdict
 from typing import Any
 
 from hosts.simulator.devices.calibration import Assignment, Calibration
@@ -18,7 +19,6 @@ TOUCHED = 0.02
 """Movement of an input from which on the device has a word there; a device that lies untouched moves nothing."""
 BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
 """Largest change per second of a pedal that is a button and goes down, as with keys; up it goes as when let go."""
-ALL_SETTINGS = "rotation", "force", "full_torque", "force_inverted", "smoothing", "damper", "spring"
 
 
 class Device:
@@ -88,17 +88,12 @@ class Device:
                 self._at_rest[name] = value
 
     def wants(self, everything: bool) -> dict[str, tuple[float, float]]:
-        """What it wants of the car, by the reading it has.
+        """What it wants of the car, by the reading it has: value, and largest change per second.
 
         Parameters
         ----------
         everything : bool
             Also what has not changed since the last call.
-
-        Returns
-        -------
-        dict of str to (float, float)
-            Value, and largest change per second.
         """
         found: dict[str, tuple[float, float]] = {}
         for name, mapping in self.mapping.inputs.items():
@@ -166,15 +161,7 @@ class Device:
         inputs = {}
         for name, m in self.mapping.inputs.items():
             value = None if name in SELECTOR else self.value(name, m)
-            inputs[name] = {
-                "source": m.source,
-                "inverted": m.inverted,
-                "low": m.low,
-                "high": m.high,
-                "dead_zone": m.dead_zone,
-                "centre": m.centre,
-                "value": value if value is None else round(value, 4),
-            }
+            inputs[name] = asdict(m) | {"value": value if value is None else round(value, 4)}
         calibration = self.calibration
         return {
             "id": self.id,
@@ -188,7 +175,7 @@ class Device:
             "force_problem": self.force_problem,
             "mapping": inputs,
             "inputs": list(self._inputs),
-            "settings": {name: getattr(self.mapping.settings, name) for name in ALL_SETTINGS},
+            "settings": asdict(self.mapping.settings),
             "assigning": self.assignment.name if self.assignment else None,
             "calibration": None
             if calibration is None

@@ -15,36 +15,25 @@ _ALL_EVENTS = 0x0, 0xFFFF
 
 @dataclass
 class Joystick:
-    """A device that is open.
-
-    Parameters
-    ----------
-    handle : pointer
-        Of SDL.
-    instance : int
-        Number that SDL gives at each plugging in.
-    guid : str
-        The same for all devices of a model.
-    serial, path : str
-        Empty where the device or the system has none.
-    kind : str
-        ``wheel``, ``gamepad`` or ``other``.
-    bindings : str
-        SDL's table of a gamepad: which axis is which trigger.
-    usb : str
-        Numbers of maker and product, such as ``046d:c24f``.
-    """
+    """A device that is open."""
 
     sdl: Any
     handle: Any
+    """Of SDL."""
     instance: int
+    """Number that SDL gives at each plugging in."""
     guid: str
+    """The same for all devices of a model."""
     serial: str
     path: str
+    """`serial`, `path`: empty where the device or the system has none."""
     name: str
     kind: str
+    """``wheel``, ``gamepad`` or ``other``."""
     bindings: str
+    """SDL's table of a gamepad: which axis is which trigger."""
     usb: str
+    """Numbers of maker and product, such as ``046d:c24f``."""
 
     def __post_init__(self) -> None:
         count = (self.sdl.SDL_JoystickNumAxes, self.sdl.SDL_JoystickNumButtons, self.sdl.SDL_JoystickNumHats)

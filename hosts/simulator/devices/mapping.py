@@ -30,28 +30,20 @@ def drivable(inputs: Collection[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class InputMapping:
-    """How a source moves an input.
-
-    Parameters
-    ----------
-    source : str
-        Such as ``axis 0``, ``button 5`` or ``hat 0 up``.
-    inverted : bool
-        Whether the input grows as the axis falls.
-    low, high : float
-        Ends of the axis, from -1 to 1; beyond them nothing changes. Half an axis: 0 and 1, or -1 and 0.
-    dead_zone : float
-        Share of the way that does nothing: to both sides of the middle, or at the rest of a pedal.
-    centre : float or None
-        Where an axis of the steering rests; None: halfway.
-    """
+    """How a source moves an input."""
 
     source: str
+    """Such as ``axis 0``, ``button 5`` or ``hat 0 up``."""
     inverted: bool = False
+    """Whether the input grows as the axis falls."""
     low: float = -1.0
     high: float = 1.0
+    """`low`, `high`: ends of the axis, from -1 to 1; beyond them nothing changes. Half an axis: 0 and 1, or -1 and
+    0."""
     dead_zone: float = 0.0
+    """Share of the way that does nothing: to both sides of the middle, or at the rest of a pedal."""
     centre: float | None = None
+    """Where an axis of the steering rests; None: halfway."""
 
     def value(self, name: str, reading: Reading) -> float | None:
         """The input.
@@ -90,34 +82,23 @@ class InputMapping:
 
 @dataclass(frozen=True)
 class DeviceSettings:
-    """What belongs to a device rather than to one of its inputs.
-
-    Parameters
-    ----------
-    rotation : float
-        Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
-        ends of the axis are full steering.
-    force : float
-        Factor on the force; 0: none.
-    full_torque : float
-        Torque of the car's steering wheel, N m, at which the motor gives all it can with `force` 1.
-    force_inverted : bool
-        Whether the motor of this device turns the other way.
-    smoothing : float
-        Time constant of the force, s.
-    damper : float
-        Share of the motor's largest damping, always on.
-    spring : float
-        Share of the motor's largest spring to the middle, on while the car does not run.
-    """
+    """What belongs to a device rather than to one of its inputs."""
 
     rotation: float = 0.0
+    """Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
+    ends of the axis are full steering."""
     force: float = 0.5
+    """Factor on the force; 0: none."""
     full_torque: float = 10.0
+    """Torque of the car's steering wheel, N m, at which the motor gives all it can with `force` 1."""
     force_inverted: bool = False
+    """Whether the motor of this device turns the other way."""
     smoothing: float = 0.01
+    """Time constant of the force, s."""
     damper: float = 0.1
+    """Share of the motor's largest damping, always on."""
     spring: float = 0.1
+    """Share of the motor's largest spring to the middle, on while the car does not run."""
 
 
 _RANGES = {

@@ -67,7 +67,7 @@ class Motor:
         self._levels["constant"] = level
 
     def condition(self, kind: str, share: float) -> bool:
-        """A damper or a spring to the middle.
+        """A damper or a spring to the middle; False where the device has no such.
 
         Parameters
         ----------
@@ -75,11 +75,6 @@ class Motor:
             ``damper`` or ``spring``.
         share : float
             From 0 to 1 of the largest.
-
-        Returns
-        -------
-        bool
-            Whether the device has such.
 
         Raises
         ------

@@ -14,22 +14,15 @@ _SOURCE = re.compile(r"(axis|button) (\d{1,3})|hat (\d{1,3}) (up|right|down|left
 
 @dataclass(frozen=True)
 class Reading:
-    """Values of a device.
-
-    Parameters
-    ----------
-    axes : tuple of float
-        From -1 to 1.
-    known : tuple of bool
-        Whether the device has told the value of this axis; else it reads 0.
-    hats : tuple of int
-        Bits of `WAYS`.
-    """
+    """Values of a device."""
 
     axes: tuple[float, ...] = ()
+    """From -1 to 1."""
     known: tuple[bool, ...] = ()
+    """Whether the device has told the value of this axis; else it reads 0."""
     buttons: tuple[bool, ...] = ()
     hats: tuple[int, ...] = ()
+    """Bits of `WAYS`."""
 
     def counts(self) -> str:
         """How many of what, for people."""
@@ -45,15 +38,10 @@ class Reading:
 
 @dataclass(frozen=True)
 class Source:
-    """An axis, a button or a way of a hat.
-
-    Parameters
-    ----------
-    kind : str
-        ``axis``, ``button`` or ``hat``.
-    """
+    """An axis, a button or a way of a hat."""
 
     kind: str
+    """``axis``, ``button`` or ``hat``."""
     number: int
     way: str = ""
 

@@ -14,18 +14,12 @@ _USUAL = 900.0
 
 @dataclass(frozen=True)
 class Steering:
-    """How a car is steered.
-
-    Parameters
-    ----------
-    angle_max : float or None
-        Angle of the car's steering wheel at full steering, rad, if it is known.
-    by_angle : bool
-        Whether the car has the input `steering_wheel_angle_demand` and no `steering`.
-    """
+    """How a car is steered."""
 
     angle_max: float | None
+    """Angle of the car's steering wheel at full steering, rad, if it is known."""
     by_angle: bool = False
+    """Whether the car has the input `steering_wheel_angle_demand` and no `steering`."""
 
     @property
     def says_no_angle(self) -> bool:

@@ -23,20 +23,14 @@ _RELATIVE_ROUND_OFF = 1e-8  # of the largest value: what steps leave within thei
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is varied.
-
-    Parameters
-    ----------
-    log : bool
-        Whether its range is divided by the logarithm.
-    words : tuple of str
-        What the codes 0, 1, ... stand for where it is no number; else empty.
-    """
+    """What is varied."""
 
     name: str
     unit: str
     log: bool = False
+    """Whether its range is divided by the logarithm."""
     words: tuple[str, ...] = ()
+    """What the codes 0, 1, ... stand for where it is no number; else empty."""
 
     @property
     def title(self) -> str:
@@ -48,19 +42,6 @@ class Parameter:
 class Response:
     """A measure in the runs of one manoeuvre.
 
-    Parameters
-    ----------
-    rows : ndarray of int, shape (m,)
-        Positions in the frame of the runs that yield it.
-    values : ndarray of shape (m,)
-        Finite; those that differ by rounding only are the same, so that nothing ranks it.
-    asked : int
-        Runs that were to yield it.
-    several : bool
-        Whether the study has more than one manoeuvre, so that the label names it.
-    limits : tuple of float
-        Least and largest value of the study's limits; infinite: there is none.
-
     Notes
     -----
     Units and values are those in which reports show them.
@@ -70,10 +51,15 @@ class Response:
     manoeuvre: str
     unit: str
     rows: NDArray[np.int64]
+    """Shape (m,): positions in the frame of the runs that yield it."""
     values: NDArray[np.float64]
+    """Shape (m,): finite; those that differ by rounding only are the same, so that nothing ranks it."""
     asked: int
+    """Runs that were to yield it."""
     several: bool = False
+    """Whether the study has more than one manoeuvre, so that the label names it."""
     limits: tuple[float, float] = (-math.inf, math.inf)
+    """Least and largest value of the study's limits; infinite: there is none."""
 
     @property
     def varies(self) -> bool:
@@ -93,25 +79,18 @@ class Response:
 
 @dataclass(frozen=True)
 class StudyData:
-    """Runs that are there.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        One row a run; the index is that of the run.
-    x : ndarray of shape (runs, parameters)
-        Values; codes where a parameter is no number.
-    failed : ndarray of bool, shape (runs,)
-    about : mapping
-        What is known of the study as a whole: the attrs of the frame.
-    """
+    """Runs that are there."""
 
     frame: pd.DataFrame
+    """One row a run; the index is that of the run."""
     parameters: tuple[Parameter, ...]
     x: NDArray[np.float64]
+    """Shape (runs, parameters): values; codes where a parameter is no number."""
     responses: tuple[Response, ...]
     failed: NDArray[np.bool_]
+    """Shape (runs,)."""
     about: Mapping[str, Any]
+    """What is known of the study as a whole: the attrs of the frame."""
 
     @property
     def method(self) -> str:

@@ -20,33 +20,26 @@ _SEED = 1  # of the bootstrap; SALib takes 0 for none
 
 @dataclass(frozen=True)
 class Indices:
-    """Indices of the parameters, 0 to 1; NaN where there is none.
-
-    Parameters
-    ----------
-    first, first_conf : ndarray of shape (d,)
-        Part of the variance that a parameter makes alone, and half its 95 % confidence interval.
-    total, total_conf : ndarray of shape (d,)
-        Part that it makes alone and together with the others.
-    second : ndarray of shape (d, d), optional
-        Part that two make together, above the diagonal.
-    how : str
-        A sentence: by which estimator, from how many runs.
-    """
+    """Indices of the parameters, 0 to 1; NaN where there is none."""
 
     names: tuple[str, ...]
     first: NDArray[np.float64]
     first_conf: NDArray[np.float64]
+    """`first`, `first_conf`, shape (d,): part of the variance that a parameter makes alone, and half its 95 %
+    confidence interval."""
     total: NDArray[np.float64]
     total_conf: NDArray[np.float64]
+    """`total`, `total_conf`, shape (d,): part that it makes alone and together with the others."""
     how: str
+    """A sentence: by which estimator, from how many runs."""
     second: NDArray[np.float64] | None = None
+    """Shape (d, d): part that two make together, above the diagonal."""
 
 
 def saltelli_indices(
     names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64], second_order: bool
 ) -> Indices | str:
-    """First-order and total indices from a design of Saltelli's.
+    """First-order and total indices from a design of Saltelli's; or why there are none.
 
     Parameters
     ----------
@@ -57,11 +50,6 @@ def saltelli_indices(
         Finite.
     second_order : bool
         As the plan was made.
-
-    Returns
-    -------
-    Indices or str
-        Why there are none.
 
     Notes
     -----
@@ -94,7 +82,7 @@ def saltelli_indices(
 
 
 def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
-    """Indices of a full grid whose levels are equally likely: exact, by sums of squares.
+    """Indices of a full grid whose levels are equally likely: exact, by sums of squares; or why there are none.
 
     Parameters
     ----------
@@ -102,11 +90,6 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
     x : ndarray of shape (n, d)
     y : ndarray of shape (n,)
         Finite.
-
-    Returns
-    -------
-    Indices or str
-        Why there are none.
     """
     codes = [np.unique(column, return_inverse=True) for column in x.T]
     shape = tuple(len(levels) for levels, _ in codes)
@@ -129,7 +112,7 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
 
 
 def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
-    """First-order indices of any design that fills its space, by RBD-FAST.
+    """First-order indices of any design that fills its space, by RBD-FAST; or why there are none.
 
     Parameters
     ----------
@@ -137,11 +120,6 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
     x : ndarray of shape (n, d)
     y : ndarray of shape (n,)
         Finite.
-
-    Returns
-    -------
-    Indices or str
-        Why there are none.
 
     Notes
     -----

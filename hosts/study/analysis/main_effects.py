@@ -20,25 +20,19 @@ _RESAMPLES = 999
 
 @dataclass(frozen=True)
 class MainEffect:
-    """Means of a measure in classes of a parameter.
-
-    Parameters
-    ----------
-    at : ndarray of shape (b,)
-        Value of the parameter: its level, or its mean in the class.
-    mean, low, high : ndarray of shape (b,)
-        Mean of the measure and its confidence interval; NaN limits where a class has one run.
-    count : ndarray of int, shape (b,)
-    levels : bool
-        Whether `at` are the values of the design.
-    """
+    """Means of a measure in classes of a parameter."""
 
     at: NDArray[np.float64]
+    """Shape (b,): value of the parameter: its level, or its mean in the class."""
     mean: NDArray[np.float64]
     low: NDArray[np.float64]
     high: NDArray[np.float64]
+    """`mean`, `low`, `high`, shape (b,): mean of the measure and its confidence interval; NaN limits where a class has
+    one run."""
     count: NDArray[np.int64]
+    """Shape (b,)."""
     levels: bool
+    """Whether `at` are the values of the design."""
 
     @property
     def span(self) -> float:

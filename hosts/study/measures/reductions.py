@@ -14,24 +14,16 @@ Array: TypeAlias = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reduction:
-    """A function of a signal, and maybe of a number.
-
-    Parameters
-    ----------
-    apply : callable
-        Of time (n,) s, signal (n,) and the number; n is at least 1.
-    unit : str, optional
-        Of what it gives; by default that of the signal.
-    number : str
-        What its second argument is; empty: it has none.
-    windowed : bool
-        Whether ``after`` and ``before`` can be given.
-    """
+    """A function of a signal, and maybe of a number."""
 
     apply: Callable[[Array, Array, float], float]
+    """Of time (n,) s, signal (n,) and the number; n is at least 1."""
     unit: str | None = None
+    """Of what it gives; by default that of the signal."""
     number: str = ""
+    """What its second argument is; empty: it has none."""
     windowed: bool = True
+    """Whether ``after`` and ``before`` can be given."""
 
 
 def mean_over_time(time: Array, x: Array) -> float:

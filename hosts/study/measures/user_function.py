@@ -28,14 +28,10 @@ class UserFunction:
     """A function in a file; made by `read_user_function`.
 
     It carries its source, so that a worker on another machine needs no such file.
-
-    Parameters
-    ----------
-    name : str
-        Of its column, or what its columns begin with.
     """
 
     name: str
+    """Of its column, or what its columns begin with."""
     file: str
     function: str
     source: str

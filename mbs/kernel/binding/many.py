@@ -18,21 +18,14 @@ _DOUBLES = POINTER(c_double)
 
 
 class Ended(NamedTuple):
-    """How the run of one instance ended.
-
-    Attributes
-    ----------
-    done : int
-        Accepted steps.
-    alone : int
-        Steps that it made alone.
-    error : KernelError or None
-        Why it stopped.
-    """
+    """How the run of one instance ended."""
 
     done: int
+    """Accepted steps."""
     alone: int
+    """Steps that it made alone."""
     error: KernelError | None
+    """Why it stopped."""
 
 
 def widest_lanes() -> int:

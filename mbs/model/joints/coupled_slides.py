@@ -16,17 +16,12 @@ from mbs.model.joints.joint import Joint
 
 
 class Slide(NamedTuple):
-    """A body that slides on another one.
-
-    Parameters
-    ----------
-    axis : array_like, shape (dimension,)
-        Direction of the slide, fixed in the carrier, earth axes as drawn.
-    """
+    """A body that slides on another one."""
 
     body: Body
     carrier: Body
     axis: ArrayLike
+    """Shape (dimension,): direction of the slide, fixed in the carrier, earth axes as drawn."""
 
 
 def coupled_slides(model: BodyVocabulary, name: str, slide_1: Slide, slide_2: Slide, ratio: float) -> Joint:

@@ -43,31 +43,22 @@ class JointPlaces:
 
 @dataclass(frozen=True)
 class Drawing:
-    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little.
-
-    Attributes
-    ----------
-    points : pair of array_like, shape (dimension,)
-        As drawn, earth axes, m.
-    axes : pair of array_like or None
-        As drawn, earth axes.
-    conditions : tuple of str
-        Of these: "point" (the points coincide), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
-        (the first point on the second axis), "angle" (between the axes), "distance" (between the points).
-    remake : callable
-        ``remake(points, axes, length)`` is the joint with other ends.
-    length : float
-        Of a distance, m.
-    """
+    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little."""
 
     bodies: tuple[Body, Body]
     points: tuple[ArrayLike, ArrayLike]
+    """Each of shape (dimension,): as drawn, earth axes, m."""
     axes: tuple[ArrayLike, ArrayLike] | None
+    """As drawn, earth axes."""
     conditions: tuple[str, ...]
+    """Of these: "point" (the points coincide), "axis" (the axes are parallel), "orientation" (nothing turns), "line"
+    (the first point on the second axis), "angle" (between the axes), "distance" (between the points)."""
     remake: Callable[[tuple[ArrayLike, ArrayLike], tuple[ArrayLike, ArrayLike] | None, float], Joint] = field(
         repr=False
     )
+    """``remake(points, axes, length)`` is the joint with other ends."""
     length: float = 0.0
+    """Of a distance, m."""
 
 
 @dataclass(frozen=True)
@@ -81,25 +72,17 @@ class Turn:
 
 @dataclass(frozen=True)
 class JointEnds:
-    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis.
-
-    Attributes
-    ----------
-    points : tuple of AffineVector
-        On the first and on the second body.
-    axis : AffineVector or None
-        About which the bodies turn, or along which the point of the first slides on a line of the second.
-    slides : bool
-        Whether the bodies slide along the axis.
-    rod : bool
-        Whether a massless rod joins the points, which then are apart.
-    """
+    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis."""
 
     bodies: tuple[Body, Body]
     points: tuple[AffineVector, AffineVector]
+    """On the first and on the second body."""
     axis: AffineVector | None = None
+    """About which the bodies turn, or along which the point of the first slides on a line of the second."""
     slides: bool = False
+    """Whether the bodies slide along the axis."""
     rod: bool = False
+    """Whether a massless rod joins the points, which then are apart."""
 
 
 @dataclass(frozen=True)

@@ -64,21 +64,14 @@ def build() -> Model:
 
 @dataclass(frozen=True)
 class Replay:
-    """What came of a replay of the manoeuvre.
-
-    Attributes
-    ----------
-    times : ndarray, shape (n,)
-        s; the switch times appear twice.
-    hand : ndarray, shape (n, 3)
-        m.
-    jumps_J : tuple of float
-        Change of the kinetic energy when the pin closed and when it opened.
-    """
+    """What came of a replay of the manoeuvre."""
 
     times: NDArray[np.float64]
+    """Shape (n,): s; the switch times appear twice."""
     hand: NDArray[np.float64]
+    """Shape (n, 3): m."""
     jumps_J: tuple[float, float]
+    """Change of the kinetic energy when the pin closed and when it opened."""
 
     @property
     def error(self) -> float:

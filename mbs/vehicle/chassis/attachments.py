@@ -20,19 +20,13 @@ SAME = 1e-9  # m
 
 @dataclass(frozen=True)
 class Attachments:
-    """Hard points on the chassis of the left side and of the centre plane, m.
-
-    Attributes
-    ----------
-    axles : tuple of tuple of tuple of float
-        Those of the front axle with the steering, then those of the rear one, in the order of their making.
-    held : tuple of tuple of tuple of float
-        Pairs of them, or one and the image of one, whose distance a part of a suspension holds, as a wishbone does
-        that of its pivots.
-    """
+    """Hard points on the chassis of the left side and of the centre plane, m."""
 
     axles: tuple[tuple[Point, ...], tuple[Point, ...]]
+    """Those of the front axle with the steering, then those of the rear one, in the order of their making."""
     held: tuple[tuple[Point, Point], ...]
+    """Pairs of them, or one and the image of one, whose distance a part of a suspension holds, as a wishbone does that
+    of its pivots."""
 
 
 class _Noted(Body):

@@ -22,30 +22,20 @@ Pair: TypeAlias = "tuple[str, ...]"
 
 @dataclass(frozen=True)
 class FrameJoints:
-    """Names of joints.
-
-    Attributes
-    ----------
-    interfaces : dict of str to tuple of float
-        Where the suspension hangs, with the hard points there, m; each joint of the left is followed by its image.
-    held : tuple of tuple of str
-        Pairs of them whose distance a part of the suspension holds.
-    drive : tuple of tuple of str
-        Left and right joints that take the reaction of the drive: front, rear, top.
-    ground : tuple of tuple of str
-        Left and right joints that take forces of the ground on the chassis.
-    reference : str or tuple of str
-        What carries the floating frame.
-    accelerometers : dict of str to tuple of float
-        Where accelerometers sit, m.
-    """
+    """Names of joints."""
 
     interfaces: dict[str, Point]
+    """Where the suspension hangs, with the hard points there, m; each joint of the left is followed by its image."""
     held: tuple[tuple[str, str], ...]
+    """Pairs of them whose distance a part of the suspension holds."""
     drive: tuple[Pair, ...]
+    """Left and right joints that take the reaction of the drive: front, rear, top."""
     ground: tuple[Pair, ...]
+    """Left and right joints that take forces of the ground on the chassis."""
     reference: str | tuple[str, ...]
+    """What carries the floating frame."""
     accelerometers: dict[str, Point]
+    """Where accelerometers sit, m."""
 
 
 class JointFinder:

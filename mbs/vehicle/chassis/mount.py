@@ -54,30 +54,20 @@ class LeverCarrier(Body):
 
 @dataclass(frozen=True)
 class Mount:
-    """The chassis in a model.
-
-    Attributes
-    ----------
-    body : Body
-        What joints and springs take.
-    frame : Body
-        Rigid body, or floating frame: axes and points that do not deform.
-    origin : tuple of float
-        The reference point in the drawing, m.
-    accelerated : Body
-        Where accelerometers sit.
-    drive_axes : tuple of AffineVector
-        z and x axes that take the reaction of the drive.
-    contact_frame : tuple of AffineVector, list of AffineVector, ndarray
-        Origin, axes and place of the origin in the drawing, m, that take the forces of the ground on the chassis.
-    """
+    """The chassis in a model."""
 
     body: Body
+    """What joints and springs take."""
     frame: Body
+    """Rigid body, or floating frame: axes and points that do not deform."""
     accelerated: Body
+    """Where accelerometers sit."""
     origin: tuple[float, float, float]
+    """The reference point in the drawing, m."""
     drive_axes: tuple[AffineVector, AffineVector]
+    """z and x axes that take the reaction of the drive."""
     contact_frame: tuple[AffineVector, list[AffineVector], np.ndarray]
+    """Origin, axes and place of the origin in the drawing, m, that take the forces of the ground on the chassis."""
 
     def place(self, point: ArrayLike) -> AffineVector:
         """A point in the contact frame, which takes forces at any fidelity.

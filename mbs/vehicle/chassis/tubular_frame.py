@@ -34,18 +34,12 @@ class FrameTube:
 
 @dataclass(frozen=True)
 class TubularFrame:
-    """Tables of a frame.
-
-    Attributes
-    ----------
-    section : TubeTables
-        As in the car's file.
-    folder : Path
-        Of the tables.
-    """
+    """Tables of a frame."""
 
     section: TubeTables
+    """As in the car's file."""
     folder: Path
+    """Of the tables."""
 
     @property
     def material(self) -> Material:

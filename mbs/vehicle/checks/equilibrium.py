@@ -20,26 +20,19 @@ ODD_LEAN = math.radians(0.5)
 
 @dataclass(frozen=True)
 class Rest:
-    """The car at rest.
-
-    Attributes
-    ----------
-    travel : mapping of str to float
-        From the drawing, by axle, mean of both wheels, m, positive in bump.
-    load, spring_force, deflection : mapping of str to float
-        Of a wheel, N, of its spring, N, and of its tyre, m; means of both sides.
-    spring_length : mapping of str to float
-        By axle, m.
-    lean : float
-        Roll angle, rad, positive with the left side up.
-    """
+    """The car at rest."""
 
     travel: dict[str, float]
+    """From the drawing, by axle, mean of both wheels, m, positive in bump."""
     load: dict[str, float]
     spring_force: dict[str, float]
     deflection: dict[str, float]
+    """`load`, `spring_force`, `deflection`: of a wheel, N, of its spring, N, and of its tyre, m; means of both
+    sides."""
     spring_length: dict[str, float]
+    """By axle, m."""
     lean: float
+    """Roll angle, rad, positive with the left side up."""
 
     def faults(self, car: CarContent) -> Iterator[str]:
         """A sentence for each axle far from where it is drawn."""

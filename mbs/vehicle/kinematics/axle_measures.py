@@ -59,17 +59,12 @@ def wheel_measures(linkage: Linkage, at: Position) -> dict[str, float]:
 
 
 def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[str, float]:
-    """Columns that belong to a direction of wheel travel.
+    """Columns that belong to a direction of wheel travel, in SI units.
 
     Parameters
     ----------
     direction : ndarray, shape (3,)
         Rates of the travels of the left and the right wheel, and of the rack.
-
-    Returns
-    -------
-    dict of str to float
-        In SI units.
     """
     found: dict[str, float] = {}
     wheels = [wheel_motion(linkage, at, k) for k in range(2)]

@@ -29,19 +29,13 @@ FARTHEST, MOST_POINTS = 0.5, 10_001
 
 @dataclass(frozen=True)
 class Kinematics:
-    """Wheel travel and steer curves of a car.
-
-    Attributes
-    ----------
-    curves : dict of (str, str) to Curve
-        By axle and motion; "steer" of the front axle alone.
-    notes : tuple of str
-        Sentences: where curves end early, where the range goes into the stops.
-    """
+    """Wheel travel and steer curves of a car."""
 
     car: str
     curves: dict[tuple[str, str], Curve]
+    """By axle and motion; "steer" of the front axle alone."""
     notes: tuple[str, ...]
+    """Sentences: where curves end early, where the range goes into the stops."""
 
     def drawn(self, axle: str) -> dict[str, float]:
         """Values and gradients at the drawing, SI units.
@@ -77,7 +71,7 @@ def kinematics(
     points: int = POINTS,
     progress: Callable[[float], None] | None = None,
 ) -> Kinematics:
-    """Wheel travel and steer curves of both axles with the chassis held and rigid.
+    """Wheel travel and steer curves of both axles with the chassis held and rigid, in SI units.
 
     Parameters
     ----------
@@ -87,11 +81,6 @@ def kinematics(
         Of each curve; one at the drawing is added where there is none.
     progress : callable, optional
         Receives the share that is done.
-
-    Returns
-    -------
-    Kinematics
-        In SI units.
 
     Raises
     ------

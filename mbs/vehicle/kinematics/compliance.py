@@ -31,38 +31,26 @@ LOADS = ("lateral_force", "longitudinal_force", "drive_force", "aligning_torque"
 
 @dataclass(frozen=True)
 class Compliance:
-    """What the left wheel of an axle does per load on both wheels.
-
-    Attributes
-    ----------
-    freedoms : int
-        Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero.
-    values : dict of str to dict of str to float
-        By axle; names as ``lateral_force.same.steer_angle``: the load, its sense on the right wheel, and the response:
-        steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or per N m. Of the
-        axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series.
-    sentence : str
-        Why nothing gives; empty where something does.
-    """
+    """What the left wheel of an axle does per load on both wheels."""
 
     fidelity: Fidelity
     freedoms: int
+    """Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero."""
     values: dict[str, dict[str, float]]
+    """By axle; names as ``lateral_force.same.steer_angle``: the load, its sense on the right wheel, and the response:
+    steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or per N m. Of the axle
+    ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series."""
     sentence: str
+    """Why nothing gives; empty where something does."""
 
 
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
-    """Compliance of both axles at the drawing.
+    """Compliance of both axles at the drawing, in SI units.
 
     Parameters
     ----------
     fidelity : Fidelity, int or str, optional
         Of the chassis; by default its flexible frame with all static modes, where the car has one.
-
-    Returns
-    -------
-    Compliance
-        In SI units.
 
     Raises
     ------

@@ -30,22 +30,16 @@ WORDS = {
 
 @dataclass(frozen=True)
 class Curve:
-    """Columns over a motion.
-
-    Attributes
-    ----------
-    motion : {"parallel", "opposite", "single", "steer"}
-        Wheels up and down together; left up as right goes down; left alone; rack.
-    columns : dict of str to ndarray, shape (n,)
-        By name, in SI units; those of a wheel have ``_left`` or ``_right`` behind the name of their quantity.
-    notes : tuple of str
-        Sentences, where the curve ends before its range does.
-    """
+    """Columns over a motion."""
 
     axle: str
     motion: str
+    """Both wheels "parallel", left up as right goes down "opposite", the left one alone "single", the rack "steer"."""
     columns: dict[str, Array]
+    """By name, each of shape (n,), in SI units; those of a wheel have ``_left`` or ``_right`` behind the name of their
+    quantity."""
     notes: tuple[str, ...] = ()
+    """Sentences, where the curve ends before its range does."""
 
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]
@@ -61,13 +55,7 @@ class Curve:
         return "steering_wheel_angle" if self.motion == "steer" else "wheel_travel_left"
 
     def drawn(self) -> dict[str, float]:
-        """Values at the drawing, where the motion is zero.
-
-        Returns
-        -------
-        dict of str to float
-            By column.
-        """
+        """Values at the drawing, where the motion is zero, by column."""
         k = int(np.argmin(np.abs(self.columns[self.over])))
         return {name: float(values[k]) for name, values in self.columns.items()}
 

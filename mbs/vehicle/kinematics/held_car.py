@@ -29,21 +29,16 @@ SETTLED, MOST_ITERATIONS = 1e-9, 30  # m, of the search for equilibrium
 
 @dataclass(frozen=True)
 class HeldWheel:
-    """Rows (3, nq) that give small motions of a wheel.
-
-    Attributes
-    ----------
-    radius : float
-        From the centre to the contact, m.
-    centre, axis, turn, contact : ndarray, shape (3, nq)
-        Of its centre, its axis to the left, its carrier's rotation, and the carrier's point at the contact centre.
-    """
+    """Rows (3, nq) that give small motions of a wheel."""
 
     radius: float
+    """From the centre to the contact, m."""
     centre: Array
     axis: Array
     turn: Array
     contact: Array
+    """`centre`, `axis`, `turn`, `contact`, shape (3, nq): of its centre, its axis to the left, its carrier's rotation,
+    and the carrier's point at the contact centre."""
 
 
 def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[str, tuple[Body, Point]]]:

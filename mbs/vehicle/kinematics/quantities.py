@@ -11,28 +11,19 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Quantity:
-    """A column of a curve.
-
-    Attributes
-    ----------
-    name : str
-        Of the column; columns of a wheel have ``_left`` or ``_right`` behind it.
-    unit : str
-        SI.
-    shown : str
-        Unit in tables and plots for people.
-    factor : float
-        From the unit to the one that is shown.
-    meaning : str
-        What is positive, and against what it is measured.
-    """
+    """A column of a curve."""
 
     name: str
+    """Of the column; columns of a wheel have ``_left`` or ``_right`` behind it."""
     unit: str
+    """SI."""
     title: str
     shown: str
+    """Unit in tables and plots for people."""
     factor: float
+    """From the unit to the one that is shown."""
     meaning: str
+    """What is positive, and against what it is measured."""
 
 
 _DEG = 180.0 / math.pi

@@ -20,27 +20,19 @@ Z = np.array(UP)
 
 @dataclass(frozen=True)
 class WheelMotion:
-    """A wheel and its rates per travel of the left wheel, of the right wheel and of the rack: the columns of `rate`.
-
-    Attributes
-    ----------
-    side : float
-        1 left, -1 right.
-    radius : float
-        From the centre to the contact, m: loaded, as drawn.
-    centre, axis : ndarray, shape (3,)
-        Wheel centre, m, and unit vector of its axis to the left.
-    centre_rate, axis_rate, turn : ndarray, shape (3, 3)
-        Rates of both, and angular velocity of the carrier.
-    """
+    """A wheel and its rates per travel of the left wheel, of the right wheel and of the rack: the columns of `rate`."""
 
     side: float
+    """1 left, -1 right."""
     radius: float
+    """From the centre to the contact, m: loaded, as drawn."""
     centre: Array
     axis: Array
+    """`centre`, `axis`, shape (3,): wheel centre, m, and unit vector of its axis to the left."""
     centre_rate: Array
     axis_rate: Array
     turn: Array
+    """`centre_rate`, `axis_rate`, `turn`, shape (3, 3): rates of both, and angular velocity of the carrier."""
 
     @property
     def steer(self) -> float:
@@ -77,21 +69,14 @@ class WheelMotion:
 
 @dataclass(frozen=True)
 class SteeringAxis:
-    """The axis about which a wheel is steered.
-
-    Attributes
-    ----------
-    way : ndarray, shape (3,)
-        Unit vector that points up.
-    point : ndarray, shape (3,)
-        A point of it, m.
-    pitch : float
-        Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it.
-    """
+    """The axis about which a wheel is steered."""
 
     way: Array
+    """Shape (3,): unit vector that points up."""
     point: Array
+    """Shape (3,): a point of it, m."""
     pitch: float
+    """Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it."""
 
     def at_height(self, z: float) -> Array:
         """Point of the axis at a height, m, shape (3,).

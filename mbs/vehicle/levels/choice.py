@@ -21,22 +21,15 @@ LEFT_OUT = {
 
 @dataclass(frozen=True)
 class Choice:
-    """The cheapest measured way to an output.
-
-    Attributes
-    ----------
-    h : float
-        Step, s.
-    errors : dict of str to float
-        Of the outputs that were asked for, largest over the manoeuvres.
-    ms_per_second : float
-        Processor time per simulated second, of the slowest manoeuvre.
-    """
+    """The cheapest measured way to an output."""
 
     fidelity: Fidelity
     h: float
+    """Step, s."""
     errors: dict[str, float]
+    """Of the outputs that were asked for, largest over the manoeuvres."""
     ms_per_second: float
+    """Processor time per simulated second, of the slowest manoeuvre."""
 
     @property
     def error(self) -> float:

@@ -24,25 +24,17 @@ SHORTEST = 0.1  # s
 
 @dataclass(frozen=True)
 class Drive:
-    """Inputs over time, from a start.
-
-    Parameters
-    ----------
-    duration : float
-        s.
-    inputs : dict of str to signal
-        As `mbs.simulate` takes them.
-    parameters : dict of str to float
-        Values before the start.
-    speed : float
-        At the start, m/s.
-    """
+    """Inputs over time, from a start."""
 
     name: str
     duration: float
+    """s."""
     inputs: dict[str, Signal]
+    """As `mbs.simulate` takes them."""
     parameters: dict[str, float] = field(default_factory=dict)
+    """Values before the start."""
     speed: float = 0.0
+    """At the start, m/s."""
 
     @property
     def pose(self) -> Pose:

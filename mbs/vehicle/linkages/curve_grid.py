@@ -16,17 +16,12 @@ from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
 
 
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
-    """Columns of the table of the left wheel, as far as its stops and the rack go.
+    """Columns of the table of the left wheel, as far as its stops and the rack go, (n,) each, by name, SI units.
 
     Parameters
     ----------
     rack_travel : float
         To each side, m; 0 where the axle is not steered.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (n,)
-        By name, SI units.
 
     Raises
     ------

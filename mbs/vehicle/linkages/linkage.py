@@ -48,24 +48,17 @@ class NotReachedError(ValueError):
 
 @dataclass(frozen=True)
 class Position:
-    """Where the linkage stands and how it moves from there.
-
-    Attributes
-    ----------
-    travel : ndarray, shape (2,)
-        Of the left and the right wheel centre along z from the drawing, m, positive in bump.
-    rack : float
-        Travel of the rack from the drawing, m, positive to the left.
-    q : ndarray, shape (nq,)
-        Coordinates.
-    tangent : ndarray, shape (nq, 3)
-        Their derivatives with respect to the travel of the left wheel, of the right wheel and of the rack.
-    """
+    """Where the linkage stands and how it moves from there."""
 
     travel: Array
+    """Shape (2,): of the left and the right wheel centre along z from the drawing, m, positive in bump."""
     rack: float
+    """Travel of the rack from the drawing, m, positive to the left."""
     q: Array
+    """Shape (nq,): coordinates."""
     tangent: Array
+    """Shape (nq, 3): their derivatives with respect to the travel of the left wheel, of the right wheel and of the
+    rack."""
 
 
 class Linkage(StandingModel):

@@ -32,23 +32,17 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class PoseGrid:
-    """Where the parts of an axle are, the chassis as drawn.
-
-    Attributes
-    ----------
-    compression, rack : ndarray, shape (n,) and (k,)
-        Points, m, positive in bump and to the left; one point of the rack where nothing steers.
-    coupled : bool
-        Whether each side depends on the compression of both springs: then the tables go over left and right.
-    q : ndarray, shape (n, k, nq), or (n, n, nq) where coupled
-        Coordinates of the linkage.
-    """
+    """Where the parts of an axle are, the chassis as drawn."""
 
     linkage: Linkage
     compression: Array
     rack: Array
+    """`compression`, `rack`, shapes (n,) and (k,): points, m, positive in bump and to the left; one point of the rack
+    where nothing steers."""
     coupled: bool
+    """Whether each side depends on the compression of both springs: then the tables go over left and right."""
     q: Array
+    """Shape (n, k, nq), or (n, n, nq) where coupled: coordinates of the linkage."""
 
     def full(self, start: int, size: int) -> Array:
         """Full coordinates of the linkage's model over the grid, shape (n, k, size)."""

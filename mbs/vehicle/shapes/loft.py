@@ -48,7 +48,7 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
 
 
 def interpolated(table: Sequence[tuple[float, ...]], at: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Columns of a table at values of its first one, by cubics without overshoot.
+    """Columns of a table at values of its first one, by cubics without overshoot, shape (n, columns - 1).
 
     Parameters
     ----------
@@ -56,10 +56,6 @@ def interpolated(table: Sequence[tuple[float, ...]], at: NDArray[np.float64]) ->
         Rows, the first number rising.
     at : array of shape (n,)
         Values of the first column.
-
-    Returns
-    -------
-    array of shape (n, columns - 1)
     """
     from scipy.interpolate import PchipInterpolator
 

@@ -35,20 +35,14 @@ SMALL_CAR = 600.0  # kg: parts of a car of this mass are drawn as thick as they 
 
 @dataclass(frozen=True)
 class Looks:
-    """Draws on a finished model of a car.
-
-    Parameters
-    ----------
-    spins : mapping of str to Spin
-        Wheels by name.
-    rack : Owner
-        What the inner ends of the tie rods of the steered axle move with.
-    """
+    """Draws on a finished model of a car."""
 
     b: CarBuilder
     car: CarContent
     spins: Mapping[str, Spin]
+    """Wheels by name."""
     rack: Owner
+    """What the inner ends of the tie rods of the steered axle move with."""
     steered: tuple[str, ...] = field(default=("front",))
 
     @property

@@ -90,18 +90,7 @@ class Column(RackSection):
         return self.rack_mass
 
     def build(self, b: CarBuilder, way: float) -> Steered:
-        """Add rack, column and steering wheel.
-
-        Parameters
-        ----------
-        way : float
-            1 where the rack moves to the left to steer to the left, -1 where it moves to the right.
-
-        Returns
-        -------
-        Steered
-            Ends of the rack, and its outputs.
-        """
+        """Add rack, column and steering wheel; `way` is as of `signed`."""
         m, per_radian = b.m, way * self.rack_per_turn / (2.0 * math.pi)
         demand = angle_demand(m, self.wheel_angle_max)
         torque = m.input(

@@ -17,20 +17,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FourBar:
-    """A linkage as drawn.
-
-    Attributes
-    ----------
-    pivot, joint : complex
-        Of the Pitman arm: on the chassis, and with the link, m.
-    idler_pivot, idler_joint : complex
-        Likewise of the idler arm.
-    """
+    """A linkage as drawn."""
 
     pivot: complex
     joint: complex
+    """`pivot`, `joint`: of the Pitman arm: on the chassis, and with the link, m."""
     idler_pivot: complex
     idler_joint: complex
+    """`idler_pivot`, `idler_joint`: likewise of the idler arm."""
 
     def turned(self, phi: Array) -> tuple[Array, Array, Array]:
         """Joint of the arm and turn of the link at angles of the arm.

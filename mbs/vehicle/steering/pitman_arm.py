@@ -176,13 +176,7 @@ class PitmanArm(SteeringSection):
         return 1.0
 
     def turn(self, way: float) -> float:
-        """Right-handed turn of the arm about its axis per angle that steers to the left, 1 or -1.
-
-        Parameters
-        ----------
-        way : float
-            1 where ends of the tie rods that move to the left steer to the left, else -1.
-        """
+        """Right-handed turn of the arm per angle that steers to the left, 1 or -1; `way` is as of `signed`."""
         return way * math.copysign(1.0, (self.four_bar.joint - self.four_bar.pivot).real)
 
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
@@ -208,18 +202,7 @@ class PitmanArm(SteeringSection):
         return np.linspace(-self.full, self.full, 2 * math.ceil(self.full / SPACING) + 1)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
-        """Add the box; the linkage comes with the tie rods.
-
-        Parameters
-        ----------
-        way : float
-            1 where ends of the tie rods that move to the left steer to the left, else -1.
-
-        Returns
-        -------
-        Steered
-            Ends of the tie rods, and its outputs.
-        """
+        """Add the box; the linkage comes with the tie rods. `way` is as of `signed`."""
         m, full = b.m, self.arm_angle_max
         demand = angle_demand(m, self.wheel_angle_max)
         arm = m.guide_inputs(

@@ -73,18 +73,7 @@ class RackByAngle(RackSection):
         return super().wheel_at(motion) if self.by_table is None else self.by_table.at(motion)
 
     def build(self, b: CarBuilder, way: float) -> Steered:
-        """Add the rack.
-
-        Parameters
-        ----------
-        way : float
-            1 where the rack moves to the left to steer to the left, -1 where it moves to the right.
-
-        Returns
-        -------
-        Steered
-            Ends of the rack, and its outputs.
-        """
+        """Add the rack; `way` is as of `signed`."""
         m, turn = b.m, way * 2.0 * math.pi
         per_radian = way * self.rack_per_turn / (2.0 * math.pi)
         by_table = self.by_table

@@ -51,13 +51,7 @@ class RackSection(SteeringSection):
         return rack_ends(b, guide)
 
     def travel_text(self, way: float) -> str:
-        """Description of the travel.
-
-        Parameters
-        ----------
-        way : float
-            1 where the rack moves to the left to steer to the left, else -1.
-        """
+        """Description of the travel; `way` is as of `signed`."""
         return f"rack travel, positive to the left (turns the wheels {'left' if way > 0.0 else 'right'})"
 
 

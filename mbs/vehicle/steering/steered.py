@@ -17,24 +17,16 @@ RACK = "rack travel"
 
 @dataclass(frozen=True)
 class Steered:
-    """A steering in a model.
-
-    Attributes
-    ----------
-    tie_rod : TieRodEnd
-        Gives the ends of the rack.
-    outputs : callable
-        Adds the outputs that every steering has had from the first.
-    torque_outputs : callable
-        Adds those of speed, force and torque, after all others.
-    travel : callable or None
-        Adds the travel of the rack, m, as a coordinate in the place of its ends; None: the steering has none.
-    """
+    """A steering in a model."""
 
     tie_rod: TieRodEnd
+    """Gives the ends of the rack."""
     outputs: Callable[[], None]
+    """Adds the outputs that every steering has had from the first."""
     torque_outputs: Callable[[], None]
+    """Adds those of speed, force and torque, after all others."""
     travel: Callable[[], Coordinate] | None = None
+    """Adds the travel of the rack, m, as a coordinate in the place of its ends; None: the steering has none."""
 
 
 def tie_rods(m: Model, guide: Guide) -> list[Joint]:

@@ -15,43 +15,29 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Hub:
-    """A wheel as drawn.
-
-    Attributes
-    ----------
-    centre : (float, float, float)
-        Of the left wheel, m.
-    ahead : float
-        1 of a front wheel, -1 of a rear one, which lengthens the wheelbase as it goes back.
-    """
+    """A wheel as drawn."""
 
     centre: Point
+    """Of the left wheel, m."""
     ahead: float
+    """1 of a front wheel, -1 of a rear one, which lengthens the wheelbase as it goes back."""
 
 
 @dataclass(frozen=True)
 class WheelCurves:
-    """What a table says of one wheel.
-
-    Attributes
-    ----------
-    travel : ndarray, shape (n,)
-        Of this wheel, m.
-    second : ndarray, shape (k,)
-        Points of the second variable for this wheel.
-    centres : ndarray, shape (n, k, 3)
-        Of the wheel, m.
-    rotations : ndarray, shape (n, k, 3, 3)
-        Of the carrier from the drawing.
-    lengths : dict of str to ndarray, shape (n, k)
-        Lengths of spring and damper, m, and the angle of the lever, rad, where the table has them.
-    """
+    """What a table says of one wheel."""
 
     travel: Array
+    """Shape (n,): of this wheel, m."""
     second: Array
+    """Shape (k,): points of the second variable for this wheel."""
     centres: Array
+    """Shape (n, k, 3): of the wheel, m."""
     rotations: Array
+    """Shape (n, k, 3, 3): of the carrier from the drawing."""
     lengths: dict[str, Array]
+    """Each of shape (n, k): lengths of spring and damper, m, and the angle of the lever, rad, where the table has
+    them."""
 
 
 def axes_of(steer: Array, inclination: Array) -> Array:

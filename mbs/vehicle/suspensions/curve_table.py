@@ -58,27 +58,19 @@ COARSEST = {TRAVEL: 0.0125, RACK: 0.0065, OTHER: 0.0125}  # m: a table with fart
 
 @dataclass(frozen=True)
 class CurveTable:
-    """A table of the left wheel as it stands in the file, or of both.
-
-    Attributes
-    ----------
-    travel : ndarray, shape (n,)
-        Of the left wheel's centre, m, positive in bump; evenly spaced, with 0 among the points.
-    second : ndarray, shape (k,)
-        Travel of the rack, positive to the left, or of the right wheel, m, likewise; one point where there is none.
-    second_name : str
-        `RACK`, `OTHER` or nothing.
-    columns : dict of str to ndarray, shape (n, k)
-        By name, SI units.
-    left_out : tuple of str
-        Columns of the file that are not used.
-    """
+    """A table of the left wheel as it stands in the file, or of both."""
 
     travel: Array
+    """Shape (n,): of the left wheel's centre, m, positive in bump; evenly spaced, with 0 among the points."""
     second: Array
+    """Shape (k,): travel of the rack, positive to the left, or of the right wheel, m, likewise; one point where there
+    is none."""
     second_name: str
+    """`RACK`, `OTHER` or nothing."""
     columns: dict[str, Array]
+    """By name, each of shape (n, k), SI units."""
     left_out: tuple[str, ...] = ()
+    """Columns of the file that are not used."""
 
     def of(self, name: str, side: str) -> Array | None:
         """A column of a wheel: with the side behind its name, or without, which is of the left wheel."""

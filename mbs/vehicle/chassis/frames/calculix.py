@@ -24,11 +24,5 @@ class CalculixFrame(MatrixFrame):
         return (beside(folder, self.deck, self.key("deck")),)
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
-        """Read the deck and its matrices.
-
-        Raises
-        ------
-        ModelError
-            A file is missing, or the deck has supports.
-        """
+        """Read the deck, which must have no supports, and its matrices."""
         return read_calculix(*self.files(folder))

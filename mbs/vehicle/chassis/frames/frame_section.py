@@ -25,21 +25,14 @@ Reference = Annotated[
 
 @dataclass(frozen=True)
 class Structure:
-    """A frame as finite elements.
-
-    Attributes
-    ----------
-    model : FiniteElementModel
-        In the axes of the drawing.
-    readings : tuple of Reading
-        What its gauges report, in the order of the outputs.
-    joints : mapping of str to ndarray, shape (3,)
-        Nodes where suspension, drive and payloads may be fixed, m.
-    """
+    """A frame as finite elements."""
 
     model: FiniteElementModel
+    """In the axes of the drawing."""
     readings: tuple[Reading, ...]
+    """What its gauges report, in the order of the outputs."""
     joints: Mapping[str, np.ndarray]
+    """Each of shape (3,): nodes where suspension, drive and payloads may be fixed, m."""
 
 
 class DampingSection(Section):

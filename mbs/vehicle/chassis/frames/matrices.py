@@ -33,13 +33,7 @@ class MatricesFrame(MatrixFrame):
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("stiffness", "mass", "nodes"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
-        """Read the files.
-
-        Raises
-        ------
-        ModelError
-            A file is missing or not of that form, or the matrices are no free model.
-        """
+        """Read the files."""
         stiffness, mass, _ = self.files(folder)
         rows = read_table(folder, self.nodes, self.key("nodes"), ("name", "x", "y", "z"))
         positions = [[row.number(axis, -FAR, FAR, "m") for axis in "xyz"] for row in rows]

@@ -39,13 +39,7 @@ class MatrixFrame(FrameSection):
         """
 
     def structure(self, folder: Path) -> Structure:
-        """Read the matrices and the gauges on their nodes.
-
-        Raises
-        ------
-        ModelError
-            A file is missing, the matrices are no free model, or a gauge is on no node.
-        """
+        """Read the matrices and the gauges, each of which must be on their nodes."""
         model = self.finite_elements(folder)
         readings = [r for name, gauge in self.gauges.items() for r in gauge.readings(name, model, folder)]
         return Structure(model, in_order(readings), dict(zip(model.names, model.positions, strict=True)))

@@ -30,12 +30,6 @@ class NastranFrame(MatrixFrame):
         return tuple(beside(folder, getattr(self, f), self.key(f)) for f in ("bulk_data", "matrices"))
 
     def finite_elements(self, folder: Path) -> FiniteElementModel:
-        """Read grid points and matrices.
-
-        Raises
-        ------
-        ModelError
-            A file or a matrix is missing, or a grid point has axes of its own.
-        """
+        """Read grid points, which must have no axes of their own, and matrices."""
         bulk_data, matrices = self.files(folder)
         return read_nastran(bulk_data, matrices, self.stiffness, self.mass)

@@ -20,13 +20,7 @@ class TubesFrame(TubeTables):
     """
 
     def structure(self, folder: Path) -> Structure:
-        """Read the tables.
-
-        Raises
-        ------
-        ModelError
-            A table is missing or does not describe a frame.
-        """
+        """Read the tables."""
         tubular = TubularFrame(self, folder)
         frame, tubes = tubular.frame()
         gauges = tubular.strain_gauges(tubes)
@@ -34,13 +28,7 @@ class TubesFrame(TubeTables):
         return Structure(_assembled(pickle.dumps(frame)), in_order(readings), tubular.joint_places())
 
     def check(self, folder: Path) -> None:
-        """Read the tables, and the places of the gauges.
-
-        Raises
-        ------
-        ModelError
-            A table is missing or does not describe a frame, or a gauge is on no tube.
-        """
+        """Read the tables and the places of the gauges, each of which must be on a tube."""
         tubular = TubularFrame(self, folder)
         tubular.strain_gauges(tubular.frame()[1])
 

@@ -12,23 +12,16 @@ STRESS = "stress"
 
 @dataclass(frozen=True)
 class Reading:
-    """An output of the car that is linear in the displacements of the nodes of its frame.
-
-    Attributes
-    ----------
-    quantity : str
-        First part of the output's name, as "stress".
-    gauge : str
-        Second part.
-    row : ndarray, shape (n_dof,)
-        Per nodal displacement, m and rad.
-    """
+    """An output of the car that is linear in the displacements of the nodes of its frame."""
 
     quantity: str
+    """First part of the output's name, as "stress"."""
     gauge: str
+    """Second part."""
     unit: str
     description: str
     row: np.ndarray
+    """Shape (n_dof,): per nodal displacement, m and rad."""
 
     @property
     def name(self) -> str:
