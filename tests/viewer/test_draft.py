@@ -171,19 +171,19 @@ def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
 
 @pytest.mark.parametrize("quality", ["draft", "low"])
 def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
-    def darkness(lift):
+    def darkness(lift, away=0.0):
         numbers = {}
         for frame in car["frames"].values():
             if "start" not in frame:  # of a wheel, the rack or the steering wheel, beside its parent
                 numbers[frame.get("angle", frame.get("way"))] = 0.0
                 continue
             (x, y, z), turn = frame["start"]
-            numbers |= dict(zip(frame["position"], (x, y, z + lift), strict=True))
+            numbers |= dict(zip(frame["position"], (x - away, y, z + lift), strict=True))
             numbers |= dict(zip(frame["quaternion"], turn, strict=True))
         drawn.update(numbers)
         picture = drawn.picture().mean(axis=2)
         x, y, _ = car["frames"]["chassis"]["start"][0]
-        under, beside = (np.round(drawn.project([x, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
+        under, beside = (np.round(drawn.project([x - away, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
         return 1.0 - picture[under[1], under[0]] / picture[beside[1], beside[0]]
 
     drawn.show(car, camera="top", quality=quality)
@@ -193,6 +193,7 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
     standing, flying = darkness(0.0), darkness(2.5)
     assert 0.15 < standing < 0.8
     assert flying < 0.5 * standing
+    assert darkness(0.0, 2400.0) == pytest.approx(standing, abs=0.1), "far beyond the border of the world"
 
 
 def test_the_shadow_below_wheels_in_one_line_ends_below_them_and_that_of_a_car_below_its_ends(drawn, car):
