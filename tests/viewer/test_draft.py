@@ -137,6 +137,22 @@ def test_a_tube_far_thinner_than_a_pixel_is_a_line_without_gaps_in_a_draft(drawn
     _is_a_line(drawn, _red(drawn.picture()), ends)
 
 
+def test_a_steering_wheel_is_whole_in_a_draft(drawn):
+    """Beside many balls, whose lattice would swallow it: rim and spokes are where they are in full."""
+    wheel = {"kind": "steering_wheel", "frame": "body", "radius": 0.2, "axis": [0, -1, 0], "color": RED}
+    between = np.arange(0.2, 1.5, 0.1)
+    ring = lambda radius, angles: [[radius * np.cos(a), 0.0, radius * np.sin(a)] for a in angles]  # noqa: E731
+    rim = ring(0.182, np.concatenate([between + k * np.pi / 2 for k in range(4)]))
+    spokes = ring(0.12, [0.0, np.pi, 1.5 * np.pi])
+    balls = [ball((0.1 * k - 3.0, 0.0, -0.6), 0.3) | {"color": "#808080"} for k in range(60)]
+    drawn.show(scene_of(shapes=[*balls, wheel], focus="body"), at(0, 0, 0), camera="side", quality="draft")
+    picture = drawn.picture()
+    near = lambda seen, x, y: seen[int(y) - 1 : int(y) + 2, int(x) - 1 : int(x) + 2].any()  # noqa: E731
+    assert all(near(_red(picture), *drawn.project(place)) for place in rim)
+    dark = picture.mean(axis=2) < 170
+    assert all(near(dark, *drawn.project(place)) for place in spokes), "before a bright room"
+
+
 def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
     ends = [[-0.5, -0.4, 0.2], [0.5, 0.4, 0.6]]
     beam = {"name": "beam", "frame": "body", "nodes": ends, "beams": [[0, 1]], "radii": [5e-4]}
@@ -155,19 +171,19 @@ def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
 
 @pytest.mark.parametrize("quality", ["draft", "low"])
 def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
-    def darkness(lift):
+    def darkness(lift, away=0.0):
         numbers = {}
         for frame in car["frames"].values():
             if "start" not in frame:  # of a wheel, the rack or the steering wheel, beside its parent
                 numbers[frame.get("angle", frame.get("way"))] = 0.0
                 continue
             (x, y, z), turn = frame["start"]
-            numbers |= dict(zip(frame["position"], (x, y, z + lift), strict=True))
+            numbers |= dict(zip(frame["position"], (x - away, y, z + lift), strict=True))
             numbers |= dict(zip(frame["quaternion"], turn, strict=True))
         drawn.update(numbers)
         picture = drawn.picture().mean(axis=2)
         x, y, _ = car["frames"]["chassis"]["start"][0]
-        under, beside = (np.round(drawn.project([x, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
+        under, beside = (np.round(drawn.project([x - away, y + a, 0.0])).astype(int) for a in (-0.35, -2.5))
         return 1.0 - picture[under[1], under[0]] / picture[beside[1], beside[0]]
 
     drawn.show(car, camera="top", quality=quality)
@@ -177,6 +193,7 @@ def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_abov
     standing, flying = darkness(0.0), darkness(2.5)
     assert 0.15 < standing < 0.8
     assert flying < 0.5 * standing
+    assert darkness(0.0, 2400.0) == pytest.approx(standing, abs=0.1), "far beyond the border of the world"
 
 
 def test_the_shadow_below_wheels_in_one_line_ends_below_them_and_that_of_a_car_below_its_ends(drawn, car):

@@ -1,6 +1,7 @@
 // Solids of which a shape is put together, about y, from the table that glTF files are made of too.
 import * as THREE from "three";
 import { rounded } from "./box.js";
+import { between } from "./place.js";
 
 /** Edges of a profile that are sharper have two normals. */
 const CREASE = Math.cos((35 * Math.PI) / 180);
@@ -8,6 +9,10 @@ const CREASE = Math.cos((35 * Math.PI) / 180);
 /** @typedef {Object<string, number>} Lengths of a shape by the names that the table has for them, m */
 
 const GEOMETRIES = { lathe, box, sphere, ring };
+/** A box so many times as long as thick is a bar, which a draft would lose. */
+const BAR = 4;
+/** What is thin, as the tubes that a draft draws of it. @type {Object<string, (part: Data, lengths: Lengths) => THREE.Matrix4[] | undefined>} */
+const TUBES = { box: bar, ring: chords };
 
 /**
  * @param {Data[]} parts of the table
@@ -21,9 +26,11 @@ export function composed(parts, lengths, look, out = 0) {
     const [beside, middle] = part.y ?? [0, [0]];
     const heights = out ? [beside * out] : middle;
     const geometry = GEOMETRIES[part.kind](part, lengths);
+    const tubes = TUBES[part.kind]?.(part, lengths);
     return heights.flatMap((height) =>
       (part.angles ?? [0]).map((degrees) => {
         const mesh = new THREE.Mesh(geometry, look(part));
+        if (tubes) mesh.userData.tubes = tubes;
         const [angle, x] = [(degrees * Math.PI) / 180, (part.x ?? 0) * lengths[part.across]];
         mesh.rotation.y = angle;
         mesh.position.set(x * Math.cos(angle), height * lengths[part.along], -x * Math.sin(angle));
@@ -63,4 +70,17 @@ function sphere({ radius, across }, lengths) {
 function ring({ radius, thickness, across, sides, turns, arc = 2 * Math.PI }, lengths) {
   const made = new THREE.TorusGeometry(radius * lengths[across], thickness * lengths[across], sides, turns, arc);
   return made.rotateZ(Math.PI / 2 - arc / 2).rotateX(Math.PI / 2);
+}
+
+function chords({ radius, thickness, across, turns, arc = 2 * Math.PI }, lengths) {
+  const count = Math.ceil(turns / 3);
+  const at = (k) => arc * (k / count - 0.5);
+  const point = (k) => [Math.sin(at(k)), 0, Math.cos(at(k))].map((value) => value * radius * lengths[across]);
+  return Array.from({ length: count }, (_, k) => between(point(k), point(k + 1), thickness * lengths[across]));
+}
+
+function bar({ size: [x, y, z], across, along }, lengths) {
+  const sides = [x * lengths[across], y * lengths[along], z * lengths[across]];
+  if (sides[0] < BAR * Math.max(sides[1], sides[2])) return undefined;
+  return [between([-sides[0] / 2, 0, 0], [sides[0] / 2, 0, 0], Math.hypot(sides[1], sides[2]) / 2)];
 }

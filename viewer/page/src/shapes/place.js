@@ -30,6 +30,14 @@ export function stretch(mesh, from, to, radius) {
   turn(mesh, alongY(direction));
 }
 
+/** Place of a cylinder about y, of radius 1 and height 1, between two points. @returns {THREE.Matrix4} */
+export function between(from, to, radius) {
+  const object = new THREE.Object3D();
+  stretch(object, from, to, radius);
+  object.updateMatrix();
+  return object.matrix;
+}
+
 /** @param {THREE.Object3D} object its meshes cast and take shadows */
 export function shaded(object) {
   object.traverse((part) => {
