@@ -6,7 +6,7 @@
 #include "../instance.h"
 #include "signals.h"
 
-enum { MANY = 7 }; /* signals of a tyre, a brake or a bearing */
+enum { WRITTEN_OUT = 7 }; /* signals of a tyre, a brake or a bearing */
 
 /* Signals i to i + 2, the components of a point, and their rates. */
 ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, const real *qd, real *u, real *ud) {
@@ -156,7 +156,6 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
 ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, int32_t n, int32_t m, double v, double w,
                                 double u, bool first) {
   const real none = {0};
-  ALI3_UNROLLED
   for (int32_t i = 0; i < n; i++, row += n, to += m) {
     to[0] = (first ? none : to[0]) + row[0] * v;
     to[1] = (first ? none : to[1]) + row[1] * w;
@@ -203,8 +202,8 @@ ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
     if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
     const place p = place_of(S, e, F);
     if (p.m == 0) continue; /* on a tabled body */
-    if (p.n == MANY)
-      tangent_times(S, e, &p, MANY, in->S + S->el_S_off[e], SB);
+    if (p.n == WRITTEN_OUT)
+      tangent_times(S, e, &p, WRITTEN_OUT, in->S + S->el_S_off[e], SB);
     else
       tangent_times(S, e, &p, p.n, in->S + S->el_S_off[e], SB);
     for (int32_t s = 0, k = S->el_entry_ptr[e]; s < p.n; s++) {
