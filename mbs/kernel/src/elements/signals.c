@@ -6,6 +6,8 @@
 #include "../instance.h"
 #include "signals.h"
 
+enum { WRITTEN_OUT = 7 }; /* signals of a tyre, a brake or a bearing */
+
 /* Signals i to i + 2, the components of a point, and their rates. */
 ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, const real *qd, real *u, real *ud) {
   const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
@@ -151,11 +153,10 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
 }
 
 /* Columns of S B at three coordinates, or their first part where nothing stands there yet, of entries v, w, u. */
-ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, const place *p, double v, double w,
+ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, int32_t n, int32_t m, double v, double w,
                                 double u, bool first) {
   const real none = {0};
-  ALI3_SHORT
-  for (int32_t i = 0; i < p->n; i++, row += p->n, to += p->m) {
+  for (int32_t i = 0; i < n; i++, row += n, to += m) {
     to[0] = (first ? none : to[0]) + row[0] * v;
     to[1] = (first ? none : to[1]) + row[1] * w;
     to[2] = (first ? none : to[2]) + row[2] * u;
@@ -163,8 +164,9 @@ ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, con
 }
 
 /* SB = S B of element e: a row per signal, a column per coordinate. */
-ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, const real *T, real *restrict SB) {
-  const int32_t n = p->n, m = p->m, begin = S->el_sig_ptr[e];
+ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, int32_t n, const real *T,
+                                real *restrict SB) {
+  const int32_t m = p->m, begin = S->el_sig_ptr[e];
   const double *value = S->el_entry_value;
   const real none = {0};
   if (S->el_clear[e]) memset(SB, 0, (size_t)(n * m) * sizeof *SB);
@@ -175,12 +177,14 @@ ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p,
       real *restrict to = SB + S->el_entry_local[k];
       const double v = value[k];
       const bool first = S->el_entry_first[k];
-      if (!triple)
-        for (int32_t i = 0; i < n; i++) to[i * m] = (first ? none : to[i * m]) + T[i * n + s] * v;
+      if (!triple && first)
+        for (int32_t i = 0; i < n; i++) to[i * m] = none + T[i * n + s] * v;
+      else if (!triple)
+        for (int32_t i = 0; i < n; i++) to[i * m] += T[i * n + s] * v;
       else if (first)
-        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], true);
+        three_columns(to, T + s, n, m, v, value[k + count], value[k + 2 * count], true);
       else
-        three_columns(to, T + s, p, v, value[k + count], value[k + 2 * count], false);
+        three_columns(to, T + s, n, m, v, value[k + count], value[k + 2 * count], false);
     }
     if (triple) k += 2 * count, s += 2;
   }
@@ -198,7 +202,10 @@ ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
     if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
     const place p = place_of(S, e, F);
     if (p.m == 0) continue; /* on a tabled body */
-    tangent_times(S, e, &p, in->S + S->el_S_off[e], SB);
+    if (p.n == WRITTEN_OUT)
+      tangent_times(S, e, &p, WRITTEN_OUT, in->S + S->el_S_off[e], SB);
+    else
+      tangent_times(S, e, &p, p.n, in->S + S->el_S_off[e], SB);
     for (int32_t s = 0, k = S->el_entry_ptr[e]; s < p.n; s++) {
       const int32_t at = S->el_sig_ptr[e] + s, signal = S->el_sig[at];
       const int32_t count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;

@@ -18,50 +18,72 @@ ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real
   for (int32_t j = 0; j < n; j++) out[j] = (((out[j] + w * a[j]) + y * b[j]) + z * c[j]) + v * d[j];
 }
 
+/* Rows i to i + n - 1, which have the same columns. */
+ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const real *x, real *out) {
+  const ali3_system *S = in->system;
+  const real *val = in->mass_val, none = {0};
+  const int32_t *col = S->mass_col, end = S->mass_ptr[i + 1];
+  for (int32_t j = i; j < i + n; j++) out[j] = none;
+  int32_t k = S->mass_ptr[i];
+  for (; k + 3 < end; k += 4) add_columns(val, S->mass_mirror + k, x, col + k, n, out + i);
+  for (; k < end; k++) ali3_add_multiple(out + i, val + S->mass_mirror[k], x[col[k]], n);
+}
+
 /* Rows with the same columns, those of the modes of a flexible body, are summed side by side, column by column: as M is
  * symmetric, the entries of a column lie side by side in its row. `stretches`: rows have modes side by side, which
- * are one sum of four. */
-ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, bool stretches) {
+ * are one sum of four. `both`: M y too, entries loaded once. */
+ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y,
+                             bool stretches, bool both) {
   const ali3_system *S = in->system;
   const real *val = in->mass_val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t alike = S->mass_alike[i];
-    real sum = {0};
+    real sum_x = {0}, sum_y = {0};
     if (alike == 0 && in->mass_isotropic) {
-      ali3_three three = {0};
+      ali3_three three_x = {0}, three_y = {0};
       ALI3_SHORT
-      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) ali3_three_add(&three, x + col[k], val[k]);
-      ali3_three_put(out + i, three);
+      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
+        ali3_three_add(&three_x, x + col[k], val[k]);
+        if (both) ali3_three_add(&three_y, y + col[k], val[k]);
+      }
+      ali3_three_put(out_x + i, three_x);
+      if (both) ali3_three_put(out_y + i, three_y);
       i += 2;
       continue;
     }
-    if (alike >= MANY) {
-      for (int32_t j = i; j < i + alike; j++) out[j] = sum;
-      int32_t k = ptr[i];
-      for (; k + 3 < ptr[i + 1]; k += 4) add_columns(val, S->mass_mirror + k, x, col + k, alike, out + i);
-      for (; k < ptr[i + 1]; k++) ali3_add_multiple(out + i, val + S->mass_mirror[k], x[col[k]], alike);
+    if (stretches && alike >= MANY) {
+      many_rows(in, i, alike, x, out_x);
+      if (both) many_rows(in, i, alike, y, out_y);
       i += alike - 1;
       continue;
     }
     int32_t k = ptr[i];
     if (stretches && S->mass_stretch[2 * i] < ptr[i + 1]) {
       const int32_t first = S->mass_stretch[2 * i], last = S->mass_stretch[2 * i + 1];
-      for (; k < first; k++) sum += val[k] * x[col[k]];
-      sum += ali3_product_from_far(val + first, x + col[first], last - first);
+      for (; k < first; k++) {
+        sum_x += val[k] * x[col[k]];
+        if (both) sum_y += val[k] * y[col[k]];
+      }
+      sum_x += ali3_product_from_far(val + first, x + col[first], last - first);
+      if (both) sum_y += ali3_product_from_far(val + first, y + col[first], last - first);
       k = last;
     }
     ALI3_SHORT
-    for (; k < ptr[i + 1]; k++) sum += val[k] * x[col[k]];
-    out[i] = sum;
+    for (; k < ptr[i + 1]; k++) {
+      sum_x += val[k] * x[col[k]];
+      if (both) sum_y += val[k] * y[col[k]];
+    }
+    out_x[i] = sum_x;
+    if (both) out_y[i] = sum_y;
   }
 }
 
 ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
   if (in->system->n_flexible > 0)
-    times_mass(in, x, out, true);
+    times_mass(in, x, x, out, out, true, false);
   else
-    times_mass(in, x, out, false);
+    times_mass(in, x, x, out, out, false, false);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),
@@ -69,33 +91,13 @@ ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *i
 
 ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
                                            real *out_y) {
-  const ali3_system *S = in->system;
-  const real *val = in->mass_val;
-  const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    if (S->mass_alike[i] == 0 && in->mass_isotropic) {
-      ali3_three three_x = {0}, three_y = {0};
-      ALI3_SHORT
-      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
-        ali3_three_add(&three_x, x + col[k], val[k]);
-        ali3_three_add(&three_y, y + col[k], val[k]);
-      }
-      ali3_three_put(out_x + i, three_x);
-      ali3_three_put(out_y + i, three_y);
-      i += 2;
-      continue;
-    }
-    real sum_x = {0}, sum_y = {0};
-    ALI3_SHORT
-    for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
-      sum_x += val[k] * x[col[k]];
-      sum_y += val[k] * y[col[k]];
-    }
-    out_x[i] = sum_x, out_y[i] = sum_y;
-  }
+  if (in->system->n_flexible > 0)
+    times_mass(in, x, y, out_x, out_y, true, true);
+  else
+    times_mass(in, x, y, out_x, out_y, false, true);
 }
 
-/* M x and M y, entries loaded once, of a System whose M is constant. */
+/* M x and M y of the constant part of M. */
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times_both,
                   (const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y),
                   (in, x, y, out_x, out_y))

@@ -191,7 +191,7 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
 
 #ifndef ALI3_WIDTH /* of one instance alone */
 /* K eta with the amplitudes eta of x, which stay in in->flex_work. */
-static const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
+ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
   double *eta = in->flex_work, *force = eta + f->n;
   ali3_gather(f->n, f->mode, x, eta);
   memset(force, 0, (size_t)f->n * sizeof(double));
@@ -200,7 +200,7 @@ static const double *elastic_force(const ali3_instance *in, const ali3_flexible 
 }
 
 /* Energy of the weight beside its constant part, and elastic energy, J. */
-void ali3_flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic) {
+ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, double *gravity, double *elastic) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const double *force = elastic_force(in, &f, q);
@@ -209,6 +209,10 @@ void ali3_flexible_energy(const ali3_instance *in, const double *q, double *grav
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_energy,
+                  (const ali3_instance *in, const double *q, double *gravity, double *elastic),
+                  (in, q, gravity, elastic))
 
 /* F += weight K, without the part of the weight of the body. */
 void ali3_flexible_stiffen(const ali3_instance *in, double weight, double *F) {

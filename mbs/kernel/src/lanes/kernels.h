@@ -31,6 +31,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_switch_values(in, v) ((void)(v))
 #define ALI3_SWITCH_ROWS_H
 #define ali3_mass_times ALI3_LANED(mass_times)
+#define ali3_mass_times_both ALI3_LANED(mass_times_both)
 #define ali3_constant_mass_times ALI3_LANED(constant_mass_times)
 #define ali3_constant_mass_times_both ALI3_LANED(constant_mass_times_both)
 #define ali3_factorise ALI3_LANED(factorise)
@@ -101,6 +102,12 @@ void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
   ali3_constant_mass_times(in, x, out);
   if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out);
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
+}
+
+void ali3_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y) {
+  ali3_constant_mass_times_both(in, x, y, out_x, out_y);
+  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out_x), ali3_flexible_mass_times(in, y, out_y);
+  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out_x), ali3_tabled_mass_times(in, y, out_y);
 }
 
 #include "lane_copies.h"

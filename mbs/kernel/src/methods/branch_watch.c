@@ -10,6 +10,7 @@
 #include "../instance.h"
 #include "../method.h"
 #include "../rows/assembly_mode.h"
+#include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "branch_watch.h"
 #include "energy_balance.h"
@@ -32,6 +33,7 @@ static bool watches(const ali3_instance *in) { return ali3_triad_count(in->syste
 static bool in_line(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
   const int32_t *ring = in->system->mode_triad + RING;
   int32_t n = 0;
+  if (!(fabs(sine[k]) < IN_LINE)) return false;
   for (int32_t j = first; j < end; j++) {
     if (ring[ITEMS * j] != ring[ITEMS * k]) continue;
     if (!(fabs(sine[j]) < IN_LINE)) return false;
@@ -121,8 +123,8 @@ static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int3
   return -1;
 }
 
-/* Repeats in parts a step in which a triad of the loop changed its sign; then once more whole, because readers use its
- * work space. */
+/* Repeats in parts a step in which a triad of the loop changed its sign; then its end comes back, by the whole step once
+ * more where a reader will use its work space. */
 static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   const ali3_system *S = in->system;
   const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
@@ -130,10 +132,19 @@ static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
   while (k < end && !crossed(in, k, first, end)) k++;
   if (k == end) return ALI3_OK;
   const ali3_report whole = in->report;
+  if (in->unobserved) ali3_vectors_copy(in, &in->coarse, &in->now);
   const int32_t triad = jumped(in, t, h, first, end);
-  again(in);
-  in->backed_up = false;
-  const ali3_status status = ali3_advance(in, t, h, in->settings.max_halvings);
+  ali3_status status;
+  if (in->unobserved) {
+    ali3_vectors_copy(in, &in->now, &in->coarse);
+    in->t_now = ali3_time(in);
+    status = ali3_inputs_begin(in, t, h);
+    in->t_now = t;
+  } else {
+    again(in);
+    in->backed_up = false;
+    status = ali3_advance(in, t, h, in->settings.max_halvings);
+  }
   in->report = whole;
   if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, t);
   return status;

@@ -75,12 +75,7 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   const double rate = in->rule.rate;
   ALI3_EACH(0, nq, ALI3_AT(w) = 0.5 * (rate * ALI3_AT(D) + ALI3_AT(hat) + ALI3_AT(qd));
             ALI3_AT(change) = 2.0 * (ALI3_AT(qd) - ALI3_AT(w)))
-  if (S->n_flexible + S->n_tabled > 0) {
-    ali3_mass_times(in, w, x);
-    ali3_mass_times(in, v->qdd, left);
-  } else {
-    ali3_constant_mass_times_both(in, w, v->qdd, x, left);
-  }
+  ali3_mass_times_both(in, w, v->qdd, x, left);
   const real given = ali3_product_from_far(change, x, nq), twice = ali3_product_from_far(w, x, nq);
   ALI3_EACH(0, nq, ALI3_AT(left) -= ALI3_AT(Q))
   real power = ali3_product_from_far(qd, left, nq), drive = {0};

@@ -1,8 +1,6 @@
 /* Past steps go on: Lagrange's polynomial through what they were. */
 #include "extrapolation.h"
 
-#include <string.h>
-
 #include "../algebra/stretch.h"
 
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
@@ -32,8 +30,9 @@ truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
       (history[ALI3_HISTORY_COUNT] > (double)n) & ((in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
-  ali3_copy(miss, a, nq);
-  for (int32_t k = 0; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
+  const real *before = a + nq, first = weight[0];
+  ALI3_EACH(0, nq, ALI3_AT(miss) = ALI3_AT(a) - first * ALI3_AT(before))
+  for (int32_t k = 1; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
   for (int32_t i = 0; i < nq; i++) {
     const real m = in->mass_floor[i], one = a[i] - a[nq + i];
     error += m * miss[i] * miss[i];
@@ -42,17 +41,20 @@ truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   return near & (error < SMOOTH * SMOOTH * change);
 }
 
+/* Sum of the n vectors of a length with these weights. */
+static void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,
+                         int32_t n) {
+  const real w = weight[0];
+  ALI3_EACH(0, length, ALI3_AT(to) = w * ALI3_AT(from))
+  for (int32_t k = 1; k < n; k++) ali3_add_multiple(to, from + k * length, weight[k], length);
+}
+
 /* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from n > 0 past ones. */
 void ali3_extrapolate(const ali3_instance *in, double when, int32_t n, real *a, real *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   real weight[ALI3_PAST];
-  memset(a, 0, (size_t)nq * sizeof *a);
-  memset(lam, 0, (size_t)nc * sizeof *lam);
   ali3_lagrange(v->history + ALI3_HISTORY_TIME, n, ali3_same(when), weight);
-  for (int32_t k = 0; k < n; k++) {
-    const real *past_a = v->past_a + (int64_t)k * nq, *past_lam = v->past_lam + (int64_t)k * nc;
-    ali3_add_multiple(a, past_a, weight[k], nq);
-    ali3_add_multiple(lam, past_lam, weight[k], nc);
-  }
+  weighted_sum(a, v->past_a, nq, weight, n);
+  weighted_sum(lam, v->past_lam, nc, weight, n);
 }

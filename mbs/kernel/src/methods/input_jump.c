@@ -76,7 +76,7 @@ ali3_status ali3_input_jump(ali3_instance *in, double h) {
   add(v->qdd, in->x, nq);
   add(v->lam, in->lam, nc);
   if (v->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_GENERALISED_ALPHA) add(v->own, in->x, nq);
-  for (int k = 0; k < ALI3_PAST; k++) {
+  for (int k = 0; k < ALI3_PAST && v->history[ALI3_HISTORY_COUNT] > 0.0; k++) {
     add(v->past_a + (int64_t)k * nq, in->x, nq);
     add(v->past_lam + (int64_t)k * nc, in->lam, nc);
   }

@@ -58,14 +58,26 @@ static inline void add_terms(const ali3_system *S, int32_t i, const real *q, boo
   entry[0] = x, entry[1] = y, entry[2] = z;
 }
 
-/* Adds the terms of entries i to i + n - 1 of Phi_q, a stretch, to them. */
-static inline void add_stretch(const ali3_system *S, int32_t i, int32_t n, const real *q, real *entry) {
-  const int32_t first = S->hess_ptr[i], terms = S->hess_ptr[i + 1] - first;
-  for (int32_t t = 0; t < terms; t++) {
-    const double *restrict hess = S->hess_val + first + t * n;
-    const real x = q[S->hess_col[first + t * n]];
+/* Entries i to i + n - 1 of Phi_q, a stretch, go to `out`: their constants and their terms, of which three are added while
+ * an entry is in hand. */
+static inline void put_stretch(const ali3_system *S, int32_t i, int32_t n, const real *q, real *restrict out) {
+  const int32_t terms = S->hess_ptr[i + 1] - S->hess_ptr[i], *col = S->hess_col + S->hess_ptr[i];
+  const double *restrict hess = S->hess_val + S->hess_ptr[i], *restrict lin = S->row_lin + i;
+  int32_t t = 0;
+  if (terms >= 3) {
+    const double *restrict second = hess + n, *restrict third = second + n;
+    const real x = q[col[0]], y = q[col[n]], z = q[col[2 * n]];
     ALI3_BY_FOURS
-    for (int32_t k = 0; k < n; k++) entry[k] += hess[k] * x;
+    for (int32_t k = 0; k < n; k++) out[k] = ((lin[k] + hess[k] * x) + second[k] * y) + third[k] * z;
+    t = 3;
+  } else {
+    for (int32_t k = 0; k < n; k++) out[k] = ali3_same(lin[k]);
+  }
+  for (; t < terms; t++) {
+    const double *restrict one = hess + (int64_t)t * n;
+    const real x = q[col[t * n]];
+    ALI3_BY_FOURS
+    for (int32_t k = 0; k < n; k++) out[k] += one[k] * x;
   }
 }
 
@@ -127,8 +139,8 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
       value += (sum + lin) * q[col[i]];
     }
     const int32_t first = i;
-    for (; i < ptr[k + 1]; i++) J[i] = ali3_same(row_lin[i]);
-    if (i > first) add_stretch(S, first, i - first, q, J + first);
+    i = ptr[k + 1];
+    if (i > first) put_stretch(S, first, i - first, q, J + first);
     if (i > first) value += ali3_sum_product_from_far(J + first, row_lin + first, q + col[first], i - first);
     Phi[k] = S->row_const[k] + 0.5 * value;
   }

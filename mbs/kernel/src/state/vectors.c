@@ -50,13 +50,13 @@ void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vec
   memcpy(to->q, from->q, in->n_vector * sizeof(double));
 }
 
-/* What a method that fills the state does not write: all but positions, velocities, accelerations and multipliers and,
- * of rigid Systems, the past of both. */
+/* What a method that fills the state does not write: all but positions, velocities, accelerations and multipliers and
+ * the past of both, where there is one that steps do not write. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
   const double *end = from->q + in->n_vector, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
-  const bool rigid = in->system->n_flexible == 0;
-  memcpy(to->y, from->y, (size_t)((rigid ? from->past_a : end) - from->y) * sizeof(double));
-  if (rigid) memcpy(to->q + (past_end - from->q), past_end, (size_t)(end - past_end) * sizeof(double));
+  const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
+  memcpy(to->y, from->y, (size_t)((past ? end : from->past_a) - from->y) * sizeof(double));
+  if (!past) memcpy(to->q + (past_end - from->q), past_end, (size_t)(end - past_end) * sizeof(double));
 }
 
 /* Once a step, before anything changes in->now: what it goes back to when the step fails. */
