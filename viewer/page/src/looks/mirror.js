@@ -3,10 +3,19 @@ import * as THREE from "three";
 
 /** Side of the coarse mirror; three.js asks for at least 256, which takes the processor seconds. */
 const COARSE = 64;
+/** Side of what it is blurred from; by 16, as three.js does, most of the time until a first picture goes into it. */
+const SUMMED = 8;
 
 class CoarseGenerator extends THREE.PMREMGenerator {
   _setSize() {
     this._cubeSize = COARSE;
+  }
+
+  _renderCube(target, lod, material) {
+    const { sourceSize, sourceLod } = material.uniforms;
+    if (sourceSize) [sourceSize.value, sourceLod.value] = [SUMMED, Math.log2(COARSE / SUMMED)];
+    // The second level's roughness of 0.18 blurs by less than its pixels.
+    super._renderCube(target, lod, lod === 1 ? this._ggxMaterial : material);
   }
 }
 
