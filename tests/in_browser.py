@@ -39,6 +39,11 @@ _LESS_AROUND = (
     "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup,PaintHolding,HttpsUpgrades",
     "--disable-gpu-rasterization",
 )
+SELDOM = """{
+  const soon = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 80);
+}"""
+"""For `add_init_script`: a page that draws twelve times a second at most, as the processor does."""
 AXE = Path(os.environ.get("ALI3_AXE", PAGE / "node_modules" / "axe-core" / "axe.min.js"))
 with_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm --prefix viewer/page ci")
 _FINDINGS = """async () => (await axe.run(document, { resultTypes: ['violations'] })).violations
