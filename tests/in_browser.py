@@ -33,6 +33,17 @@ def chromium_or_skip() -> Path:
         pytest.skip(str(error))
 
 
+# Not drawn: two pages behind the address bar of each window, as dear as ours, and what Skia draws by shaders,
+# as Debian asks for. The list of features replaces that of playwright, of which pictures need the last two.
+_LESS_AROUND = (
+    "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup,PaintHolding,HttpsUpgrades",
+    "--disable-gpu-rasterization",
+)
+SELDOM = """{
+  const soon = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 80);
+}"""
+"""For `add_init_script`: a page that draws twelve times a second at most, as the processor does."""
 AXE = Path(os.environ.get("ALI3_AXE", PAGE / "node_modules" / "axe-core" / "axe.min.js"))
 with_axe = pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm --prefix viewer/page ci")
 _FINDINGS = """async () => (await axe.run(document, { resultTypes: ['violations'] })).violations
@@ -53,7 +64,7 @@ def headless_chromium() -> Iterator[Any]:
     program = chromium_or_skip()
     gc.collect()  # an error of another test may hold a browser of its own, beside which there can be no second
     with play.sync_playwright() as started:
-        arguments = ["--headless=new", *launch_arguments()]
+        arguments = ["--headless=new", *launch_arguments(), *_LESS_AROUND]
         made = started.chromium.launch(executable_path=program, args=arguments, timeout=60_000)
         yield made
         made.close()

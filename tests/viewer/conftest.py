@@ -19,24 +19,33 @@ _MAKE = """([scene, options]) => {
   window.view?.dispose();
   window.view = new ALi3Viewer.SceneView(document.getElementById('picture'), scene, options);
 }"""
-_NUMBERS = "numbers => { const all = numbers; view.update(all === null ? null : name => all[name]); view.render(); }"
+_NUMBERS = "numbers => view.update(numbers === null ? null : name => numbers[name])"
 
 
 class DrawnPage:
-    """A page with a `SceneView` called `view`."""
+    """A page with a `SceneView` called `view`, which is rendered once for all that is asked of it at given numbers."""
 
     def __init__(self, page: Any):
-        self.page = page
+        self._page, self._late = page, False
         self.errors: list[str] = []
         page.on("pageerror", lambda error: self.errors.append(str(error)))
 
+    @property
+    def page(self) -> Any:
+        if self._late:
+            self._page.evaluate("view.render()")
+        self._late = False
+        return self._page
+
     def show(self, scene: dict[str, Any], numbers: dict[str, float] | None = None, **options: Any) -> None:
         """Draw a scene, as drawn or at given numbers."""
-        self.page.evaluate(_MAKE, [scene, options])
+        self._page.evaluate(_MAKE, [scene, options])
+        self._late = False
         self.update(numbers)
 
     def update(self, numbers: dict[str, float] | None) -> None:
         self.page.evaluate(_NUMBERS, numbers)
+        self._late = True
 
     def ask(self, code: str, *values: Any) -> Any:
         """What an expression of `view` is worth, or a function of one value."""
@@ -46,13 +55,14 @@ class DrawnPage:
         """Pixels (height, width, 3) from 0 to 255, without the words over them."""
         from PIL import Image
 
-        self.page.evaluate("() => { document.body.className = 'hidden'; view.render(); }")
-        picture = self.page.screenshot()
+        self._page.evaluate("() => { document.body.className = 'hidden'; view.render(); }")
+        self._late = False
+        picture = self._page.screenshot()
         self.page.evaluate("document.body.className = ''")
         return np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
 
     def project(self, point: Any) -> tuple[float, float]:
-        return tuple(self.page.evaluate("point => view.project(point)", [float(x) for x in point]))
+        return tuple(self._page.evaluate("point => view.project(point)", [float(x) for x in point]))
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +88,7 @@ def drawn(_page: Any) -> Iterator[DrawnPage]:
     """An empty page of 320 x 180 pixels; an error in its script fails the test."""
     made = DrawnPage(_page)
     yield made
-    _page.evaluate("window.view?.dispose(); window.view = undefined;")
+    made.page.evaluate("window.view?.dispose(); window.view = undefined;")
     assert made.errors == []
 
 

@@ -8,17 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from tests.in_browser import wait_until
+from tests.in_browser import SELDOM, wait_until
 from viewer.recording import Recording
 from viewer.simulator_page import simulator_html
 
 ADDRESS = "http://simulator.test"
 RUNNING, REFUSED, BEHIND = 1, 2, 4
 _HEADER = struct.Struct("<4I10d")
-_RARELY = """{
-  const soon = window.requestAnimationFrame.bind(window);
-  window.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 80);
-}"""
 
 
 def variables(recording: Recording, inputs: tuple[str, ...]) -> list[dict[str, Any]]:
@@ -82,7 +78,7 @@ class Program:
         }
         self.count = 0
         self.epoch = 1
-        page.add_init_script(_RARELY)  # it draws all the time, on a processor of the tests
+        page.add_init_script(SELDOM)  # it draws all the time, on a processor of the tests
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", lambda m: m.type == "error" and self.errors.append(m.text))
 

@@ -23,7 +23,7 @@ from hosts.run.command import main as run
 from hosts.view import page_parts
 from hosts.view.command import main as view
 from mbs.scenes import prototype_car
-from tests.in_browser import wait_until
+from tests.in_browser import SELDOM, wait_until
 
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
 PLATFORMS = [fmpy.platform, "wasm32"]
@@ -70,8 +70,7 @@ class Page:
         self.page.on("console", lambda m: m.type in ("error", "warning") and self.wrong.append(m.text))
         self.page.on("pageerror", lambda e: self.wrong.append(str(e)))
         self.page.on("request", self._asked)
-        if script:
-            self.page.add_init_script(script)
+        self.page.add_init_script(SELDOM + script)
         self.page.goto(file.resolve().as_uri())
         self.ask("player.ready.catch(() => {})")
 

@@ -11,8 +11,6 @@ import pytest
 
 from tests.viewer.hand_scenes import floats, moving
 from tests.viewer.test_player import Opened
-from tests.viewer.test_player import browser as browser
-from tests.viewer.test_player import launch as launch
 from tests.viewer.test_player import opened as opened
 from viewer.recording import Recording
 
@@ -61,13 +59,13 @@ def straight(speed: float) -> Recording:
 
 
 @pytest.fixture(scope="module")
-def seen(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
+def seen(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
     from viewer.page_file import write_page
 
     file = tmp_path_factory.mktemp("paths") / "run.html"
     cones = [{"kind": "cone", "at": [way(1.9)[0], way(1.9)[1] - 0.6, 0.0]}]
     write_page(file, [run("one", scenery=cones)], options={"camera": "top"})
-    opened = Opened(browser, file)
+    opened = Opened(chromium, file)
     yield opened
     opened.page.close()
 

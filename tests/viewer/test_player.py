@@ -13,39 +13,13 @@ from PIL import Image
 
 from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import crank
-from viewer.browser import BrowserError, find_chromium, launch_arguments
+from viewer.browser import find_chromium, launch_arguments
 from viewer.notebook import html_of
 from viewer.page_file import write_page
 from viewer.recording import Recording
 
-sync_api = pytest.importorskip("playwright.sync_api")
-
 SIZE = (640, 360)
 TIMES = np.linspace(0.0, 3.0, 301)
-
-
-@pytest.fixture(scope="module")
-def launch() -> Iterator[Callable[[list[str]], Any]]:
-    """Starts a browser with arguments; all are closed in the end."""
-    try:
-        executable = find_chromium()
-    except BrowserError as error:
-        pytest.skip(str(error))
-    with sync_api.sync_playwright() as play:
-        browsers = []
-
-        def start(arguments: list[str]) -> Any:
-            browsers.append(play.chromium.launch(executable_path=executable, args=arguments))
-            return browsers[-1]
-
-        yield start
-        for browser in browsers:
-            browser.close()
-
-
-@pytest.fixture(scope="module")
-def browser(launch: Callable[[list[str]], Any]) -> Any:
-    return launch(launch_arguments())
 
 
 class Opened:
@@ -76,14 +50,14 @@ class Opened:
 
 
 @pytest.fixture
-def opened(browser: Any, tmp_path: Path) -> Iterator[Callable[..., Opened]]:
+def opened(chromium: Any, tmp_path: Path) -> Iterator[Callable[..., Opened]]:
     """Opens recordings in pages that are closed after the test: each that is open takes time of all others."""
     pages: list[Opened] = []
 
     def open_page(*recordings: Recording, hash_text: str = "", size: tuple[int, int] = SIZE, **options: Any) -> Opened:
         file = tmp_path / f"page {len(pages)} äö.html"
         write_page(file, recordings, options=options)
-        pages.append(Opened(browser, file, hash_text, size))
+        pages.append(Opened(chromium, file, hash_text, size))
         return pages[-1]
 
     yield open_page
@@ -92,12 +66,12 @@ def opened(browser: Any, tmp_path: Path) -> Iterator[Callable[..., Opened]]:
 
 
 @pytest.fixture(scope="module")
-def pair(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
+def pair(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
     """A crank, and a faster one that ends before it as its ghost."""
     other = crank(np.linspace(0.0, 2.5, 1001), 2.5, "faster </script><b>crank")
     file = tmp_path_factory.mktemp("pages") / "pair äö.html"
     write_page(file, (crank(TIMES), other), options={"plots": ["angle", "fx"], "camera": "orbit"})
-    opened = Opened(browser, file)
+    opened = Opened(chromium, file)
     yield opened
     opened.page.close()
 
@@ -309,23 +283,23 @@ def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> No
     assert page.page.get_by_role("img", name="drawing of crank").count() == 1  # its own stands
 
 
-def test_without_webgl_there_is_one_sentence_and_the_diagrams(
-    launch: Callable[[list[str]], Any], tmp_path: Path
-) -> None:
+def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp_path: Path) -> None:
     write_page(tmp_path / "p.html", crank(TIMES), options={"plots": ["fx"]})
     arguments = [a for a in launch_arguments() if "angle" not in a and "swiftshader" not in a]
-    page = Opened(launch([*arguments, "--disable-3d-apis"]), tmp_path / "p.html")
+    blind = chromium.browser_type.launch(executable_path=find_chromium(), args=[*arguments, "--disable-3d-apis"])
+    page = Opened(blind, tmp_path / "p.html")
     assert "no WebGL" in page("player.problem")
     assert "no WebGL" in page.page.inner_text(".ali3-view")
     page.seek(1.0)
     assert page.page.locator(".ali3-chart").count() == 1
     assert [line for line in page.said if line.startswith("error")] == []
+    blind.close()
 
 
 @pytest.mark.slow
-def test_in_a_notebook_it_runs_in_its_frame(browser: Any, tmp_path: Path) -> None:
+def test_in_a_notebook_it_runs_in_its_frame(chromium: Any, tmp_path: Path) -> None:
     (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
-    page = browser.new_page(viewport={"width": 640, "height": 400})
+    page = chromium.new_page(viewport={"width": 640, "height": 400})
     said: list[str] = []
     page.on("console", lambda message: said.append(message.text))
     page.on("pageerror", lambda error: said.append(str(error)))

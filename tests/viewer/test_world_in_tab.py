@@ -13,7 +13,7 @@ from fmu_src.build.build import build_fmu
 from hosts.simulator.command import main as simulator
 from hosts.view.command import main as view
 from mbs.scenes import prototype_car
-from tests.in_browser import wait_until
+from tests.in_browser import SELDOM, wait_until
 from tests.viewer.bars import check_bar
 
 MOST_BYTES = 8e6
@@ -34,6 +34,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
     assert file.stat().st_size <= MOST_BYTES
     assert "Thin ground: its heights are off by at most" in capsys.readouterr().out
     page = chromium.new_page(viewport={"width": 640, "height": 360})
+    page.add_init_script(SELDOM)
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(file.as_uri())

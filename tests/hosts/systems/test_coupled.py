@@ -220,7 +220,7 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["yaw control", "torque vectoring", "two cars"])
+@pytest.mark.parametrize("name", quick({"yaw control"}, ["yaw control", "torque vectoring", "two cars"], "proof"))
 def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(name: str) -> None:
     """Against the same as one."""
     held, again = (run(name, 0.004, inputs=inputs)[SYSTEMS[name].measure][-1] for inputs in ("held", "repeated"))

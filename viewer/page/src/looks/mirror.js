@@ -3,11 +3,22 @@ import * as THREE from "three";
 
 /** Side of the coarse mirror; three.js asks for at least 256, which takes the processor seconds. */
 const COARSE = 64;
+/** Side of what it is blurred from; by 16, as three.js does, most of the time until a first picture goes into it. */
+const SUMMED = 8;
 
-class CoarseGenerator extends THREE.PMREMGenerator {
-  _setSize() {
-    this._cubeSize = COARSE;
-  }
+/** @param {THREE.WebGLRenderer} renderer */
+function coarseGenerator(renderer) {
+  const made = new THREE.PMREMGenerator(renderer);
+  const inside = /** @type {Data} */ (made); // three.js keeps these to itself
+  const render = inside._renderCube.bind(made);
+  inside._setSize = () => (inside._cubeSize = COARSE);
+  inside._renderCube = (/** @type {Data} */ target, /** @type {number} */ lod, /** @type {THREE.ShaderMaterial} */ material) => {
+    const { sourceSize, sourceLod } = material.uniforms;
+    if (sourceSize) [sourceSize.value, sourceLod.value] = [SUMMED, Math.log2(COARSE / SUMMED)];
+    // The second level's roughness of 0.18 blurs by less than its pixels.
+    render(target, lod, lod === 1 ? inside._ggxMaterial : material);
+  };
+  return made;
 }
 
 /**
@@ -17,7 +28,7 @@ class CoarseGenerator extends THREE.PMREMGenerator {
  * @returns {THREE.WebGLCubeRenderTarget} its texture is the environment of a scene
  */
 export function mirrorOf(renderer, around, fine) {
-  const generator = fine ? new THREE.PMREMGenerator(renderer) : new CoarseGenerator(renderer);
+  const generator = fine ? new THREE.PMREMGenerator(renderer) : coarseGenerator(renderer);
   const target = generator.fromScene(around, 0, 0.1, 100);
   generator.dispose();
   around.traverse((/** @type {THREE.Mesh} */ part) => {
