@@ -10,7 +10,6 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_mechanisms
-from mbs.results.glance import QUICK, TWICE, glances
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 
@@ -152,10 +151,3 @@ def test_a_run_by_hand_is_judged_as_by_simulate() -> None:
     for run in runs:
         with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.[6-9] % .* steps of 0\.0011"):
             run()
-
-
-def test_where_one_iteration_shows_what_long_steps_miss() -> None:
-    """Not of forces, nor of elements that stick and slide."""
-    assert glances(mbs.Settings(), {"m": ["x"]}, False) == QUICK
-    assert glances(mbs.Settings(), {"m": ["x"]}, True) == TWICE
-    assert glances(mbs.Settings(), {"m": ["x"], "N": ["force"]}, False) == TWICE
