@@ -28,6 +28,8 @@ SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
+UNRESOLVED = 0.5  # missed share above which a period of what changes the velocities has less than six steps
+CLOSE = 0.01  # of the range: two runs that do not resolve it are hardly so near to each other by chance
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -142,6 +144,13 @@ def drift(report: Report) -> float:
     balance = report.energy_balance if abs(report.energy_error) > report.energy_floor else 0.0
     turned = report.velocity_path / report.speed_peak if report.speed_peak > 0.0 else 0.0
     return balance * (1.0 + turned)
+
+
+def missed_share(report: Report) -> float:
+    """Changes of velocity that ``v + h a`` does not see, over all: half a step times w of a vibration or of an impact
+    on a spring, whose mass would swing on it with w.
+    """
+    return report.predictor_path / report.velocity_path if report.velocity_path > 0.0 else 0.0
 
 
 def divisor(steps: int, halvings: int) -> int:

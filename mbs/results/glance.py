@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from mbs.results.accuracy import Accuracy
+from mbs.results.accuracy import CLOSE, UNRESOLVED, Accuracy, missed_share
+from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 
@@ -22,16 +23,24 @@ class Glance:
     """Largest one, of the range, with which the run is right."""
 
 
-QUICK = (Glance(8, 1, 0.1), Glance(2, 1, 0.03))
+QUICK = (Glance(8, 1, 0.15), Glance(4, 1, 0.1), Glance(2, 1, 0.03))
 """Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
+FORCES = (Glance(2, 0, 0.03),)  # errors of order one, behind abrupt events, are as large as the difference
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
 
-def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: bool) -> tuple[Glance, ...]:
-    """The coarser runs in turn; too long steps miss forces of contacts, and elements whose `states` stick or slide."""
-    smooth = "N" not in groups and not states
-    return QUICK if settings.method in LIMITED and not settings.step_iterations and smooth else TWICE
+def glances(
+    settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, report: Report
+) -> tuple[Glance, ...]:
+    """The coarser runs in turn that resolve what changes the velocities, or the nearest one, which then may agree by
+    chance. Too long steps miss forces of contacts, and elements whose `states` stick or slide.
+    """
+    if settings.method not in LIMITED or settings.step_iterations:
+        return TWICE
+    chosen = FORCES if "N" in groups else TWICE if states else QUICK
+    resolved = tuple(glance for glance in chosen if glance.times * missed_share(report) <= UNRESOLVED)
+    return resolved or (replace(chosen[-1], difference=CLOSE),)
 
 
 def difference_from(known: Accuracy, method: str, glance: Glance) -> float:

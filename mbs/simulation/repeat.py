@@ -85,21 +85,26 @@ class Repeats:
 
     def coarser(self, glance: Glance) -> Accuracy | None:
         """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere."""
-        coordinates, together = bool(self.run[1]), math.gcd(self.every, glance.times)
-        thin, h = glance.times // together, glance.times * self.h
+        # About `glance.times` of its steps: some that end at all samples where it can, else one in `thin` samples.
+        steps, thin = max(round(self.every / glance.times), 1), 1
+        if self.every < glance.times:
+            thin = round(glance.times / self.every)
+        times = thin * self.every / steps
+        h, intervals = times * self.h, len(self.run[0].t) - 1
+        coordinates, loads = bool(self.run[1]), "N" in self.groups and intervals <= accuracy.WHOLE
         long_enough = self.run[0].t[-1] - self.run[0].t[0] >= h - 0.5 * self.h
-        enough = glance.times == 2 or (len(self.run[0].t) - 1) // thin >= FEWEST
-        if (coordinates and thin > 1) or not (long_enough and enough):
+        enough = glance.times == 2 or intervals // thin >= FEWEST
+        if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
             return None
         try:
-            twin = self._again(h, self.every // together, 1.0 / glance.times, glance.iterations)
+            twin = self._again(h, steps, 1.0 / times, glance.iterations)
         except SimulationError:
             return None
         run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
         shared = min(len(run[0].t), len(twin[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(twin[1]) != len(run[1])):
             return None
-        return self._compared(run, twin, h, 1.0 / glance.times)
+        return self._compared(run, twin, h, 1.0 / times)
 
     def finer(self, parts: int) -> Accuracy:
         """By a run whose steps are shorter by so many times.
@@ -181,10 +186,11 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
-    A run that is not plainly smooth is compared with ones of eight times and twice the step. Where they differ it is
-    repeated with half the step, near the limit with a quarter; where these two differ so much that the verdict may
-    change, with an eighth; with less where steps were halved or miss a peak or jump of an input. With `Repeats.before`
-    no longer steps are tried, with `Repeats.twin` the first of the shorter ones alone.
+    A run that is not plainly smooth is compared with ones of eight and four times and twice the step. Where they differ
+    it is repeated with half the step, near the limit with a quarter; where these two differ so much that the verdict
+    may change, with an eighth; with less where steps were halved or miss a peak or jump of an input. Where an input
+    jumps within a step, and with `Repeats.before`, no longer steps are tried, with `Repeats.twin` the first of the
+    shorter ones alone.
 
     Parameters
     ----------
@@ -208,8 +214,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     doubt = accuracy.REPEAT if finest else accuracy.doubt(report, report.steps, report.halvings, method)
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
-    if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0):
+    if not always and repeats.before is None and doubt == accuracy.SCREEN and not repeats.jumps:
+        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, report):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, glance)
             if screened is not None and apart <= glance.difference:
@@ -220,6 +226,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     try:
         known = repeats.finer(parts)
         least, most = accuracy.NEAR_LIMIT
+        least = accuracy.CLOSE if accuracy.missed_share(report) > accuracy.UNRESOLVED else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
         if not repeats.twin and least < (known.error or 0.0) < most:
             known = repeats.decided(repeats.finer(2 * parts), 4 * parts)

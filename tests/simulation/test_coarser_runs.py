@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,20 +11,24 @@ import pytest
 import mbs
 from benchmarks.methods import random_mechanisms
 from benchmarks.references.cases import system_of
+from mbs.elements.spring_damper import EndStops
+from mbs.results.accuracy import CLOSE, missed_share
+from mbs.results.glance import FORCES, QUICK, TWICE, glances
 
 
 @pytest.mark.parametrize(
-    ("h", "cost", "more"),
+    ("h", "times", "cost", "more"),
     [
-        pytest.param(0.016, 0.625, {}, id="eight times is too far off"),
-        pytest.param(0.005, 0.5, {"method": "energy_momentum"}, id="iterations cannot be limited"),
-        pytest.param(0.005, 0.5, {"settings": mbs.Settings(step_iterations=4)}, id="they are limited already"),
+        pytest.param(0.01, 4.0, 0.375, {}, id="eight times is too far off"),
+        pytest.param(0.016, 2.0, 0.875, {}, id="four times is too"),
+        pytest.param(0.005, 2.0, 0.5, {"method": "energy_momentum"}, id="iterations cannot be limited"),
+        pytest.param(0.005, 2.0, 0.5, {"settings": mbs.Settings(step_iterations=4)}, id="they are limited already"),
     ],
 )
-def test_a_right_run_may_need_one_of_twice_the_step(h: float, cost: float, more: dict[str, Any]) -> None:
+def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost: float, more: dict[str, Any]) -> None:
     run = mbs.simulate(system_of("pendulum"), 10.0, h, progress=False, **more)
     assert run.accuracy is not None
-    assert run.accuracy.repeated_with == 2.0 * h
+    assert run.accuracy.repeated_with == times * h
     assert run.accuracy.repeat_cost == cost
     assert not run.accuracy.message
 
@@ -47,3 +52,69 @@ def test_an_error_that_falls_slowly_is_told() -> None:
     system = mbs.compile(random_mechanisms.model_of(drawing))
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about (5\.[5-9]|6) %"):
         mbs.simulate(system, drawing.span, drawing.span / 150, every=3, progress=False)
+
+
+def ball(stiffness: float, gap: float, loads: bool = False) -> mbs.System:
+    """1 kg that flies with 1 m/s against a stop without loss."""
+    m = mbs.Model("ball", dimension=2, gravity=(0.0, 0.0))
+    b = m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
+    m.point_on_line("line", (b, (0.0, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
+    m.initial_velocity(b, linear=(1.0, 0.0))
+    stop = EndStops(bump_length=1.0 - gap, bump_stiffness=stiffness)
+    wall = m.spring_damper("wall", b, (m.ground, (1.0, 0.0)), stiffness=0.0, free_length=1.0, stops=stop)
+    m.sense_position("x", b, component="x")
+    if loads:
+        m.sense_element("force", wall, "force")
+    return mbs.compile(m)
+
+
+def place(stiffness: float, gap: float, t: np.ndarray) -> np.ndarray:
+    """Of the ball: half a period of its vibration on the stop, and back."""
+    w = np.sqrt(stiffness)
+    within = np.clip(t - gap, 0.0, np.pi / w)
+    return np.asarray(np.minimum(t, gap) + np.sin(w * within) / w - np.maximum(t - gap - np.pi / w, 0.0))
+
+
+@pytest.mark.parametrize(("stiffness", "h"), [(1e3, 0.0125), (4e3, 0.00625), (8e3, 0.01)])
+def test_the_missed_share_is_half_a_step_times_the_frequency_of_an_impact(stiffness: float, h: float) -> None:
+    run = mbs.simulate(ball(stiffness, 0.5), 1.25, h, estimate_error=False, progress=False)
+    assert run.report is not None
+    assert missed_share(run.report) == pytest.approx(0.5 * h * np.sqrt(stiffness), rel=0.1)
+
+
+def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
+    """Two steps in a contact: the ball comes back 24 % too slow, and by chance as slow with eight times the step."""
+    system, h = ball(8e4, 0.5), 0.01
+    run = mbs.simulate(system, 1.25, h, estimate_error=False, progress=False)
+    coarse = mbs.simulate(
+        system, 1.2, 8 * h, settings=mbs.Settings(step_iterations=1), estimate_error=False, progress=False
+    )
+    assert np.abs(run["x"] - place(8e4, 0.5, run.t)).max() > 0.3
+    assert np.abs(coarse["x"] - run["x"][:121:8]).max() < 0.1 * np.ptp(run["x"])
+    with pytest.warns(mbs.AccuracyWarning, match="off by at least"):
+        mbs.simulate(system, 1.25, h, progress=False)
+
+
+def test_a_sample_that_one_in_two_leaves_out_is_compared() -> None:
+    """A contact that one sample sees; of 39 steps from one to the next 20 longer ones are made, not 39 in two."""
+    stiffness, gap, h, every = 4e4, 0.5, 0.001, 39
+    run = mbs.simulate(ball(stiffness, gap, loads=True), 52 * every * h, h, every=every, progress=False)
+    force = stiffness * np.maximum(place(stiffness, gap, run.t) - gap, 0.0)
+    assert np.flatnonzero(force).tolist() == [13]
+    assert run.accuracy is not None
+    assert run.accuracy.repeated_with == pytest.approx(every / 20 * h, rel=1e-12)
+    assert "N" in run.accuracy.units
+
+
+def test_which_coarser_runs_are_made() -> None:
+    """One iteration shows what long steps miss, but not of forces nor of what sticks; none where the run is coarse."""
+    run = mbs.simulate(ball(1e3, 0.5), 1.25, 0.005, estimate_error=False, progress=False)
+    assert run.report is not None
+    still, moves, settings = replace(run.report, predictor_path=0.0), {"m": ["x"]}, mbs.Settings()
+    abrupt = replace(run.report, predictor_path=run.report.velocity_path)
+    assert glances(settings, moves, False, still) == QUICK
+    assert glances(settings, moves, True, still) == TWICE
+    assert glances(settings, {**moves, "N": ["force"]}, False, still) == FORCES
+    assert glances(settings, moves, False, run.report) == QUICK[1:]
+    assert glances(settings, moves, False, abrupt) == (replace(QUICK[-1], difference=CLOSE),)
+    assert glances(mbs.Settings(method="radau_5"), moves, False, abrupt) == TWICE
