@@ -74,7 +74,7 @@ static bool follows(const slave *s, size_t hub) {
   return false;
 }
 
-/* A tyre that answers once in a long step shakes its wheel, a slow one first. No derivative is known in the first step. */
+/* A tyre that answers once in a long step shakes its wheel, a slow one first. The first step knows no derivative. */
 static void watch_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
