@@ -1,15 +1,19 @@
-"""Copies of the tyres of the hatchback in a second place, at the ports of its hubs, and the table of where they shake.
+"""Copies of the tyres of a car in a second place, at the ports of its hubs, and the table of where they shake.
 
 python -m tests.vehicle.second_tyres
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from functools import cache
+
 import numpy as np
 
 import mbs
 from mbs.elements import PlaneRoad
 from mbs.kernel.binding import KernelError
+from mbs.vehicle import Car, load
 from tests.elements.harness import Element
 from tests.vehicle.test_ports import WHEELS, hatchback, simulation
 
@@ -17,11 +21,16 @@ HUB = [f"hub_{letter}{c}" for letter in "FM" for c in "xyz"]
 INNER = 0.002  # s
 
 
+@cache
+def saloon() -> Car:
+    """Tyres of a property file, with less damping of their own."""
+    return load("saloon")
+
+
 class SecondTyre:
     """A tyre that knows how its hub moves alone."""
 
-    def __init__(self, wheel: str) -> None:
-        car = hatchback()
+    def __init__(self, wheel: str, car: Car) -> None:
         record = next(e for e in car.model().elements if e.name == f"tyre {wheel}")
         self.wheel, self.element = wheel, Element(record, PlaneRoad(friction=car.road.friction))
         self.states = np.array(record.states)
@@ -38,15 +47,22 @@ class SecondTyre:
 
 
 def drive(
-    step: float, speed: float, *, slopes: bool = False, time: float = 0.6, steer: float = 0.3, throttle: float = 0.0
+    step: float,
+    speed: float,
+    *,
+    make: Callable[[], Car] = hatchback,
+    slopes: bool = False,
+    time: float = 0.6,
+    steer: float = 0.3,
+    pedals: Mapping[str, float] | None = None,
 ) -> tuple[float, float, float, mbs.Simulation]:
     """Deviations of load, path and speed of a wheel, each over its own size, from the closed car; and the loop.
 
     With `slopes` the forces go on within a step as they went in the last one, as by derivatives of inputs.
     """
-    closed, loop = simulation(hatchback, speed), simulation(hatchback, speed, tyre="hub")
+    closed, loop = simulation(make, speed), simulation(make, speed, tyre="hub")
     names = [entry["name"] for entry in loop.system.meta["inputs"]]
-    tyres = [SecondTyre(w) for w in WHEELS]
+    tyres = [SecondTyre(w, make()) for w in WHEELS]
     places = [[names.index(f"wheel_{w}.{n}") for n in HUB] for w in WHEELS]
     n, loads, last = max(1, round(step / INNER)), [], None
     for k in range(round(time / step)):
@@ -58,7 +74,8 @@ def drive(
         loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, told, strict=True)])
         for s in (closed, loop):
             s.set_input("steering", steer * np.sin(5.0 * s.time))
-            s.set_input("throttle", throttle)
+            for pedal, value in (pedals or {}).items():
+                s.set_input(pedal, value)
         for place, values in zip(places, wrench, strict=True):
             for index, value in zip(place, values, strict=True):
                 loop.set_input(names[index], float(value))
@@ -80,20 +97,24 @@ def drive(
 
 def main() -> None:
     """Print the deviation of the speed of the wheels, in per cent, held and with derivatives."""
-    steps = (0.001, 0.002, 0.005, 0.01, 0.02)
-    print("| speed, m/s | " + " | ".join(f"{1e3 * step:g} ms" for step in steps) + " |")
-    print("| --- |" + " --- |" * len(steps))
-    for speed in (20.0, 10.0, 5.0, 1.0, 0.0):
-        cells = []
-        for step in steps:
-            spins = []
-            for slopes in (False, True):
-                try:
-                    spins.append(f"{100.0 * drive(step, speed, slopes=slopes, time=1.0)[2]:.2g}")
-                except KernelError:
-                    spins.append("fails")
-            cells.append(", ".join(spins))
-        print(f"| {speed:g} | " + " | ".join(cells) + " |", flush=True)
+    steps = (0.001, 0.002, 0.005, 0.008, 0.01)
+    print("| car | speed, m/s | " + " | ".join(f"{1e3 * step:g} ms" for step in steps) + " |")
+    print("| --- | --- |" + " --- |" * len(steps))
+    drives = [(speed, 0.0) for speed in (20.0, 10.0, 5.0, 1.0, 0.0)] + [(20.0, 1.0)]
+    for make in (hatchback, saloon):
+        for speed, brake in drives:
+            steer, cells = 0.3 * (1.0 - brake), []
+            for h in steps:
+                spins = []
+                for slopes in (False, True):
+                    try:
+                        run = drive(h, speed, make=make, slopes=slopes, time=1.0, steer=steer, pedals={"brake": brake})
+                        spins.append(f"{100.0 * run[2]:.2g}")
+                    except KernelError:
+                        spins.append("fails")
+                cells.append(", ".join(spins))
+            name = f"{make.__name__}, full brakes" if brake else make.__name__
+            print(f"| {name} | {speed:g} | " + " | ".join(cells) + " |", flush=True)
 
 
 if __name__ == "__main__":

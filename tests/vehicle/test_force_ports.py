@@ -7,7 +7,7 @@ import pytest
 
 import mbs
 from mbs.vehicle import CarFileError
-from tests.vehicle.second_tyres import drive
+from tests.vehicle.second_tyres import drive, saloon
 from tests.vehicle.test_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
 
 STORED = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
@@ -103,7 +103,7 @@ def test_on_ice_wind_is_the_only_force(speed: float, wind: float, heading: float
 @pytest.mark.slow
 def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> None:
     """By order one, held over 2 and 4 ms."""
-    (fine, path, _, loop), (coarse, *_) = (drive(step, 15.0, throttle=0.4) for step in (0.002, 0.004))
+    (fine, path, _, loop), (coarse, *_) = (drive(step, 15.0, pedals={"throttle": 0.4}) for step in (0.002, 0.004))
     assert fine < 1e-2
     assert path < 2e-3
     assert 1.6 < coarse / fine < 2.6
@@ -111,6 +111,16 @@ def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> N
     works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
     assert abs(works["energy.ports"]) > 100.0
     assert works["energy.tyres"] == 0.0
+
+
+@pytest.mark.slow
+def test_a_tyre_with_little_damping_shakes_earlier_and_is_calm_where_the_fmu_says_so() -> None:
+    """At 5 m/s: 4 ms are too long for held forces, 2 ms and, with derivatives, 5 ms are not."""
+    steps = ((0.004, False), (0.002, False), (0.005, True))
+    shaken, held, followed = (drive(h, 5.0, make=saloon, slopes=slopes, time=1.0)[2] for h, slopes in steps)
+    assert shaken > 0.05
+    assert held < 0.02
+    assert followed < 1e-3
 
 
 @pytest.mark.slow

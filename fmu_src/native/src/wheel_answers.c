@@ -6,8 +6,9 @@
 #include "slave.h"
 
 static const double FAR_AWAY = 10.0; /* m */
-static const double SLOW = 10.0; /* m/s; this and the steps are measured, see docs/fmu.md */
-static const double LONG_STEP = 5.001e-3, LONGEST_STEP = 10.001e-3; /* s */
+static const double SLOW = 20.0; /* m/s; this and the steps are measured, see docs/fmu.md */
+static const double CALM[2][2] = {{2e-3, 5e-3}, {5e-3, 8e-3}}; /* s: held, along derivatives; slow, quick */
+enum { HUB = 6 }; /* force and moment */
 
 /* Before a step or a start. The last normal is that of the kernel, at a start that of the table. */
 void slave_hold_normals(slave *s) {
@@ -65,18 +66,29 @@ static void watch_answer(slave *s, size_t i) {
             ali3_time(s->fidelity.kernel), v->name, s->value[i], s->value[i + 1], s->value[i + 2], sqrt(square));
 }
 
-/* A tyre that answers once in a long step shakes a slow wheel. */
+/* Whether a derivative of the force or moment on a hub was set for the step that was made. */
+static bool follows(const slave *s, size_t hub) {
+  const double *slope = &s->made_slope[hub * SLAVE_MOST_ORDERS];
+  for (size_t k = 0; s->made.sloped && k < HUB * SLAVE_MOST_ORDERS; k++)
+    if (slope[k] != 0.0) return true;
+  return false;
+}
+
+/* A tyre that answers once in a long step shakes its wheel, a slow one first. The first step knows no derivative. */
 static void watch_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
   const double speed = sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
-  if (!(step > LONGEST_STEP || (step > LONG_STEP && speed < SLOW))) return;
+  const bool followed = follows(s, i);
+  const double *calm = CALM[followed], time = ali3_time(s->fidelity.kernel);
+  if (!(step > 1.001 * calm[speed >= SLOW]) || time - s->calls.start_time < 1.5 * step) return;
   s->said[i] |= SLAVE_FAR;
   slave_say(s, SLAVE_WARNING,
-            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of tyres "
-            "that are held for longer than 5 ms below %g m/s, or for longer than 10 ms, may shake it. Take shorter "
-            "communication steps. This is said once.",
-            ali3_time(s->fidelity.kernel), v->name, speed, step, SLOW);
+            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of tyres that %s "
+            "for longer than %g ms below %g m/s, or than %g ms above, may shake it. Take shorter communication steps. "
+            "This is said once.",
+            time, v->name, speed, step, followed ? "follow derivatives" : "are held", 1e3 * calm[0], SLOW,
+            1e3 * calm[1]);
 }
 
 /* After the outputs are known. */

@@ -84,7 +84,7 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS, indirect=True)
 def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> None:
-    with Car(ported, step=0.004) as car:
+    with Car(ported, step=0.002) as car:
         ports = ports_of(car)
         for port in ports:
             car.reset(**{"initial.speed": 10.0})
@@ -92,7 +92,7 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
             given = level(car)
             others = [name for name in car.inputs if name != port]
             car.fmu.setter(others)([given[name] for name in others])
-            car.fmu.step(0.0, 0.004)
+            car.fmu.step(0.0, 0.002)
             (silent,) = (m for m in car.messages[told:] if "not set before" in m)
             assert f"'{port}'" in silent
             car.reset(**{"initial.speed": 10.0})
@@ -108,6 +108,38 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
             assert len(said) == (port != "gear_request"), port
             assert all("was set to nan and holds its last value" in m for m in said)
             assert np.isfinite(car.read(("chassis.z", "energy.total"))).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
+@pytest.mark.parametrize(
+    ("speed", "step", "slope", "words"),
+    [
+        (10.0, 0.002, 0.0, None),
+        (10.0, 0.004, 0.0, "are held for longer than 2 ms below 20 m/s, or than 5 ms above"),
+        (30.0, 0.004, 0.0, None),
+        (30.0, 0.006, 0.0, "are held"),
+        (10.0, 0.004, 1.0, None),
+        (10.0, 0.006, 1.0, "follow derivatives for longer than 5 ms below 20 m/s, or than 8 ms above"),
+        (30.0, 0.008, 1.0, None),
+    ],
+)
+def test_a_step_that_is_long_for_a_tyre_is_told_once_at_each_wheel(
+    ported: Path, speed: float, step: float, slope: float, words: str | None
+) -> None:
+    """By what `tests.vehicle.second_tyres` measures; without derivatives in the first step, as no host knows any."""
+    with Car(ported, step=step) as car:
+        car.reset(**{"initial.speed": speed, "step_size": min(step, 0.002)})
+        given, hubs = level(car), [f"wheel_{w}.hub_Fx" for w in WHEELS]
+        follow = car.fmu.slope_setter(hubs)
+        for k in range(4):
+            if k > 0 and slope:
+                follow([slope] * len(hubs))
+            car.step([given[name] for name in car.inputs])
+            car.read(("speed",))
+        said = [m for m in car.messages if "may shake it" in m]
+        assert len(said) == (0 if words is None else len(WHEELS))
+        assert all(words in m for m in said if words)
 
 
 @pytest.mark.slow

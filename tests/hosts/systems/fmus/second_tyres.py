@@ -6,6 +6,7 @@ from typing import Any
 
 from tests.hosts.systems.partner import Partner
 from tests.vehicle.second_tyres import HUB, WHEELS, SecondTyre
+from tests.vehicle.test_ports import hatchback
 
 READ = (
     *("x", "y", "z", "axis_x", "axis_y", "axis_z"),
@@ -21,7 +22,7 @@ class TyresPartner(Partner):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.tyres = [SecondTyre(w) for w in WHEELS]
+        self.tyres = [SecondTyre(w, hatchback()) for w in WHEELS]
 
     def find(self, step: float) -> None:
         for tyre in self.tyres:
