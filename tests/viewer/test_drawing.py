@@ -349,3 +349,19 @@ def test_a_kerb_far_away_leaves_the_road_under_the_car(drawn):
     assert grey.max(axis=2).mean() - grey.min(axis=2).mean() < 12  # asphalt, not sky
     drawn.update(at(1e6 - 0.3, 0, 0))
     assert np.abs(drawn.picture() - before).max() > 60  # the stone of the kerb
+
+
+@pytest.mark.slow
+def test_balls_mirror_lamps_in_a_coarse_picture_as_in_a_fine_one(drawn):
+    """Of the roughness of each material; a fine picture's mirror is made by three.js alone."""
+    balls = [
+        {"kind": "sphere", "frame": "ground", "at": [0, k - 1.5, 0.6], "radius": 0.45, "material": material}
+        for k, material in enumerate(("chrome", "rim", "steel", "rubber"))
+    ]
+    pictures = []
+    for quality in ("low", "high"):
+        drawn.show(scene(shapes=balls, planar=True, extent=3.0), quality=quality, antialias=False)
+        pictures.append(drawn.picture())
+    off = np.abs(np.subtract(*pictures))
+    assert off.mean() < 0.1
+    assert (off.max(axis=2) > 12).sum() < 20, "lamps have no other edges"

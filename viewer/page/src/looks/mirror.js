@@ -3,7 +3,7 @@ import * as THREE from "three";
 
 /** Side of the coarse mirror; three.js asks for at least 256, which takes the processor seconds. */
 const COARSE = 64;
-/** Side of what it is blurred from; by 16, as three.js does, most of the time until a first picture goes into it. */
+/** Side of what its rough levels sum; by 16, as three.js does, most of the time until a first picture goes into it. */
 const SUMMED = 8;
 
 /** @param {THREE.WebGLRenderer} renderer */
@@ -13,10 +13,11 @@ function coarseGenerator(renderer) {
   const render = inside._renderCube.bind(made);
   inside._setSize = () => (inside._cubeSize = COARSE);
   inside._renderCube = (/** @type {Data} */ target, /** @type {number} */ lod, /** @type {THREE.ShaderMaterial} */ material) => {
-    const { sourceSize, sourceLod } = material.uniforms;
+    const { roughness, sourceSize, sourceLod } = material.uniforms;
     if (sourceSize) [sourceSize.value, sourceLod.value] = [SUMMED, Math.log2(COARSE / SUMMED)];
-    // The second level's roughness of 0.18 blurs by less than its pixels.
-    render(target, lod, lod === 1 ? inside._ggxMaterial : material);
+    const rays = inside._ggxMaterial; // three.js would sum 768 places for each pixel of the second level, too
+    if (lod === 1) rays.uniforms.roughness.value = roughness.value;
+    render(target, lod, lod === 1 ? rays : material);
   };
   return made;
 }
