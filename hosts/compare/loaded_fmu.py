@@ -46,8 +46,12 @@ def smoothed(speed: Signal) -> Signal:
 
 def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     speed = smoothed(speed)
-    gains = (gain * min(1.0, _FINE / step) for gain in _GAINS)
-    return SpeedHolder(lambda t: float(np.interp(t, speed.time, speed.values)), *gains, _ACCELERATION_GAIN, pedal=pedal)
+    own, integral = (gain * min(1.0, _FINE / step) for gain in _GAINS)
+
+    def wanted(t: float) -> float:
+        return float(np.interp(t, speed.time, speed.values))
+
+    return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal)
 
 
 class LoadedFmu:

@@ -310,6 +310,28 @@ class TestByHand:
         assert simulation.report.energy_balance < 0.036
 
 
+@pytest.mark.parametrize(("force", "h"), [(4.0, 0.05), (12.0, 0.06)])
+def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them(force, h):
+    """A pendulum on a cart that is pulled: within each third it goes about half as far as in all, and is 3 % off."""
+    m = Model("cart", dimension=2)
+    cart = m.body("cart", mass=20.0, com=(0.0, 0.0), inertia=1.0)
+    m.prismatic("rail", cart, m.ground, axis=(1.0, 0.0))
+    m.force("pull", cart, inputs=(m.input("pull", unit="N"), None))
+    rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.02)
+    m.revolute("hinge", cart, rod, point=(0.0, 0.0))
+    names = [f"{body.name}.{c}" for body in (cart, rod) for c in "xy"]
+    for name, body in zip(names, (cart, cart, rod, rod), strict=True):
+        m.sense_position(name, body, component=name[-1])
+    system, inputs = compile(m), {"pull": force}
+    simulation = Simulation(system, inputs=inputs)
+    parts = [simulation.run(k * h, h, progress=False) for k in (24, 48, 72)]  # warnings are errors here
+    whole = simulate(system, 72 * h, h, inputs=inputs, **QUIET)
+    fine = simulate(system, 72 * h, h / 32, inputs=inputs, every=32, estimate_error=False, **QUIET)
+    largest = max(np.ptp(fine[name]) for name in names)
+    assert max(np.abs(whole[name] - fine[name]).max() for name in names) < 0.05 * largest
+    assert max(np.ptp(part[name]) for part in parts for name in names) < 0.8 * largest
+
+
 def test_a_refused_run_carries_what_was_known():
     with pytest.raises(SimulationError) as caught:
         simulate(system_of("cart_pole"), 0.6, 1e-3, **QUIET)
