@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,8 @@ INK = """bar => getComputedStyle(document.querySelector(bar + ' button')).color
   .match(/[0-9]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0)"""
 NAMES = f"""() => ({SEEN})().map((part) =>
   (part.labels?.[0] ?? part).textContent.trim() || part.title || part.ariaLabel)"""
+BOXES = """() => ['.a3-controls', '.a3-left', '.a3-cluster', '.a3-inset'].map((part) => document.querySelector(part))
+  .filter((part) => part?.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
 KINDS = ("live", "recorded", "plots", "simulator")
 BARS = {"live": ".a3-bar", "recorded": ".ali3-bar", "plots": ".ali3-bar", "simulator": ".a3-controls"}
 
@@ -148,6 +151,24 @@ def test_figures_in_a_low_page_leave_the_middle_of_the_picture_free(live: Path, 
     assert figures["right"] <= picture["left"] + 0.4 * picture["width"]
     assert figures["height"] <= 0.5 * picture["height"]
     assert figures["right"] < banner["left"]
+
+
+@pytest.mark.slow
+def test_no_instrument_of_the_simulator_lies_over_another_in_small_windows(chromium: Any) -> None:
+    """The smallest is 800 x 450 pixels at a zoom of 200 %."""
+    with dark_page(chromium) as page:
+        open_simulator(page)
+        over = []
+        for width, height in ((400, 225), (640, 360), (800, 450)):
+            page.set_viewport_size({"width": width, "height": height})
+            boxes = page.evaluate(BOXES)
+            assert len(boxes) >= 2, "the bar and the cluster"
+            over += [
+                (width, a, b)
+                for a, b in combinations(boxes, 2)
+                if all(a[low] < b[high] and b[low] < a[high] for low, high in (("left", "right"), ("top", "bottom")))
+            ]
+    assert over == []
 
 
 @with_axe

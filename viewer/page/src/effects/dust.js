@@ -1,5 +1,6 @@
 // Dust, grass, spray and smoke behind the wheels.
 import * as THREE from "three";
+import { discard } from "../looks/discard.js";
 import { subtract } from "../scene/math.js";
 import { Cloud, KINDS } from "./cloud.js";
 import { Wheels } from "./wheels.js";
@@ -102,8 +103,6 @@ export class Dust {
   }
 
   dispose() {
-    this.points?.removeFromParent();
-    this.geometry?.dispose();
-    this.points?.material.dispose();
+    discard(this.points);
   }
 }

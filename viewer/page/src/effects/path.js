@@ -1,6 +1,7 @@
 // The path of a point over the ground: a ribbon up to the instant that is shown.
 import * as THREE from "three";
-import { lift, LIFT, MARKS, widen } from "../looks/lifted.js";
+import { discard } from "../looks/discard.js";
+import { laid, LIFT, MARKS, widen } from "../looks/lifted.js";
 import { cross, scale, subtract, unit } from "../scene/math.js";
 
 /**
@@ -41,13 +42,9 @@ export class Path {
     this.geometry.setAttribute("position", new THREE.BufferAttribute(edges, 3));
     this.geometry.setAttribute("aside", new THREE.BufferAttribute(asides, 3));
     this.geometry.setIndex(points.slice(1).flatMap((_, k) => [2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3]));
-    const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true, toneMapped: false });
     const viewport = { value: new THREE.Vector2(1, 1) };
-    material.onBeforeCompile = (shader) => {
-      widen(shader, viewport, { up: view.up, least, fainter: least === undefined });
-      lift(shader, MARKS);
-    };
-    material.customProgramCacheKey = () => `ali3-path-${view.up}-${least}`;
+    const look = { color: colour, opacity, toneMapped: false };
+    const material = laid(`path-${view.up}-${least}`, MARKS, look, (shader) => widen(shader, viewport, { up: view.up, least, fainter: least === undefined }));
     this.mesh = new THREE.Mesh(this.geometry, material);
     this.mesh.onBeforeRender = (renderer) => renderer.getDrawingBufferSize(viewport.value);
     this.mesh.frustumCulled = false; // its box would be that of the whole path
@@ -73,9 +70,7 @@ export class Path {
   }
 
   dispose() {
-    this.mesh.removeFromParent();
-    this.geometry.dispose();
-    this.mesh.material.dispose();
+    discard(this.mesh);
   }
 }
 

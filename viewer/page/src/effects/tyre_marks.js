@@ -1,7 +1,8 @@
 // Tyre marks on the ground.
 import * as THREE from "three";
-import { lift, LIFT, MARKS } from "../looks/lifted.js";
-import { atEachPoint } from "../looks/vertex_code.js";
+import { discard } from "../looks/discard.js";
+import { laid, LIFT, MARKS } from "../looks/lifted.js";
+import { atEachPixel, atEachPoint } from "../looks/vertex_code.js";
 import { subtract } from "../scene/math.js";
 import { Tracks } from "./tracks.js";
 import { Wheels } from "./wheels.js";
@@ -12,6 +13,11 @@ const MOST = 4096;
 const FEW = 4;
 /** Metres that the focus may be from where the marks are counted from. */
 const FAR = 500;
+
+const RUBBER = /* glsl */ `
+float soft = max(fwidth(vMark.y), 1e-3);
+float rib = 1.0 - 0.3 * smoothstep(0.4, 0.9, 0.5 + 0.5 * cos(vMark.y * 15.7)) * clamp(1.0 - 3.0 * soft, 0.0, 1.0);
+diffuseColor.a *= vMark.x * rib * (1.0 - smoothstep(0.78, 1.0, abs(vMark.y)));`;
 
 /** Dark strips where tyres slide on what is hard; bounded: the oldest go. */
 export class TyreMarks {
@@ -105,26 +111,13 @@ export class TyreMarks {
   }
 
   dispose() {
-    this.mesh?.removeFromParent();
-    this.geometry?.dispose();
-    this.mesh?.material.dispose();
+    discard(this.mesh);
   }
 }
 
 /** Rubber: black, see-through, with the ribs of a tread. */
-function material() {
-  const made = new THREE.MeshBasicMaterial({ color: "#08080a", transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true });
-  made.onBeforeCompile = (shader) => {
+const material = () =>
+  laid("tyre-marks", MARKS, { color: "#08080a" }, (shader) => {
     atEachPoint(shader, "attribute vec2 mark;\nvarying vec2 vMark;", "vMark = mark;");
-    lift(shader, MARKS);
-    shader.fragmentShader = `varying vec2 vMark;\n${shader.fragmentShader}`.replace(
-      "#include <color_fragment>",
-      `#include <color_fragment>
-float soft = max(fwidth(vMark.y), 1e-3);
-float rib = 1.0 - 0.3 * smoothstep(0.4, 0.9, 0.5 + 0.5 * cos(vMark.y * 15.7)) * clamp(1.0 - 3.0 * soft, 0.0, 1.0);
-diffuseColor.a *= vMark.x * rib * (1.0 - smoothstep(0.78, 1.0, abs(vMark.y)));`,
-    );
-  };
-  made.customProgramCacheKey = () => "ali3-tyre-marks";
-  return made;
-}
+    atEachPixel(shader, "varying vec2 vMark;", { color_fragment: RUBBER });
+  });

@@ -1,6 +1,7 @@
 // A white board for planar mechanisms: a grid in metres behind them, even light.
 import * as THREE from "three";
 import { niceStep } from "../scene/forces.js";
+import { discard } from "./discard.js";
 import { gridSurface } from "./grid.js";
 import { mirrorOf } from "./mirror.js";
 import { room } from "./room.js";
@@ -35,8 +36,7 @@ export function board(view, fine) {
     restore: bake,
     tell: [],
     dispose() {
-      grid.mesh.geometry.dispose();
-      grid.mesh.material.dispose();
+      discard(grid.mesh);
       mirrored.dispose();
     },
   };

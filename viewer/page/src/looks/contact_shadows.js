@@ -1,9 +1,10 @@
 // Where sky light does not reach the ground: soft dark places below the body and below every wheel, at every quality.
 import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
-import { lift, LIFT } from "./lifted.js";
+import { discard } from "./discard.js";
+import { laid, LIFT } from "./lifted.js";
 import { groundHeight } from "./road_height.js";
-import { atEachPoint } from "./vertex_code.js";
+import { atEachPixel, atEachPoint } from "./vertex_code.js";
 
 /** How dark the middle of a shadow is, of the body and of a wheel, beside shadows of the sun and in place of them. */
 const [BESIDE, ALONE] = [[0.4, 0.6], [0.62, 0.62]]; // prettier-ignore
@@ -13,6 +14,10 @@ const [LONG, WIDE, TREAD, FLANK] = [1.42, 1.2, 1.3, 1.3];
 const NEARER = 0.005;
 /** Metres above the ground at which a body throws half of its shadow. */
 const FADE = 1;
+
+const DARK = /* glsl */ `
+vec2 inside = 1.0 - vCorner * vCorner;
+diffuseColor.a *= vDark * smoothstep(0.0, 0.55, inside.x * inside.y);`;
 
 /** @param {Data} view the SceneView */
 export function contactShadows(view) {
@@ -67,27 +72,13 @@ export function contactShadows(view) {
       });
       places.needsUpdate = darks.needsUpdate = true;
     },
-    dispose() {
-      geometry.dispose();
-      mesh.material.dispose();
-      mesh.removeFromParent();
-    },
+    dispose: () => discard(mesh),
   };
 }
 
-function material() {
-  const made = new THREE.MeshBasicMaterial({ color: "#05060a", transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true });
-  made.onBeforeCompile = (shader) => {
-    const head = "varying vec2 vCorner;\nvarying float vDark;\n";
+const material = () =>
+  laid("contact-shadows", NEARER, { color: "#05060a" }, (shader) => {
+    const head = "varying vec2 vCorner;\nvarying float vDark;";
     atEachPoint(shader, `attribute vec2 corner;\nattribute float dark;\n${head}`, "vCorner = corner;\nvDark = dark;");
-    lift(shader, NEARER);
-    shader.fragmentShader = `${head}${shader.fragmentShader}`.replace(
-      "#include <color_fragment>",
-      `#include <color_fragment>
-vec2 inside = 1.0 - vCorner * vCorner;
-diffuseColor.a *= vDark * smoothstep(0.0, 0.55, inside.x * inside.y);`,
-    );
-  };
-  made.customProgramCacheKey = () => "ali3-contact-shadows";
-  return made;
-}
+    atEachPixel(shader, head, { color_fragment: DARK });
+  });

@@ -1,7 +1,7 @@
 // A floor or wall with a grid in metres, fixed to the earth.
 import * as THREE from "three";
 import { dot } from "../scene/math.js";
-import { onTheEarth } from "./vertex_code.js";
+import { atEachPixel, onTheEarth } from "./vertex_code.js";
 
 const CODE = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
@@ -37,10 +37,8 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     onTheEarth(shader);
-    const head = "uniform vec3 aX, aY, aInk;\nuniform vec2 aOffset[2];\nuniform float aStep, aReach;\nvarying vec3 vGround;\n";
-    shader.fragmentShader = (head + shader.fragmentShader)
-      .replace("#include <map_fragment>", `#include <map_fragment>\n${CODE}`)
-      .replace("#include <lights_fragment_end>", "#include <lights_fragment_end>\nreflectedLight.indirectDiffuse += 0.26 * diffuseColor.rgb;");
+    const head = "uniform vec3 aX, aY, aInk;\nuniform vec2 aOffset[2];\nuniform float aStep, aReach;\nvarying vec3 vGround;";
+    atEachPixel(shader, head, { map_fragment: CODE, lights_fragment_end: "reflectedLight.indirectDiffuse += 0.26 * diffuseColor.rgb;" });
   };
   material.customProgramCacheKey = () => `ali3-grid-${lit}`;
   const mesh = new THREE.Mesh(new THREE.PlaneGeometry(2 * reach, 2 * reach), material);

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { across, cross, dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { SKYLIGHT } from "./skylight.js";
-import { atEachPoint, onTheEarth } from "./vertex_code.js";
+import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
 /** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
 export const PERIODS = [1.1, 7.3, 61, 10];
@@ -82,17 +82,14 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     patterned(shader);
-    const pieces = fine ? { roughnessmap_fragment: ROUGHNESS, normal_fragment_maps: RELIEF } : { lights_fragment_end: SKYLIGHT };
-    for (const [name, code] of Object.entries(pieces)) {
-      shader.fragmentShader = shader.fragmentShader.replace(`#include <${name}>`, `#include <${name}>\n${code}`);
-    }
+    atEachPixel(shader, "", fine ? { roughnessmap_fragment: ROUGHNESS, normal_fragment_maps: RELIEF } : { lights_fragment_end: SKYLIGHT });
   };
   /** The same pattern, lit at its points only. @param {Data} light of `lightOf` */
   const drafted = (light) =>
     prelit(light, {}, `ground ${grass}`, (shader) => {
       Object.assign(shader.uniforms, uniforms);
-      if (grass) shader.fragmentShader = `#define A_GRASS\n${shader.fragmentShader}`;
       patterned(shader);
+      if (grass) atEachPixel(shader, "#define A_GRASS", {});
     });
   /** @param {number[]} origin earth position of the picture's origin */
   const follow = (origin) => {
@@ -106,7 +103,7 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
 function patterned(shader) {
   onTheEarth(shader);
   atEachPoint(shader, "attribute float wet;\nvarying float vWet;", "vWet = wet;");
-  shader.fragmentShader = PARAMETERS + shader.fragmentShader.replace("#include <map_fragment>", `#include <map_fragment>\n${ASPHALT}`);
+  atEachPixel(shader, PARAMETERS, { map_fragment: ASPHALT });
 }
 
 const modulo = (a, period) => a - period * Math.floor(a / period);

@@ -1,5 +1,6 @@
 // What lies on the ground is drawn nearer to the eye than it is: at its place in the picture, and never in the ground.
-import { atEachPoint } from "./vertex_code.js";
+import * as THREE from "three";
+import { atEachPixel, atEachPoint } from "./vertex_code.js";
 
 /** Shares of the distance by which paint, and what lies on paint, is drawn nearer. */
 export const [PAINT, MARKS] = [0.004, 0.006];
@@ -33,10 +34,7 @@ if (min(min(edgeSeen.w, middleSeen.w), aheadSeen.w) > 0.0) {
   vThin = ${fainter ? "1.0 / grow" : "1.0"};
 }`,
   );
-  shader.fragmentShader = `varying float vThin;\n${shader.fragmentShader}`.replace(
-    "#include <color_fragment>",
-    "#include <color_fragment>\ndiffuseColor.a *= vThin;",
-  );
+  atEachPixel(shader, "varying float vThin;", { color_fragment: "diffuseColor.a *= vThin;" });
 }
 
 /** @param {Data} shader of three.js @param {number} share of the distance */
@@ -45,4 +43,19 @@ export function lift(shader, share) {
     "#include <project_vertex>",
     `#include <project_vertex>\ngl_Position = projectionMatrix * vec4(mvPosition.xyz * ${(1 - share).toFixed(4)}, 1.0);`,
   );
+}
+
+/**
+ * A material of what is laid on the ground and lets it shine through.
+ * @param {string} key of its program @param {number} share of the distance by which it is drawn nearer @param {Data} look
+ * @param {(shader: Data) => void} change of its program
+ */
+export function laid(key, share, look, change) {
+  const made = new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true, ...look });
+  made.onBeforeCompile = (shader) => {
+    change(shader);
+    lift(shader, share);
+  };
+  made.customProgramCacheKey = () => `ali3-${key}`;
+  return made;
 }

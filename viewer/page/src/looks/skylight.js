@@ -1,4 +1,5 @@
 // Light from all of the sky, for materials that mirror nothing.
+import { atEachPixel } from "./vertex_code.js";
 
 /** Follows the lights of a Lambert material of three.js. */
 export const SKYLIGHT = "reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47) * diffuseColor.rgb;";
@@ -6,7 +7,7 @@ export const SKYLIGHT = "reflectedLight.indirectDiffuse += vec3(0.34, 0.39, 0.47
 /** @param {import("three").Material} material @param {(shader: Data) => void} [more] further changes of the shader */
 export function skylit(material, more = () => {}) {
   material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace("#include <lights_fragment_end>", `#include <lights_fragment_end>\n${SKYLIGHT}`);
+    atEachPixel(shader, "", { lights_fragment_end: SKYLIGHT });
     more(shader);
   };
   const key = `ali3-skylit-${more}`;

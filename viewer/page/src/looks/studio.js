@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { across, add, cross, dot, fromColumns, scale, unit } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
 import { niceStep } from "../scene/forces.js";
+import { discard } from "./discard.js";
 import { makeDraft } from "./draft/index.js";
 import { gridSurface } from "./grid.js";
 import { mirrorOf } from "./mirror.js";
@@ -51,8 +52,7 @@ export function studio(view, fine) {
     tell: [],
     dispose() {
       draft.dispose();
-      floor.mesh.geometry.dispose();
-      floor.mesh.material.dispose();
+      discard(floor.mesh);
       sun.dispose();
       mirrored.dispose();
     },

@@ -5,7 +5,7 @@ import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
 import { tonesTexture } from "./noise.js";
 import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
-import { onTheEarth } from "./vertex_code.js";
+import { atEachPixel, onTheEarth } from "./vertex_code.js";
 
 /** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
 const DRAFTED = 0.01;
@@ -75,11 +75,7 @@ function surfaceMaterial({ uniforms, fine, second, viewport }, painted) {
     onGround(shader, uniforms, painted && viewport);
     const pieces = { color_fragment: layered(NOISE) + COLOURS, normal_fragment_begin: CREASE, lights_fragment_end: MIRROR };
     if (fine) Object.assign(pieces, { roughnessmap_fragment: GLOSS, normal_fragment_maps: layered(RELIEF) });
-    shader.fragmentShader = HEAD + shader.fragmentShader;
-    if (!fine) shader.fragmentShader = `#define A_COARSE\n${shader.fragmentShader}`;
-    for (const [name, code] of Object.entries(pieces)) {
-      shader.fragmentShader = shader.fragmentShader.replace(`#include <${name}>`, `#include <${name}>\n${code}`);
-    }
+    atEachPixel(shader, fine ? HEAD : `#define A_COARSE\n${HEAD}`, pieces);
   };
   return material;
 }
@@ -102,6 +98,6 @@ function draftMaterial({ uniforms, second, viewport }, light, painted) {
   return prelit(light, settingsOf(painted), `surface ${painted} ${second}`, (shader) => {
     onGround(shader, uniforms, painted && viewport, DRAFTED);
     const defines = `#define A_COARSE\n${painted ? "#define A_PAINTED\n" : ""}${second ? "#define A_SECOND\n" : ""}`;
-    shader.fragmentShader = (defines + HEAD + shader.fragmentShader).replace("#include <color_fragment>", `#include <color_fragment>\n${layered(DRAFT)}`);
+    atEachPixel(shader, defines + HEAD, { color_fragment: layered(DRAFT) });
   });
 }

@@ -4,7 +4,7 @@ import { dot, fromColumns } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
 import { HeightField, SurfaceRaster } from "./heights.js";
 import { apron } from "./apron.js";
-import { bundles, parts, pieceMesh } from "./terrain_mesh.js";
+import { bundles, coarsest, parts, pieceMesh } from "./terrain_mesh.js";
 
 /** Cells a side of a piece: pieces are left out where they are not in the picture. */
 const CELLS = 128;
@@ -36,9 +36,7 @@ export function terrain(road, material, axes, field) {
       mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
       const to = middle.map((value, k) => value + mesh.position.getComponent(k) - camera[k]);
       const allowed = LEAST + ERROR * Math.max(0, Math.hypot(...to) - radius - THIN);
-      let level = 0;
-      while (level + 1 < levels.length && levels[level + 1].error <= allowed) level++;
-      mesh.geometry = levels[level].geometry;
+      mesh.geometry = levels[coarsest(levels, allowed)].geometry;
     }
   };
   const dispose = () => {

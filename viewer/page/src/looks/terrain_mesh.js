@@ -204,3 +204,9 @@ function errorOf({ patch, i0, j0, n, m }, stride) {
   }
   return most;
 }
+
+/** Index of the coarsest level within an error. @param {{error: number}[]} levels from the finest @param {number} allowed m */
+export function coarsest(levels, allowed) {
+  const beyond = levels.findIndex(({ error }, level) => level > 0 && error > allowed);
+  return (beyond < 0 ? levels.length : beyond) - 1;
+}

@@ -1,5 +1,6 @@
 // The pattern of a tyre, made by code: tread blocks and lines on the side, so that turning is seen.
 import * as THREE from "three";
+import { smoothTexture } from "../looks/noise.js";
 
 const [WIDE, HIGH] = [1024, 64];
 
@@ -19,15 +20,7 @@ export function treadTexture(tread) {
       pixels[k + 3] = 255;
     }
   }
-  const texture = new THREE.DataTexture(pixels, WIDE, HIGH);
-  texture.wrapS = THREE.RepeatWrapping;
-  texture.colorSpace = THREE.SRGBColorSpace;
-  texture.magFilter = THREE.LinearFilter;
-  texture.minFilter = THREE.LinearMipmapLinearFilter;
-  texture.generateMipmaps = true;
-  texture.anisotropy = 4;
-  texture.needsUpdate = true;
-  return texture;
+  return Object.assign(smoothTexture(pixels, WIDE, HIGH, 4), { colorSpace: THREE.SRGBColorSpace, wrapS: THREE.RepeatWrapping });
 }
 
 /** Blocks that slant to the middle, with a closed rib there. */

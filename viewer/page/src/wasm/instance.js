@@ -52,36 +52,24 @@ export class FmuInstance {
     this[`set${this._variable(name).type}`](name, value);
   }
 
-  /**
-   * @param {string} name
-   * @param {number} value
-   */
+  /** @param {string} name @param {number} value */
   setReal(name, value) {
     this._setNumber("fmi2SetReal", "Real", name, value, (memory, at) => (memory.doubles[at >>> 3] = value));
   }
 
-  /**
-   * @param {string} name
-   * @param {number} value a whole number
-   */
+  /** @param {string} name @param {number} value a whole number */
   setInteger(name, value) {
     if (!Number.isInteger(value)) throw new FmuError(`'${name}' is a whole number; it cannot be ${value}.`, "error");
     this._setNumber("fmi2SetInteger", "Integer", name, value, (memory, at) => (memory.integers[at >>> 2] = value));
   }
 
-  /**
-   * @param {string} name
-   * @param {boolean} value
-   */
+  /** @param {string} name @param {boolean} value */
   setBoolean(name, value) {
     const number = value ? 1 : 0;
     this._setNumber("fmi2SetBoolean", "Boolean", name, value, (memory, at) => (memory.integers[at >>> 2] = number));
   }
 
-  /**
-   * @param {string} name
-   * @param {string} value
-   */
+  /** @param {string} name @param {string} value */
   setString(name, value) {
     const { memory } = this.fmu;
     memory.withTexts([String(value)], (text) =>

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { dot, fromColumns } from "../../scene/math.js";
 import { turn } from "../../shapes/place.js";
 import { apron } from "../apron.js";
-import { bundles, parts, pieceParts } from "../terrain_mesh.js";
+import { bundles, coarsest, parts, pieceParts } from "../terrain_mesh.js";
 
 /** Cells a side of a part, meshes, and points of a mesh, at most. */
 const [CELLS, PIECES, POINTS] = [64, 14, 60000];
@@ -19,10 +19,7 @@ const STEP = 15;
  * @param {{error: number}[]} levels from the finest @param {number} far m @param {number} [error] m a metre away
  */
 export function levelAt(levels, far, error = ERROR) {
-  const allowed = LEAST + error * Math.max(0, far);
-  let level = 0;
-  while (level + 1 < levels.length && levels[level + 1].error <= allowed) level++;
-  return level;
+  return coarsest(levels, LEAST + error * Math.max(0, far));
 }
 
 /**

@@ -1,6 +1,6 @@
 // Materials that are lit at their points only: the cheapest that still shows forms.
 import * as THREE from "three";
-import { atEachPoint } from "../vertex_code.js";
+import { atEachPixel, atEachPoint } from "../vertex_code.js";
 
 /** Light from all of the sky, with what other materials take from its picture. */
 const SKY = "vec3(0.42, 0.55, 0.8)";
@@ -33,10 +33,7 @@ export function prelit(light, look, key, more = () => {}) {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, light);
     atEachPoint(shader, "uniform vec3 aTo, aLight, aUp;\nvarying vec3 vLit;", VERTEX);
-    shader.fragmentShader = `varying vec3 vLit;\n${shader.fragmentShader}`.replace(
-      "#include <color_fragment>",
-      "#include <color_fragment>\ndiffuseColor.rgb *= vLit;",
-    );
+    atEachPixel(shader, "varying vec3 vLit;", { color_fragment: "diffuseColor.rgb *= vLit;" });
     more(shader);
   };
   material.customProgramCacheKey = () => `ali3-prelit-${key}`;

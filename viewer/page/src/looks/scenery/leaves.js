@@ -1,5 +1,6 @@
 // A picture of a twig, made by code: leaves with holes between.
 import * as THREE from "three";
+import { smoothTexture } from "../noise.js";
 import { chance } from "./chance.js";
 
 /** Side in points. */
@@ -16,13 +17,7 @@ export function leafTexture() {
     const middle = [0.5 * SIDE + 0.4 * SIDE * way * Math.cos(angle), 0.5 * SIDE + 0.4 * SIDE * way * Math.sin(angle)];
     drawLeaf(pixels, middle, 4 + 5 * next(), 2 * Math.PI * next(), 0.62 + 0.38 * next(), next());
   }
-  const texture = new THREE.DataTexture(pixels, SIDE, SIDE);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  texture.magFilter = THREE.LinearFilter;
-  texture.minFilter = THREE.LinearMipmapLinearFilter;
-  texture.generateMipmaps = true;
-  texture.needsUpdate = true;
-  return texture;
+  return Object.assign(smoothTexture(pixels, SIDE, SIDE, 1), { colorSpace: THREE.SRGBColorSpace });
 }
 
 /** @param {Uint8Array} pixels @param {number[]} middle */

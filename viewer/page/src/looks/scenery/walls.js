@@ -1,7 +1,7 @@
 // Guard rails and buildings.
 import looks from "../../../../looks.json" with { type: "json" };
 import { chance } from "./chance.js";
-import { atEachPoint } from "../vertex_code.js";
+import { atEachPixel, atEachPoint } from "../vertex_code.js";
 
 const { zinc: ZINC, roof: ROOF } = looks.things;
 /** Across a rail, from below: outwards and up, of a rail of height 1 whose beam is its upper 0.4. */
@@ -63,13 +63,11 @@ export function addBuilding(made, { at, yaw, size }) {
 /** Windows in a regular order, by the metres of a wall. @param {Data} shader of three.js */
 export function windows(shader) {
   atEachPoint(shader, "varying vec2 vWall;", "vWall = uv;");
-  shader.fragmentShader = `varying vec2 vWall;\n${shader.fragmentShader}`.replace(
-    "#include <color_fragment>",
-    `#include <color_fragment>
-vec2 pane = abs(mod(vWall - vec2(1.5, 2.1), 3.0) - 1.5);
+  atEachPixel(shader, "varying vec2 vWall;", {
+    color_fragment: `vec2 pane = abs(mod(vWall - vec2(1.5, 2.1), 3.0) - 1.5);
 vec2 blur = max(fwidth(vWall), 1e-4);
 vec2 open = 1.0 - smoothstep(vec2(0.55, 0.7) - blur, vec2(0.55, 0.7) + blur, 1.5 - pane);
 float glass = step(0.0, vWall.x) * open.x * open.y * clamp(0.6 / max(blur.x, blur.y), 0.0, 1.0);
 diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.045, 0.06, 0.075), 0.85 * glass);`,
-  );
+  });
 }
