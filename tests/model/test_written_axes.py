@@ -54,6 +54,12 @@ def test_a_written_axis_is_that_of_a_wheel_built_so(method):
         assert name == "total" or np.max(np.abs(one[name] - old[name])) > 1e-3, name
 
 
+def test_an_axis_that_is_drawn_aside_is_turned_back():
+    one, two = run(gyroscope(OTHER, True), azimuth=DRAWN[0], elevation=DRAWN[1]), run(gyroscope(DRAWN, False))
+    for name in ("x", "y", "z", "axis_x", "axis_z", "angle", "kinetic"):
+        np.testing.assert_allclose(one[name], two[name], rtol=0, atol=2e-9 * max(1.0, np.max(np.abs(two[name]))))
+
+
 def test_only_the_vectors_of_the_wheel_turn():
     system = gyroscope(DRAWN, True)
     simulation = Simulation(system, parameters={"azimuth": OTHER[0], "elevation": OTHER[1]})

@@ -70,6 +70,7 @@ def test_text_tells_both_times_and_what_was_lost() -> None:
     assert "missed deadlines: 25 of 125 (20 %)" in text
     assert "the work of a step: 0; other programs: 5; the processor stood still" in text
     assert StepTimes.of(values, 0.002, True).report()["missed_by"] == {"work": 0, "others": 5, "stolen": 20}
+    assert StepTimes.of(values, 0.002, True).report()["factor"] == pytest.approx(0.4)
     assert "moved on 2 times, by 0.100 s in all; 0.800 of the speed" in text
     assert "at the limit of iterations: 7; the largest residual left was 0.2 mm" in text
     assert "5 ms        100  ####" in text
