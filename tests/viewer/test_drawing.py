@@ -217,6 +217,26 @@ def test_a_ghost_is_seen_beside_the_run_and_goes(drawn):
     assert np.abs(drawn.picture() - before).max() <= 2
 
 
+def test_the_driver_does_not_look_through_a_ghost_about_his_eyes(drawn):
+    wheel = {"kind": "steering_wheel", "frame": "body", "at": [0, 0, 0], "radius": 0.18, "color": "#202020"}
+    body = {
+        "kind": "box",
+        "frame": "body",
+        "at": [-0.5, 0, 0],
+        "size": [4.0, 1.8, 1.4],
+        "color": RED,
+        "material": "paint",
+    }
+    drawn.show(scene(shapes=[wheel, body], focus="body", extent=4.0), at(0, 0, 0), camera="driver")
+    before = drawn.picture()
+    drawn.ask(
+        "numbers => { window.ghost = view.addGhost(view.scene); ghost.update(name => numbers[name]); }", at(0.3, 0.2, 0)
+    )
+    assert np.abs(drawn.picture() - before).max() <= 2
+    drawn.ask("numbers => ghost.update(name => numbers[name])", at(20, 0, 0))
+    assert np.abs(drawn.picture() - before).max() > 20
+
+
 def test_a_context_that_is_lost_is_said_and_given_back(drawn):
     drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
     before = drawn.picture()

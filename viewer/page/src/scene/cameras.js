@@ -206,6 +206,14 @@ export class Cameras {
     this.#look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
   }
 
+  /** Whether the driver's eyes are in another car, which would tint all that they see. @param {import("./parts.js").Parts} ghost */
+  within(ghost) {
+    const { position, shown } = ghost.frames.pose(ghost.scene.focus || "ground");
+    if (this.name !== "driver" || !shown) return false;
+    const from = subtract(subtract(position, this.view.origin), this.rig.position.toArray());
+    return Math.hypot(...from) < Math.min(this.view.extent, 2 * this.view.radius) / 2;
+  }
+
   /** A wheel and its suspension from ahead and outside. */
   #watchWheel(frame) {
     const { parts, up, origin } = this.view;

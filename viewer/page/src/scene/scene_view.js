@@ -219,6 +219,7 @@ export class SceneView {
     this.look.before();
     for (const parts of [this.parts, ...this.ghosts]) parts.place(this.origin);
     this.cameras.follow();
+    for (const ghost of this.ghosts) ghost.group.visible = !this.cameras.within(ghost);
     this.look.follow();
     this.renderer.render(this.world, this.cameras.current);
     this.drawn = true;
