@@ -147,9 +147,7 @@ def drift(report: Report) -> float:
 
 
 def missed_share(report: Report) -> float:
-    """Changes of velocity that ``v + h a`` does not see, over all: half a step times w of a vibration or of an impact
-    on a spring, whose mass would swing on it with w.
-    """
+    """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w."""
     return report.predictor_path / report.velocity_path if report.velocity_path > 0.0 else 0.0
 
 

@@ -30,16 +30,12 @@ TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
 
-def glances(
-    settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, report: Report
-) -> tuple[Glance, ...]:
-    """The coarser runs in turn that resolve what changes the velocities, or the nearest one, which then may agree by
-    chance. Too long steps miss forces of contacts, and elements whose `states` stick or slide.
-    """
+def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, run: Report) -> tuple[Glance, ...]:
+    """The coarser runs in turn that resolve the motion, else the last; too long steps miss forces and what sticks."""
     if settings.method not in LIMITED or settings.step_iterations:
         return TWICE
     chosen = FORCES if "N" in groups else TWICE if states else QUICK
-    resolved = tuple(glance for glance in chosen if glance.times * missed_share(report) <= UNRESOLVED)
+    resolved = tuple(glance for glance in chosen if glance.times * missed_share(run) <= UNRESOLVED)
     return resolved or (replace(chosen[-1], difference=CLOSE),)
 
 

@@ -86,9 +86,7 @@ class Repeats:
     def coarser(self, glance: Glance) -> Accuracy | None:
         """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere."""
         # About `glance.times` of its steps: some that end at all samples where it can, else one in `thin` samples.
-        steps, thin = max(round(self.every / glance.times), 1), 1
-        if self.every < glance.times:
-            thin = round(glance.times / self.every)
+        steps, thin = max(round(self.every / glance.times), 1), max(round(glance.times / self.every), 1)
         times = thin * self.every / steps
         h, intervals = times * self.h, len(self.run[0].t) - 1
         coordinates, loads = bool(self.run[1]), "N" in self.groups and intervals <= accuracy.WHOLE
@@ -186,11 +184,10 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
-    A run that is not plainly smooth is compared with ones of eight and four times and twice the step. Where they differ
-    it is repeated with half the step, near the limit with a quarter; where these two differ so much that the verdict
-    may change, with an eighth; with less where steps were halved or miss a peak or jump of an input. Where an input
-    jumps within a step, and with `Repeats.before`, no longer steps are tried, with `Repeats.twin` the first of the
-    shorter ones alone.
+    A run that is not plainly smooth is compared with ones of eight and four times and twice the step, but not where an
+    input jumps within a step nor with `Repeats.before`. Where they differ it is repeated with half the step, near the
+    limit with a quarter, and if these differ with an eighth; with less where steps were halved or miss a peak or jump.
+    With `Repeats.twin` the first of the shorter ones alone is made.
 
     Parameters
     ----------
