@@ -251,3 +251,14 @@ def test_a_model_of_one_body_has_no_loops() -> None:
     m = Model("pendulum", dimension=2)
     m.revolute("pin", m.ground, m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1), point=(0.0, 0.0))
     assert len(compile(m).arrays["mode_triad"]) == 0
+
+
+@pytest.mark.parametrize(("method", "h"), [("ali3p", 0.03), ("energy_momentum", 0.01)])
+def test_a_run_that_nobody_reads_ends_as_one_that_is_read(method: str, h: float) -> None:
+    """Past singular positions steps are repeated in parts; their ends then come back in two ways."""
+    system, steps = compile(double_four_bar.build()), round(3.0 / h)
+    read, unread = (Simulation(system, settings=Settings(method=method)) for _ in range(2))
+    for _ in range(steps):
+        read.instance.step(h)
+    unread.instance.run(h, steps)
+    assert read.save() == unread.save()

@@ -41,7 +41,7 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
   ali3_constraint_rate(in, v->q, v, in->Phit);
   memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
   for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
-    if (ali3_rates_closed(in, in->Phit, v->qd, VELOCITY_TOLERANCE, &violation)) break;
+    if (ali3_rates_closed(in, in->Phit, v->qd, VELOCITY_TOLERANCE, 0.0, &violation)) break;
     for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] *= weight;
     ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
     ali3_solve_lu(in, 1, in->F, in->x);

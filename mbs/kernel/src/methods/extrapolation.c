@@ -42,8 +42,7 @@ truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
 }
 
 /* Sum of the n vectors of a length with these weights. */
-static void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,
-                         int32_t n) {
+static void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight, int32_t n) {
   const real w = weight[0];
   ALI3_EACH(0, length, ALI3_AT(to) = w * ALI3_AT(from))
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(to, from + k * length, weight[k], length);

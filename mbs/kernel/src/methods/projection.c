@@ -5,24 +5,20 @@
 #include "../instance.h"
 #include "../rows/constraints.h"
 
-/* Whether Phi_q v, which is in in->mu, and b together are at most `limit`; their sum, of the size *violation, stays in
- * in->mu. */
-static truth rates_below(ali3_instance *in, const real *b, real limit, real *violation) {
+/* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v, or below `known`;
+ * their sum, of the size *violation, stays in in->mu. */
+static truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
+                         real *violation) {
   const ali3_system *S = in->system;
   ali3_add(in->mu, b, S->size.nc);
   *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);
-  return *violation <= limit;
+  return (*violation <= known) | (*violation <= tolerance * ali3_largest(v, S->size.nq));
 }
 
-/* The tolerance times the largest of v, or `known` where that is more. */
-static real limit_of(const ali3_instance *in, const real *v, double tolerance, double known) {
-  const real of_v = tolerance * ali3_largest(v, in->system->size.nq);
-  return ali3_where(of_v > known, of_v, ali3_same(known));
-}
-
-truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, real *violation) {
+truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
+                        real *violation) {
   ali3_rows_times(in->system, in->J, v, in->mu);
-  return rates_below(in, b, limit_of(in, v, tolerance, 0.0), violation);
+  return rates_below(in, b, v, tolerance, known, violation);
 }
 
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
@@ -34,10 +30,9 @@ real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real
                   int32_t sweeps, bool begun) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  const real limit = limit_of(in, v, tolerance, known); /* what sweeps change of v is far below its largest */
   real violation = {0}, *mu = in->mu, *x = in->x, *along = in->lam;
   if (!begun) ali3_rows_times(S, in->J, v, mu);
-  truth open = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, limit, &violation)));
+  truth open = ALI3_AT_WORK_OF(in, ali3_not(rates_below(in, b, v, tolerance, known, &violation)));
   for (int32_t sweep = 0; sweep < sweeps && ali3_any(open); sweep++) {
     ALI3_AT_WORK(in, open);
     ALI3_EACH(0, nc, ALI3_AT(mu) *= factor)
@@ -50,8 +45,7 @@ real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real
                 ALI3_AT(lam) =
                     ALI3_OF_LANES(open, ALI3_AT(lam) + (ALI3_AT(mu) - factor * ALI3_AT(along)), ALI3_AT(lam)))
     }
-    ali3_rows_times(S, in->J, v, mu);
-    open &= ali3_not(rates_below(in, b, limit, &violation));
+    open &= ali3_not(ali3_rates_closed(in, b, v, tolerance, known, &violation));
   }
   return violation;
 }
