@@ -10,21 +10,21 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 44065,
+    "build": 44100,
     "build --kernel": 404,
-    "car": 27887,
-    "run": 3900,
-    "run, all of it": 8343,
-    "view": 775,
-    "simulator": 8672,
-    "simulator, all of it": 15676,
-    "check": 5806,
-    "catalogue": 8237,
-    "compare": 9516,
-    "study": 5758,
-    "study --run": 8093,
-    "study, all of it": 14954,
-    "road": 684,
+    "car": 27910,
+    "run": 3903,
+    "run, all of it": 8346,
+    "view": 778,
+    "simulator": 8675,
+    "simulator, all of it": 15679,
+    "check": 5809,
+    "catalogue": 8236,
+    "compare": 9526,
+    "study": 5768,
+    "study --run": 8089,
+    "study, all of it": 14958,
+    "road": 687,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300
