@@ -176,6 +176,8 @@ def test_payloads_inputs_and_road_follow() -> None:
 def test_only_the_same_model_is_followed() -> None:
     without, ported, follower = pair(lambda fidelity: prototype_car.build(fidelity=fidelity))
     other = compile(pendulum.build())
+    assert without.ported is not None  # who steps a rigid car gets its stresses
+    assert without.ported(without) is not None
     assert with_ports_of(ported, other) is None
     assert with_ports_of(without, ported) is None
     assert with_ports_of(System.from_bytes(ported.to_bytes()), without) is None  # a file has no full coordinates
