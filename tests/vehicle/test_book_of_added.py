@@ -20,6 +20,7 @@ def test_a_car_as_it_is_has_no_such_book() -> None:
     assert "energy.added" not in [s.name for s in car().sensors]
 
 
+@pytest.mark.filterwarnings("ignore:Parameter 'road.friction' is set to 0:mbs.ParameterWarning")
 def test_works_of_added_elements_close_the_balance() -> None:
     """A torque by an input turns the standing car on ice, and a damper holds it against the ground."""
     m = car()
