@@ -138,12 +138,13 @@ def test_what_is_no_real_number_is_not_sought(
     words: str,
 ) -> None:
     """Told before a range that nobody gave."""
-    before = Variables.__getitem__
+    before = Variables.settable
 
-    def of_kind(self: Variables, name: str) -> Variable:
-        return replace(before(self, name), kind=kind) if name == "spring.stiffness" else before(self, name)
+    def of_kind(self: Variables, name: str, source: str) -> Variable:
+        variable = before(self, name, source)
+        return replace(variable, kind=kind) if name == "spring.stiffness" else variable
 
-    monkeypatch.setattr(Variables, "__getitem__", of_kind)
+    monkeypatch.setattr(Variables, "settable", of_kind)
     wanted = ["--target", "lowest=-1.2", "--by", "spring.stiffness", "--out", str(tmp_path / "out")]
     assert main([str(study_file()), *wanted]) == 2
     assert f"--by spring.stiffness: {words}" in capsys.readouterr().err
