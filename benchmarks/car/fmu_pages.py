@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
 
 from benchmarks.shared.pages import Row, table
 
@@ -46,7 +45,13 @@ def plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
     return {"plant": _crossed(names, lambda r: r["way"], "column", cell, "steps a second (us of processor a step)")}
 
 
-def _crossed(rows: Sequence[Row], name: Any, column: str, cell: Any, title: str = "fidelity, calls") -> str:
+def _crossed(
+    rows: Sequence[Row],
+    name: Callable[[Row], str],
+    column: str,
+    cell: Callable[[Row], str],
+    title: str = "fidelity, calls",
+) -> str:
     """Rows by name, a column for each value of a key."""
     lines: dict[str, dict[str, str]] = {}
     for row in rows:
@@ -54,5 +59,9 @@ def _crossed(rows: Sequence[Row], name: Any, column: str, cell: Any, title: str 
     return table(list(lines.values()), dict.fromkeys([title, *dict.fromkeys(r[column] for r in rows)], ""))
 
 
-BLOCKS: Mapping[str, Any] = {"fmu": fmu_blocks, "wasm": wasm_blocks, "plant": plant_blocks}
+BLOCKS: Mapping[str, Callable[[Sequence[Row]], dict[str, str]]] = {
+    "fmu": fmu_blocks,
+    "wasm": wasm_blocks,
+    "plant": plant_blocks,
+}
 """By the option of `benchmarks.pages` that takes the rows."""

@@ -88,11 +88,10 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin)
+            tables = InputSignals(inputs or {}, system.meta["inputs"]).tables() if checked else []
+            missed = missed_peak(tables, t0, t_end, h), jumps_within_steps(tables, t0, t_end, h)
+            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin, *missed)
             if checked:
-                tables = InputSignals(inputs or {}, system.meta["inputs"]).tables()
-                repeats.peak = missed_peak(tables, t0, t_end, h)
-                repeats.jumps = jumps_within_steps(tables, t0, t_end, h)
                 found = repeat.check(repeats, always=estimate_error is True)
             repeats.add_ends()
     except SimulationError as error:

@@ -60,7 +60,7 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
         Which.
     """
     tyre = (car.front if axle == "front" else car.rear).tyre
-    scale = car.road.friction * car.road.friction_factor * tyre.grip / tyre.reference_friction
+    scale = car.road.grip_of(tyre)
     longitudinal, lateral = (scale * friction for friction in tyre.friction)
     return (
         f"{axle} grip",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+import pytest
 
 from mbs import compile, simulate
 from mbs.elements.road import PlaneRoad
@@ -13,6 +14,7 @@ from mbs.scenes import prototype_car
 WHEELS = ("FL", "FR", "RL", "RR")
 NEUTRAL = {"drive.creep_torque": 0.0}
 H = 0.01  # s
+ON_ICE = pytest.mark.filterwarnings("ignore:Parameter 'road.friction' is set to 0:mbs.ParameterWarning")
 
 
 @cache

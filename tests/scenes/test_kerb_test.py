@@ -12,6 +12,7 @@ from benchmarks.car import fidelity_runs
 from mbs import Settings, Simulation, compile
 from mbs.scenes import kerb_test
 from mbs.vehicle import load
+from tests.scenes.car import ON_ICE
 
 H = kerb_test.STEP
 PAPER = {"coordinates": 293, "rows": 239, "iterations": 2.0}
@@ -84,7 +85,7 @@ def test_the_kerb_is_what_loads_the_gauges_most():
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore:Parameter 'road.friction' is set to 0:mbs.ParameterWarning")
+@ON_ICE
 @pytest.mark.parametrize("fidelity", [1, 3])
 def test_moments_return_once_the_tyres_let_go(fidelity):
     """The tyres hold the track in which the car came to stand, 131 N to the side at each wheel, as real ones do."""

@@ -8,6 +8,7 @@ import pytest
 import mbs
 from mbs.elements import SpringDamper
 from mbs.vehicle import load
+from tests.scenes.car import ON_ICE
 
 WORKS = tuple(f"energy.{name}" for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))
 
@@ -20,7 +21,7 @@ def test_a_car_as_it_is_has_no_such_book() -> None:
     assert "energy.added" not in [s.name for s in car().sensors]
 
 
-@pytest.mark.filterwarnings("ignore:Parameter 'road.friction' is set to 0:mbs.ParameterWarning")
+@ON_ICE
 def test_works_of_added_elements_close_the_balance() -> None:
     """A torque by an input turns the standing car on ice, and a damper holds it against the ground."""
     m = car()

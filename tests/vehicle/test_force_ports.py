@@ -7,6 +7,7 @@ import pytest
 
 import mbs
 from mbs.vehicle import CarFileError
+from tests.scenes.car import ON_ICE
 from tests.vehicle.second_tyres import drive, saloon
 from tests.vehicle.test_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
 
@@ -65,7 +66,7 @@ def test_a_hitch_pulls_as_a_trailer_does() -> None:
     assert motion["point_hitch.vy"] == pytest.approx(motion["chassis.earth_vy"] - turned, rel=1e-6)
 
 
-@pytest.mark.filterwarnings("ignore:Parameter 'road.friction' is set to 0:mbs.ParameterWarning")
+@ON_ICE
 def test_a_torque_about_the_vertical_axis_turns_the_car_on_ice() -> None:
     car = with_ports(hatchback(), forces="vehicle")
     ice = mbs.Simulation(mbs.compile(car.model()), parameters={"road.friction": 0.0})
@@ -78,7 +79,7 @@ def test_a_torque_about_the_vertical_axis_turns_the_car_on_ice() -> None:
     assert abs(ice.sensors["chassis.wz"]) < 0.02 * first
 
 
-@pytest.mark.filterwarnings("ignore:Parameter 'road.friction' is set to 0:mbs.ParameterWarning")
+@ON_ICE
 @pytest.mark.parametrize(
     ("speed", "wind", "heading"), [(0.0, 20.0, 0.7), (20.0, 10.0, np.pi), (20.0, 12.0, 0.5 * np.pi), (20.0, 5.0, 0.0)]
 )

@@ -31,7 +31,7 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
         if axle.by_curves is not None:
             yield from axle.by_curves.notes
         road, tyre = car.road, axle.tyre
-        reached = min(tyre.friction) * tyre.grip / tyre.reference_friction * road.friction * road.friction_factor
+        reached = min(tyre.friction) * road.grip_of(tyre)
         if reached < GRIPPED:
             yield (
                 f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g} and "

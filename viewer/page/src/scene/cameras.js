@@ -208,10 +208,10 @@ export class Cameras {
 
   /** Whether the driver's eyes are in another car, which would tint all that they see. @param {import("./parts.js").Parts} ghost */
   within(ghost) {
+    if (this.name !== "driver") return false;
     const { position, shown } = ghost.frames.pose(ghost.scene.focus || "ground");
-    if (this.name !== "driver" || !shown) return false;
     const from = subtract(subtract(position, this.view.origin), this.rig.position.toArray());
-    return Math.hypot(...from) < Math.min(this.view.extent, 2 * this.view.radius) / 2;
+    return shown && Math.hypot(...from) < Math.min(this.view.extent, 2 * this.view.radius) / 2;
   }
 
   /** A wheel and its suspension from ahead and outside. */
