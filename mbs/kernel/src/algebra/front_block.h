@@ -56,4 +56,32 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
   }
   if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }
+
+/* Unknowns of a front, `width` of each coordinate: of its pivots, which lie side by side in b, then of the rest, of which
+ * the last do so too. Without a rest they are worked on in b. */
+ALI3_INLINED real *ali3_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
+  const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+  real *restrict x = in->local;
+  if (n == n_pivot) return b + width * first;
+  ali3_copy_few(x, b + width * first, width * n_pivot);
+  for (int32_t i = n_pivot; i < side; i++)
+    for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
+  ali3_copy_few(x + width * side, b + width * idx[side], width * (n - side));
+  return x;
+}
+
+/* They go back to b, the pivots or all. */
+ALI3_INLINED void ali3_put_back(const ali3_instance *in, int32_t f, int32_t width, const real *x, bool all,
+                                real *restrict b) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
+  const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
+  if (n == n_pivot) return;
+  ali3_copy_few(b + width * first, x, width * n_pivot);
+  for (int32_t i = n_pivot; all && i < side; i++)
+    for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
+  if (all) ali3_copy_few(b + width * idx[side], x + width * side, width * (n - side));
+}
 #endif

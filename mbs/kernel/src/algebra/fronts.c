@@ -211,31 +211,6 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
-/* Those of a front: its pivots, which lie side by side in b, then the rest, of which the last do so too. Without a rest
- * they are worked on in b. */
-ALI3_INLINED real *unknowns(ali3_instance *in, int32_t f, real *b) {
-  const ali3_system *S = in->system;
-  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
-  const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-  real *restrict x = in->local;
-  if (n == n_pivot) return b + first;
-  ali3_copy_few(x, b + first, n_pivot);
-  for (int32_t i = n_pivot; i < side; i++) x[i] = b[idx[i]];
-  ali3_copy_few(x + side, b + idx[side], n - side);
-  return x;
-}
-
-/* They go back to b, the pivots or all. */
-ALI3_INLINED void put_back(const ali3_instance *in, int32_t f, const real *x, bool all, real *restrict b) {
-  const ali3_system *S = in->system;
-  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
-  const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-  if (n == n_pivot) return;
-  ali3_copy_few(b + first, x, n_pivot);
-  for (int32_t i = n_pivot; all && i < side; i++) b[idx[i]] = x[i];
-  if (all) ali3_copy_few(b + idx[side], x + side, n - side);
-}
-
 /* The pivots of a front with sums from the far end, of one instance four columns at a time where the fours begin at one
  * entry for all: what is nearest, the columns among themselves, comes last. */
 ALI3_INLINED void pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n) {
@@ -271,19 +246,19 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
   ALI3_COUNT(in, solves);
   for (int32_t f = 0; f < S->size.nf; f++) {
-    real *x = unknowns(in, f, b);
+    real *x = ali3_unknowns(in, f, 1, b);
     ali3_front_forward(F + S->front_off[f], x, S->front_col[f + 1] - S->front_col[f],
                        S->front_ptr[f + 1] - S->front_ptr[f]);
-    put_back(in, f, x, true, b);
+    ali3_put_back(in, f, 1, x, true, b);
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
-    real *x = unknowns(in, f, b);
+    real *x = ali3_unknowns(in, f, 1, b);
     if (n < FOUR_SUMS)
       few_pivots_back(F + S->front_off[f], x, n_pivot, n);
     else
       pivots_back(F + S->front_off[f], x, n_pivot, n);
-    put_back(in, f, x, false, b);
+    ali3_put_back(in, f, 1, x, false, b);
   }
 }
 

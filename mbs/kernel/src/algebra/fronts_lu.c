@@ -89,13 +89,6 @@ ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F) {
   return width == 1 ? factorise(in, 1, F) : factorise(in, ALI3_RADAU, F);
 }
 
-/* The part of b that belongs to a front of so many coordinates. */
-ALI3_INLINED void gather(const int32_t *idx, int32_t width, int32_t coordinates, const double *restrict b,
-                         double *restrict x) {
-  for (int32_t i = 0; i < coordinates; i++)
-    for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
-}
-
 /* The pivots of x become the solution, the rest of which is there already; down the columns of U, two at a time. */
 static void backward(const double *block, double *restrict x, int32_t n_pivot, int32_t n) {
   int32_t j = n - 1;
@@ -119,25 +112,18 @@ static void backward(const double *block, double *restrict x, int32_t n_pivot, i
 ALI3_INLINED void solve(ali3_instance *in, int32_t width, const double *F, double *b) {
   const ali3_system *S = in->system;
   const int64_t square = (int64_t)width * width;
-  double *restrict x = in->local;
   in->report.solves++;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates,
-                  n_pivot = width * (S->front_col[f + 1] - S->front_col[f]);
-    const int32_t *idx = S->front_idx + S->front_ptr[f];
-    const double *block = F + square * S->front_off[f];
-    gather(idx, width, coordinates, b, x);
-    ali3_front_forward(block, x, n_pivot, n);
-    for (int32_t i = 0; i < coordinates; i++)
-      for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
+    double *x = ali3_unknowns(in, f, width, b);
+    ali3_front_forward(F + square * S->front_off[f], x, width * (S->front_col[f + 1] - S->front_col[f]),
+                       width * (S->front_ptr[f + 1] - S->front_ptr[f]));
+    ali3_put_back(in, f, width, x, true, b);
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    const int32_t first = S->front_col[f], n_pivot = width * (S->front_col[f + 1] - first);
-    const int32_t coordinates = S->front_ptr[f + 1] - S->front_ptr[f], n = width * coordinates;
-    const int32_t *idx = S->front_idx + S->front_ptr[f];
-    gather(idx, width, coordinates, b, x);
-    backward(F + square * S->front_off[f], x, n_pivot, n);
-    for (int32_t p = 0; p < n_pivot; p++) b[width * first + p] = x[p];
+    double *x = ali3_unknowns(in, f, width, b);
+    backward(F + square * S->front_off[f], x, width * (S->front_col[f + 1] - S->front_col[f]),
+             width * (S->front_ptr[f + 1] - S->front_ptr[f]));
+    ali3_put_back(in, f, width, x, false, b);
   }
 }
 
