@@ -241,14 +241,15 @@ static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
   return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/* Such three numbers in registers, two of which are one instruction. */
+/* Such three numbers in registers: of one instance as four, of which the last is what stands behind them in memory. It
+ * may be read, as whatever has coordinates has one number more (`ali3_pool_padded`), and goes nowhere. */
 #ifdef ALI3_WIDTH
 typedef struct {
   real x, y, z;
 } ali3_three;
 
-static inline ali3_three ali3_three_of(const double *a) {
-  return (ali3_three){ali3_same(a[0]), ali3_same(a[1]), ali3_same(a[2])};
+static inline void ali3_three_begin(ali3_three *to, const double *a) {
+  *to = (ali3_three){ali3_same(a[0]), ali3_same(a[1]), ali3_same(a[2])};
 }
 
 /* to += a x, a the same for all three */
@@ -258,25 +259,39 @@ static inline void ali3_three_add(ali3_three *to, const real *x, real a) {
   to->z += a * x[2];
 }
 
-static inline void ali3_three_put(real *to, ali3_three a) { to[0] = a.x, to[1] = a.y, to[2] = a.z; }
-#else
-typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias));
-
-typedef struct {
-  ali3_pair xy;
-  double z;
-} ali3_three;
-
-static inline ali3_three ali3_three_of(const double *a) { return (ali3_three){{a[0], a[1]}, a[2]}; }
-
-static inline void ali3_three_add(ali3_three *to, const double *x, double a) {
-  to->xy += a * *(const ali3_pair *)x;
-  to->z += a * x[2];
+/* to += a x of each */
+static inline void ali3_three_add_each(ali3_three *to, const double *a, const real *x) {
+  to->x += a[0] * x[0];
+  to->y += a[1] * x[1];
+  to->z += a[2] * x[2];
 }
 
-static inline void ali3_three_put(double *to, ali3_three a) {
-  *(ali3_pair *)to = a.xy;
-  to[2] = a.z;
+static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x, to[1] = a->y, to[2] = a->z; }
+
+static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
+
+/* sum + a x */
+static inline real ali3_three_sum(real sum, const ali3_three *a, const real *x) {
+  return sum + a->x * x[0] + a->y * x[1] + a->z * x[2];
+}
+#else
+typedef ali3_four ali3_three;
+
+static inline void ali3_three_begin(ali3_three *to, const double *a) { *to = (ali3_three){a[0], a[1], a[2], 0.0}; }
+
+static inline void ali3_three_add(ali3_three *to, const double *x, double a) { *to += a * *(const ali3_four *)x; }
+
+static inline void ali3_three_add_each(ali3_three *to, const double *a, const double *x) {
+  *to += *(const ali3_four *)a * *(const ali3_four *)x;
+}
+
+static inline void ali3_three_put(double *to, const ali3_three *a) { to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2]; }
+
+static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
+
+static inline double ali3_three_sum(double sum, const ali3_three *a, const double *x) {
+  const ali3_four product = *a * *(const ali3_four *)x;
+  return sum + product[0] + product[1] + product[2];
 }
 #endif
 
@@ -285,7 +300,7 @@ static inline void ali3_three_rows(const double *val, const int32_t *col, int32_
   ali3_three sum = {0};
   ALI3_SHORT
   for (int32_t k = 0; k < n; k++) ali3_three_add(&sum, x + col[k], ali3_same(val[k]));
-  ali3_three_put(out, sum);
+  ali3_three_put(out, &sum);
 }
 
 /* y += a x of three numbers */

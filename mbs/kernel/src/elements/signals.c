@@ -12,15 +12,16 @@ enum { WRITTEN_OUT = 7 }; /* signals of a tyre, a brake or a bearing */
 ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, const real *qd, real *u, real *ud) {
   const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
   const double *val = S->sig_val + S->sig_ptr[i], *start = S->sig_const + i;
-  ali3_three place = ali3_three_of(start), rates = {0};
+  ali3_three place, rates = {0};
+  ali3_three_begin(&place, start);
   ALI3_SHORT
   for (int32_t k = 0; k < n; k++) {
     const real v = ali3_same(val[k]);
     ali3_three_add(&place, q + col[k], v);
     ali3_three_add(&rates, qd + col[k], v);
   }
-  ali3_three_put(u, place);
-  ali3_three_put(ud, rates);
+  ali3_three_put(u, &place);
+  ali3_three_put(ud, &rates);
 }
 
 /* in->u, in->ud of the signals that elements use. */

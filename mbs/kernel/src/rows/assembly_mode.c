@@ -37,11 +37,12 @@ ALI3_INLINED void vector(const ali3_system *S, const int32_t *signal, const doub
     for (int d = 0; d < 3; d++) v[d] = ali3_signal_at(S, signal[d], q, false);
     return;
   }
-  ali3_three sum = ali3_three_of(S->sig_const + *signal);
+  ali3_three sum;
+  ali3_three_begin(&sum, S->sig_const + *signal);
   ALI3_SHORT
   for (int32_t k = S->sig_ptr[*signal]; k < S->sig_ptr[*signal + 1]; k++)
     ali3_three_add(&sum, q + S->sig_col[k], S->sig_val[k]);
-  ali3_three_put(v, sum);
+  ali3_three_put(v, &sum);
 }
 
 /* Of the angle from arm a to arm b seen along n. */

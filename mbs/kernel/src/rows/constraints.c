@@ -37,18 +37,19 @@ static inline real rate_of(const real *qd, int32_t coordinate) {
   return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
-/* Adds the terms of three neighbouring entries of Phi_q to them; of points: with three neighbours each. */
-static inline void add_terms(const ali3_system *S, int32_t i, const real *q, bool points, real entry[3]) {
+/* Adds the terms t to end - 1 of three neighbouring entries of Phi_q to them, of points: with three neighbours each.
+ * Returns the first term of the next three. */
+static inline int32_t add_points(const ali3_system *S, int32_t t, int32_t end, const real *q, ali3_three *entry) {
+  ALI3_SHORT
+  for (; t < end; t += 3) ali3_three_add_each(entry, S->hess_val + t, q + S->hess_col[t]);
+  return t;
+}
+
+/* The terms of three neighbouring entries, each with a coordinate of its own. */
+static inline void add_terms(const ali3_system *S, int32_t i, const real *q, real entry[3]) {
   const int32_t *col = S->hess_col + S->hess_ptr[i], *end = S->hess_col + S->hess_ptr[i + 3];
   const double *hess = S->hess_val + S->hess_ptr[i];
   real x = entry[0], y = entry[1], z = entry[2];
-  ALI3_SHORT
-  for (; points && col < end; col += 3, hess += 3) {
-    const real *at = q + col[0];
-    x += hess[0] * at[0];
-    y += hess[1] * at[1];
-    z += hess[2] * at[2];
-  }
   ALI3_SHORT
   for (; col < end; col += 3, hess += 3) {
     x += hess[0] * q[col[0]];
@@ -123,14 +124,23 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
     real value = {0};
     int32_t i = ptr[k];
     const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
+    if (triples > i && S->row_triples[k] == ALI3_POINTS)
+      for (int32_t t = S->hess_ptr[i]; i < triples; i += 3) {
+        ali3_three lin, entry;
+        ali3_three_begin(&lin, row_lin + i);
+        entry = lin;
+        t = add_points(S, t, S->hess_ptr[i + 3], q, &entry);
+        ali3_three_put(J + i, &entry);
+        ali3_three_plus(&entry, &lin);
+        value = ali3_three_sum(value, &entry, q + col[i]);
+      }
     for (; i < triples; i += 3) {
       const double *lin = row_lin + i;
-      const real *v = q + col[i];
       real entry[3] = {ali3_same(lin[0]), ali3_same(lin[1]), ali3_same(lin[2])};
-      add_terms(S, i, q, S->row_triples[k] == ALI3_POINTS, entry);
+      add_terms(S, i, q, entry);
       for (int d = 0; d < 3; d++) J[i + d] = entry[d];
       const real both[3] = {entry[0] + lin[0], entry[1] + lin[1], entry[2] + lin[2]};
-      value = ali3_triple_sum(value, both, v);
+      value = ali3_triple_sum(value, both, q + col[i]);
     }
     for (; i < S->row_stretch[k]; i++) {
       const double lin = row_lin[i];
@@ -198,9 +208,15 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
     real value = {0};
     int32_t i = ptr[k];
     const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
+    if (triples > i && S->row_triples[k] == ALI3_POINTS)
+      for (int32_t t = S->hess_ptr[i]; i < triples; i += 3) {
+        ali3_three entry = {0};
+        t = add_points(S, t, S->hess_ptr[i + 3], qd, &entry);
+        value = ali3_three_sum(value, &entry, qd + col[i]);
+      }
     for (; i < triples; i += 3) {
       real entry[3] = {ali3_same(0.0), ali3_same(0.0), ali3_same(0.0)};
-      add_terms(S, i, qd, S->row_triples[k] == ALI3_POINTS, entry);
+      add_terms(S, i, qd, entry);
       value = ali3_triple_sum(value, entry, qd + col[i]);
     }
     for (; i < S->row_stretch[k]; i++) value += add_run(S, i, qd, ali3_same(0.0)) * qd[col[i]];
@@ -472,7 +488,7 @@ ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, con
       ali3_three three = {0};
       ALI3_SHORT
       for (; k < end; k++) ali3_three_add(&three, J + entry[k], w[row[k]]);
-      ali3_three_put(out + i, three);
+      ali3_three_put(out + i, &three);
       i += 2;
       continue;
     }

@@ -62,16 +62,16 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
 /* Coordinates and rows of a step. */
 static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const size_t nq = (size_t)s->size.nq, nc = (size_t)s->size.nc;
-  in->D = ali3_pool_array(p, nq);
-  in->d0 = ali3_pool_array(p, nq);
-  in->r = ali3_pool_array(p, nq);
-  in->x = ali3_pool_array(p, nq);
-  in->w = ali3_pool_array(p, nq);
-  in->shifted = ali3_pool_array(p, nq);
-  in->hat = ali3_pool_array(p, nq);
-  in->middle = ali3_pool_array(p, nq);
-  in->rate = ali3_pool_array(p, nq);
-  in->stage = ali3_pool_array(p, ALI3_STAGES * nq);
+  in->D = ali3_pool_padded(p, nq);
+  in->d0 = ali3_pool_padded(p, nq);
+  in->r = ali3_pool_padded(p, nq);
+  in->x = ali3_pool_padded(p, nq);
+  in->w = ali3_pool_padded(p, nq);
+  in->shifted = ali3_pool_padded(p, nq);
+  in->hat = ali3_pool_padded(p, nq);
+  in->middle = ali3_pool_padded(p, nq);
+  in->rate = ali3_pool_padded(p, nq);
+  in->stage = ali3_pool_padded(p, ALI3_STAGES * nq);
   in->Q = ali3_pool_array(p, nq);
   in->Phi = ali3_pool_array(p, nc);
   in->Phit = ali3_pool_array(p, nc);
@@ -81,8 +81,8 @@ static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->guide_mean = ali3_pool_array(p, (size_t)s->size.ng);
   in->guide_follows = ali3_pool_array(p, (size_t)s->size.ng);
   in->lam = ali3_pool_array(p, nc);
-  in->correction_q = ali3_pool_array(p, nq);
-  in->step_q = ali3_pool_array(p, nq);
+  in->correction_q = ali3_pool_padded(p, nq);
+  in->step_q = ali3_pool_padded(p, nq);
   in->correction_lam = ali3_pool_array(p, nc);
   in->step_lam = ali3_pool_array(p, nc);
 }
@@ -90,12 +90,12 @@ static void place_step(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
 /* Jacobians, signals and tangents. */
 static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
-  in->J = ali3_pool_array(p, (size_t)z->nnz_rows);
-  in->J_tangent = ali3_pool_array(p, (size_t)z->nnz_rows);
-  in->J0 = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->J = ali3_pool_padded(p, (size_t)z->nnz_rows);
+  in->J_tangent = ali3_pool_padded(p, (size_t)z->nnz_rows);
+  in->J0 = ali3_pool_padded(p, (size_t)z->nnz_rows);
   in->at_J0 = ali3_pool_array(p, (size_t)z->nq + (size_t)z->ng + (size_t)z->n_switch);
-  in->A = ali3_pool_array(p, (size_t)z->nnz_rows);
-  in->A_tangent = ali3_pool_array(p, (size_t)z->nnz_rows);
+  in->A = ali3_pool_padded(p, (size_t)z->nnz_rows);
+  in->A_tangent = ali3_pool_padded(p, (size_t)z->nnz_rows);
   in->F = ali3_pool_array(p, (size_t)z->front_size);
   in->u = ali3_pool_array(p, (size_t)z->nsig);
   in->ud = ali3_pool_array(p, (size_t)z->nsig);
@@ -114,9 +114,9 @@ static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) 
   const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_without_states(s) ? ALI3_RADAU : 0;
   in->stage_Phi = ali3_pool_array(p, stages * nc);
   in->stage_lam = ali3_pool_array(p, stages * nc);
-  in->stage_J = ali3_pool_array(p, stages * (size_t)z->nnz_rows);
-  in->stage_J_tangent = ali3_pool_array(p, stages * (size_t)z->nnz_rows);
-  in->stage_x = ali3_pool_array(p, stages * nq);
+  in->stage_J = ali3_pool_padded(p, stages * (size_t)z->nnz_rows);
+  in->stage_J_tangent = ali3_pool_padded(p, stages * (size_t)z->nnz_rows);
+  in->stage_x = ali3_pool_padded(p, stages * nq);
   in->F_stages = ali3_pool_array(p, stages * stages * (size_t)z->front_size);
   in->F_C = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
   in->F_K = ali3_pool_array(p, stages > 0 ? (size_t)z->front_size : 0);
@@ -133,7 +133,7 @@ static void place_elements(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->tabled_base = ali3_pool_items(p, (size_t)s->n_tabled_base, sizeof *in->tabled_base);
   in->tabled_parameter = ali3_pool_items(p, (size_t)s->n_tabled_parameter, sizeof *in->tabled_parameter);
   in->tabled_square = ali3_pool_array(p, (size_t)s->tabled_square);
-  for (int k = 0; k < 3; k++) in->extended[k] = ali3_pool_array(p, extended);
+  for (int k = 0; k < 3; k++) in->extended[k] = ali3_pool_padded(p, extended);
   in->extended_force = ali3_pool_array(p, extended);
   in->y_work = ali3_pool_array(p, (size_t)z->ny);
   in->out_work = ali3_pool_array(p, (size_t)z->nout);

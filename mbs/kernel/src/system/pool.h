@@ -35,6 +35,9 @@ static inline double *ali3_pool_array(ali3_pool *pool, size_t count) {
   return piece;
 }
 
+/* Such numbers with one more behind them, which may be read: of three of them as of four (`ali3_three`). */
+static inline double *ali3_pool_padded(ali3_pool *pool, size_t count) { return ali3_pool_array(pool, count + 1); }
+
 /* Items of any kind, from a multiple of 16 bytes to one. */
 static inline void *ali3_pool_items(ali3_pool *pool, size_t count, size_t item) {
   pool->used = (pool->used + 15u) / 16u * 16u;

@@ -21,7 +21,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   const size_t nq = (size_t)s->size.nq, ne = (size_t)s->size.ne, na = (size_t)s->n_angle_row;
   s->hess_ptr = ali3_pool_items(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
   s->hess_col = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
-  s->hess_val = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(double));
+  s->hess_val = ali3_pool_items(p, 2 * (size_t)s->n_quad_a + 1, sizeof(double)); /* as ali3_pool_padded */
   s->row_round = ali3_pool_items(p, (size_t)s->size.nc, sizeof(double));
   s->row_wide = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
