@@ -185,6 +185,7 @@ struct ali3_system {
   unsigned char *el_clear; /* ne: of a triple some have and some have not; then all are 0 */
   int32_t *el_coordinate_ptr; /* ne+1 */
   int32_t *el_coordinate_loc; /* local index in the front, ascending */
+  int32_t *el_apart; /* ne: coordinate of the element from which on these are neighbours */
   int32_t *active_signal; /* signals that elements use */
   int32_t *flex_square; /* n_flexible + 1: offsets of the n x n matrices of flexible bodies */
   ali3_tabled *tabled;

@@ -268,6 +268,8 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const re
 
 static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x, to[1] = a->y, to[2] = a->z; }
 
+#define ali3_three_put_first ali3_three_put /* what is behind is written afterwards, or nobody's */
+
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
 
 /* sum + a x */
@@ -287,6 +289,8 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const do
 
 static inline void ali3_three_put(double *to, const ali3_three *a) { to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2]; }
 
+static inline void ali3_three_put_first(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
+
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
 
 static inline double ali3_three_sum(double sum, const ali3_three *a, const double *x) {
@@ -294,6 +298,15 @@ static inline double ali3_three_sum(double sum, const ali3_three *a, const doubl
   return sum + product[0] + product[1] + product[2];
 }
 #endif
+
+/* sum + x y of the components of a point in Phi_q and of coordinates. */
+static inline real ali3_points_sum(real sum, const real *x, const real *y) {
+#ifdef ALI3_WIDTH
+  return ali3_triple_sum(sum, x, y);
+#else
+  return ali3_three_sum(sum, (const ali3_three *)x, y);
+#endif
+}
 
 /* Sums of n triples at columns of x with factors. */
 static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {

@@ -105,11 +105,10 @@ static inline place place_of(const ali3_system *S, int32_t e, real *F) {
   const int32_t front = S->el_front[e], first = S->el_coordinate_ptr[e];
   place p = {.n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e],
              .m = S->el_coordinate_ptr[e + 1] - first,
+             .apart = S->el_apart[e],
              .size = S->front_ptr[front + 1] - S->front_ptr[front],
              .loc = S->el_coordinate_loc + first,
              .block = F + S->front_off[front]};
-  p.apart = p.m - 1;
-  while (p.apart > 0 && p.loc[p.apart - 1] == p.loc[p.apart] - 1) p.apart--;
   return p;
 }
 

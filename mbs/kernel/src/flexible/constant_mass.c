@@ -47,8 +47,8 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, const real 
         ali3_three_add(&three_x, x + col[k], val[k]);
         if (both) ali3_three_add(&three_y, y + col[k], val[k]);
       }
-      ali3_three_put(out_x + i, &three_x);
-      if (both) ali3_three_put(out_y + i, &three_y);
+      ali3_three_put_first(out_x + i, &three_x);
+      if (both) ali3_three_put_first(out_y + i, &three_y);
       i += 2;
       continue;
     }

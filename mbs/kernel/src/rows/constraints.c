@@ -130,7 +130,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
         ali3_three_begin(&lin, row_lin + i);
         entry = lin;
         t = add_points(S, t, S->hess_ptr[i + 3], q, &entry);
-        ali3_three_put(J + i, &entry);
+        ali3_three_put_first(J + i, &entry);
         ali3_three_plus(&entry, &lin);
         value = ali3_three_sum(value, &entry, q + col[i]);
       }
@@ -409,16 +409,20 @@ void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double w
 
 /* `stretches`: rows end with modes side by side, which are one sum of four. */
 ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real *out, bool stretches) {
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
-  for (int32_t k = 0; k < S->size.nc; k++) {
+  const int32_t *end = S->row_ptr + 1, *col = S->row_col, *stretch = S->row_stretch;
+  const unsigned char *triples = S->row_triples;
+  for (int32_t k = 0, i = 0, nc = S->size.nc; k < nc; k++) {
+    const int32_t last = end[k];
     real sum = {0};
-    int32_t i = ptr[k];
-    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
-    ALI3_SHORT
-    for (; i < triples; i += 3) sum = ali3_triple_sum(sum, J + i, x + col[i]);
-    ALI3_SHORT
-    for (; i < stretch[k]; i++) sum += J[i] * x[col[i]];
-    if (stretches && i < end[k]) sum += ali3_product_from_far(J + i, x + col[i], end[k] - i);
+    if (triples[k]) {
+      ALI3_SHORT
+      for (; i < last; i += 3) sum = ali3_points_sum(sum, J + i, x + col[i]);
+    } else {
+      ALI3_SHORT
+      for (const int32_t first = stretches ? stretch[k] : last; i < first; i++) sum += J[i] * x[col[i]];
+      if (stretches && i < last) sum += ali3_product_from_far(J + i, x + col[i], last - i);
+      i = last;
+    }
     out[k] = sum;
   }
 }
@@ -441,8 +445,8 @@ ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const rea
     const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     ALI3_SHORT
     for (; i < triples; i += 3) {
-      sum_x = ali3_triple_sum(sum_x, J + i, x + col[i]);
-      sum_y = ali3_triple_sum(sum_y, J + i, y + col[i]);
+      sum_x = ali3_points_sum(sum_x, J + i, x + col[i]);
+      sum_y = ali3_points_sum(sum_y, J + i, y + col[i]);
     }
     ALI3_SHORT
     for (; i < stretch[k]; i++) {
@@ -488,7 +492,7 @@ ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, con
       ali3_three three = {0};
       ALI3_SHORT
       for (; k < end; k++) ali3_three_add(&three, J + entry[k], w[row[k]]);
-      ali3_three_put(out + i, &three);
+      ali3_three_put_first(out + i, &three);
       i += 2;
       continue;
     }

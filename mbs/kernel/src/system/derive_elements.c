@@ -57,6 +57,9 @@ static void derive_element(ali3_system *s, int32_t e) {
       if (unique == 0 || coordinate[i] != coordinate[unique - 1]) coordinate[unique++] = coordinate[i];
     for (int32_t i = 0; i < n; i++) s->el_entry_local[first + i] = ali3_find(coordinate, unique, loc[i]);
   }
+  int32_t apart = unique - 1;
+  while (apart > 0 && coordinate[apart - 1] == coordinate[apart] - 1) apart--;
+  s->el_apart[e] = apart;
   s->el_entry_ptr[e + 1] = first + n;
   s->el_coordinate_ptr[e + 1] = start + unique;
 }

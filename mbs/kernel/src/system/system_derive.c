@@ -68,6 +68,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_clear = ali3_pool_items(p, ne, 1);
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
+  s->el_apart = ali3_pool_items(p, ne, sizeof(int32_t));
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
   s->active_triple = ali3_pool_items(p, (size_t)s->size.nsig, 1);
   s->el_triple = ali3_pool_items(p, (size_t)s->n_el_sig, 1);
