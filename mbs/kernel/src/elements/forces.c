@@ -46,19 +46,6 @@ static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
   }
 }
 
-/* Power and forces of element e on its n signals, where a sensor asks for its work. */
-static void record(ali3_instance *in, int32_t e, const double *f, const double *ud, int32_t n) {
-  const ali3_system *S = in->system;
-  const int32_t k = S->work_of[e];
-  if (k < 0) return;
-  double *force = in->watched + S->n_work + S->work_ptr[k], power = 0.0;
-  for (int32_t i = 0; i < n; i++) {
-    force[i] = f[i];
-    power += f[i] * ud[i];
-  }
-  in->watched[k] = power;
-}
-
 /* Element e at its own signals; f and tangent (NULL: not wanted) belong to it alone. Returns whether both are zero. */
 bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                          double *f, double *tangent) {
@@ -70,8 +57,22 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
   if (tangent != NULL) memset(tangent, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
   (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(&a);
   call->potential[e] = a.potential;
-  if (S->n_work > 0) record(in, e, f, ud, a.nsig);
   return a.idle != 0;
+}
+
+/* Power and forces on their signals of the elements whose work a sensor asks for, at the last ali3_forces. */
+void ali3_forces_watch(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double *restrict force = in->watched + S->n_work;
+  for (int32_t k = 0; k < S->n_work; k++) {
+    const int32_t e = S->work_element[k];
+    double power = 0.0;
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
+      const double f = *force++ = in->element_force[i];
+      power += f * in->ud[S->el_sig[i]];
+    }
+    in->watched[k] = power;
+  }
 }
 
 /* Signals that elements use, also those of dependents. */
@@ -117,6 +118,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   ali3_elements_forces(in, call);
   ali3_add_forces(in, in->element_force, Q);
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
+  if (!call->iterate) ali3_forces_watch(in);
 }
 
 /* The same with flexible and tabled bodies, their changing mass too. */

@@ -310,13 +310,10 @@ void ali3_group_to(const ali3_lane_group *g) {
     TAKE(g, in, in->next.potential + e, g->potential + e * g->width, end - e);
   }
   TAKE(g, in, in->next.step_way, g->ways, S->n_work_force);
+  TAKE(g, in, in->watched, g->power, S->n_work);
   for (int32_t k = 0, end; k < S->n_work; k = end) {
-    const int32_t e = S->work_element[k], first = S->el_sig_ptr[e], way = S->n_work + S->work_ptr[k];
-    for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1 &&
-                      g->by_law[S->work_element[end]] == g->by_law[e];)
-      end++;
-    if (!g->by_law[e]) continue;
-    TAKE(g, in, in->watched + k, g->power + k * g->width, end - k);
+    const int32_t first = S->el_sig_ptr[S->work_element[k]], way = S->n_work + S->work_ptr[k];
+    for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1;) end++;
     TAKE(g, in, in->watched + way, g->element_force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
   }
   for (int32_t l = 0; l < g->used; l++)

@@ -264,7 +264,7 @@ static void predict(ali3_lane_group *in) {
     in->D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->x[i], in->now.qdd[i]);
 }
 
-/* What sensors of work ask for, from the last forces of the elements that are computed in vectors. */
+/* What sensors of work ask for, from the last forces of the elements. */
 static void watch(ali3_lane_group *in) {
   const ali3_system *S = in->system;
   ali3_work_ways(in, in->ways);

@@ -38,6 +38,7 @@ static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
                            .wC = in->rule.wC,
                            .wK = in->rule.c,
                            .tangent = tangent,
+                           .iterate = true,
                            .Q = in->Q,
                            .y_new = to->y,
                            .out = to->out,
@@ -192,6 +193,7 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
     status = newton(in, h, alpha);
   }
   if (status != ALI3_OK) return status;
+  ali3_forces_watch(in);
   const double *D = in->D, *d0 = in->d0;
   double *qdd = to->qdd;
   ALI3_EACH(0, nq, ALI3_AT(qdd) = (ALI3_AT(D) - ALI3_AT(d0)) / c)
