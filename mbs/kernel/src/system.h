@@ -102,6 +102,10 @@ typedef struct {
   int32_t row, guide, power;
 } ali3_guide_term;
 
+typedef struct { /* of an element: how many, and where its first ones are */
+  int32_t nsig, nreal, nint, nstate, nout, real, integer, state, out;
+} ali3_element_size;
+
 typedef struct ali3_element_type ali3_element_type; /* elements/element.h */
 typedef struct ali3_tabled ali3_tabled;     /* tabled/tabled.h */
 typedef struct ali3_tabled_base ali3_tabled_base;
@@ -175,6 +179,7 @@ struct ali3_system {
   int32_t *front_side; /* nf: entry of a front, behind its pivots, from which on its coordinates lie side by side */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
+  ali3_element_size *el_size; /* ne */
   int32_t *contact_element; /* n_contact: those with a depth or a rebound stop */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */

@@ -1,6 +1,7 @@
 /* Signals to elements, element forces and tangents back to coordinates. */
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../flexible/flexible_body.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
@@ -9,29 +10,31 @@
 #include "forces.h"
 #include "signals.h"
 
-/* Arguments of element e at its own signals u and their rates ud; f and S live with the caller. */
-static void prepare(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
+/* Arguments that are the same for all elements. */
+static ali3_element_args common(const ali3_instance *in, const ali3_force_call *call) {
+  return (ali3_element_args){
+      .h = call->h, .wC = call->wC, .wK = call->wK, .input = in->force_input, .roads = in->road};
+}
+
+/* Those of element e at its own signals u and their rates ud; f and S live with the caller. */
+static void prepare(const ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                     double *f, double *tangent, ali3_element_args *a) {
   const ali3_system *S = in->system;
-  a->nsig = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-  a->nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e];
-  a->nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e];
-  a->nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e];
-  a->nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e];
+  const ali3_element_size *size = S->el_size + e;
+  a->nsig = size->nsig;
+  a->nreal = size->nreal;
+  a->nint = size->nint;
+  a->nstate = size->nstate;
+  a->nout = size->nout;
   a->u = u;
   a->ud = ud;
-  a->y_old = call->y_old + S->el_state_ptr[e];
-  a->y_new = call->y_new + S->el_state_ptr[e];
-  a->h = call->h;
-  a->wC = call->wC;
-  a->wK = call->wK;
-  a->real = in->el_real + S->el_real_ptr[e];
-  a->integer = S->el_int + S->el_int_ptr[e];
-  a->input = in->force_input;
-  a->roads = in->road;
+  a->y_old = call->y_old + size->state;
+  a->y_new = call->y_new + size->state;
+  a->real = in->el_real + size->real;
+  a->integer = S->el_int + size->integer;
   a->f = f;
   a->S = tangent;
-  a->out = call->out + S->el_out_ptr[e];
+  a->out = call->out + size->out;
   a->potential = 0.0;
   a->idle = 0;
   a->piece = 0;
@@ -47,17 +50,21 @@ static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
 }
 
 /* Element e at its own signals; f and tangent (NULL: not wanted) belong to it alone. Returns whether both are zero. */
+ALI3_INLINED bool evaluate(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
+                           double *f, double *tangent, ali3_element_args *a) {
+  const ali3_element_type *type = in->system->el_kind[e];
+  prepare(in, call, e, u, ud, f, tangent, a);
+  memset(f, 0, (size_t)a->nsig * sizeof(double));
+  if (tangent != NULL) memset(tangent, 0, (size_t)(a->nsig * a->nsig) * sizeof(double));
+  (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(a);
+  call->potential[e] = a->potential;
+  return a->idle != 0;
+}
+
 bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,
                          double *f, double *tangent) {
-  const ali3_system *S = in->system;
-  const ali3_element_type *type = S->el_kind[e];
-  ali3_element_args a;
-  prepare(in, call, e, u, ud, f, tangent, &a);
-  memset(f, 0, (size_t)a.nsig * sizeof(double));
-  if (tangent != NULL) memset(tangent, 0, (size_t)(a.nsig * a.nsig) * sizeof(double));
-  (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(&a);
-  call->potential[e] = a.potential;
-  return a.idle != 0;
+  ali3_element_args a = common(in, call);
+  return evaluate(in, call, e, u, ud, f, tangent, &a);
 }
 
 /* Power and forces on their signals of the elements whose work a sensor asks for, at the last ali3_forces. */
@@ -89,13 +96,14 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
 void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
+  ali3_element_args a = common(in, call);
   for (int32_t e = 0; e < S->size.ne; e++) {
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
     double *f = in->element_force + S->el_sig_ptr[e];
     const int32_t beside = S->el_beside[e];
     if (beside < 0) local(in, e, u, ud);
-    in->idle[e] = ali3_element_forces(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside,
-                                      f, tangent);
+    in->idle[e] = evaluate(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside, f, tangent,
+                           &a);
   }
 }
 
@@ -142,7 +150,7 @@ void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
                                 .potential = in->potential_work};
   look(in, call.q, call.qd);
   for (int32_t e = 0; e < in->system->size.ne; e++) {
-    ali3_element_args a;
+    ali3_element_args a = common(in, &call);
     local(in, e, u, ud);
     prepare(in, &call, e, u, ud, f, NULL, &a);
     memset(f, 0, sizeof f);
@@ -177,7 +185,7 @@ void ali3_elements_defect(ali3_instance *in, double h, bool lanes, const double 
 /* Discrete changes of element e after an accepted step, at its own signals. */
 void ali3_element_accept(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud) {
   double f[ALI3_MAX_SIGNALS] = {0.0};
-  ali3_element_args a;
+  ali3_element_args a = common(in, call);
   prepare(in, call, e, u, ud, f, NULL, &a);
   in->system->el_kind[e]->accept(&a);
 }

@@ -92,6 +92,15 @@ void ali3_elements_derive(ali3_system *s) {
   for (int32_t e = 0; e < ne; e++) {
     const int32_t n = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e];
     s->el_kind[e] = ali3_element_type_get(s->el_type[e]);
+    s->el_size[e] = (ali3_element_size){.nsig = n,
+                                        .nreal = s->el_real_ptr[e + 1] - s->el_real_ptr[e],
+                                        .nint = s->el_int_ptr[e + 1] - s->el_int_ptr[e],
+                                        .nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e],
+                                        .nout = s->el_out_ptr[e + 1] - s->el_out_ptr[e],
+                                        .real = s->el_real_ptr[e],
+                                        .integer = s->el_int_ptr[e],
+                                        .state = s->el_state_ptr[e],
+                                        .out = s->el_out_ptr[e]};
     if (s->el_kind[e]->depth != NULL || s->el_kind[e]->rebound != NULL) s->contact_element[s->n_contact++] = e;
     s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
     derive_element(s, e);
