@@ -89,7 +89,7 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
     ali3_tabled_extend(in, q, qd, NULL, false);
     q = in->extended[0], qd = in->extended[1];
   }
-  ali3_active_signals(in, q, qd);
+  if (in->system->n_active > 0) ali3_active_signals(in, q, qd);
 }
 
 /* The elements at the signals of the last `ali3_forces`. */
@@ -123,8 +123,10 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     in->wC = call->wC;
     in->wK = call->wK;
   }
-  ali3_elements_forces(in, call);
-  ali3_add_forces(in, in->element_force, Q);
+  if (S->size.ne > 0) {
+    ali3_elements_forces(in, call);
+    ali3_add_forces(in, in->element_force, Q);
+  }
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
   if (!call->iterate) ali3_forces_watch(in);
 }
@@ -132,7 +134,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
 /* The same with flexible and tabled bodies, their changing mass too. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
   if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
-  ali3_elements_tangent(in, F);
+  if (in->system->size.ne > 0) ali3_elements_tangent(in, F);
   if (in->system->n_tabled > 0) {
     ali3_tabled_tangent(in, 1.0, in->wK, F);
     ali3_tabled_elements_tangent(in, F);

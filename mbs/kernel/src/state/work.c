@@ -71,6 +71,7 @@ void ali3_work_reopen(ali3_instance *in) {
 /* A step D from in->now to in->next with the mean of the forces at its ends (share = 1/2) or those of the last
  * ali3_forces (share = 1). */
 void ali3_work_step(ali3_instance *in, double share) {
+  if (in->system->n_work == 0) return;
   ali3_work_ways(in, in->next.step_way);
   ali3_work_along(in, share);
 }
