@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../method.h"
 #include "../rows/assembly_mode.h"
@@ -27,7 +28,7 @@ enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
 
 static double root(double signed_square) { return signed_square < 0.0 ? -sqrt(-signed_square) : sqrt(signed_square); }
 
-static bool watches(const ali3_instance *in) { return ali3_triad_count(in->system) > 0; }
+static bool watches(const ali3_instance *in) { return in->system->n_mode_triad > 0; }
 
 /* Whether triad k and all others of its ring, at least one, are nearly in line. */
 static bool in_line(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
@@ -64,7 +65,7 @@ void ali3_branch_before(ali3_instance *in) {
   if (!watches(in)) return;
   if (!in->mode_known) look(in);
   in->mode_known = true;
-  for (int64_t k = 0; k < ali3_triad_count(S); k++) in->sine_before[k] = in->mode_sine[k];
+  ali3_copy_few(in->sine_before, in->mode_sine, ali3_triad_count(S));
   if (ali3_method_of(in)->relative) return; /* its state is not always that of the last step */
   for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch_near; loop++) {
     const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;

@@ -110,20 +110,21 @@ static void evaluate(ali3_instance *in, double h) {
   ALI3_EACH(0, nq, ALI3_AT(r) += c * (ALI3_AT(x) - ALI3_AT(Q)))
 }
 
-/* Whether in->J0 is Phi_q of v, bit for bit; remembers v. */
-static bool same_place(ali3_instance *in, const ali3_vectors *v) {
+/* Whether in->J0 is Phi_q of v, bit for bit; `remember`: it is now. */
+static bool same_place(ali3_instance *in, const ali3_vectors *v, bool remember) {
   const ali3_sizes *z = &in->system->size;
   const double *part[3] = {v->q, v->s, v->on};
   const int32_t n[3] = {z->nq, z->ng, z->n_switch};
-  bool same = in->has_J0;
   double *at = in->at_J0;
-  for (int k = 0; k < 3; at += n[k], k++) {
+  in->has_J0 |= remember;
+  for (int k = 0; k < 3 && in->has_J0; at += n[k], k++) {
     const size_t size = (size_t)n[k] * sizeof(double);
-    same = same && memcmp(at, part[k], size) == 0;
-    memcpy(at, part[k], size);
+    if (remember)
+      ali3_copy_few(at, part[k], n[k]);
+    else if (n[k] > 0 && memcmp(at, part[k], size) != 0)
+      return false;
   }
-  in->has_J0 = true;
-  return same;
+  return in->has_J0;
 }
 
 /* The exact tangent M + h^2/4 (K + sum lam_k H_k) + h/2 C + weight A' Phi_q(q1), slightly unsymmetric. */
@@ -287,7 +288,10 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   ali3_status status = ali3_inputs_at(in, share);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
-  if (!same_place(in, from)) ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+  if (!same_place(in, from, false)) {
+    ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+    same_place(in, from, true);
+  }
   if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
   status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
@@ -319,7 +323,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   }
   to->h_last[0] = 0.0;
   if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
-  same_place(in, to);
+  same_place(in, to, true);
   memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
   if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
   if (reported) status = ali3_energy_momentum_show(in, to);

@@ -17,8 +17,6 @@ static const double NOTHING = 1e-24; /* of the squares of the lengths: arms with
 enum { SIGNALS = 9, KIND = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
 enum { TURNED = 1, PLANAR = 2 }; /* bits of the kind: from the perpendicular of arm b; n is z, the arms lie across */
 
-static const int32_t *triad(const ali3_system *S, int64_t k) { return S->mode_triad + ITEMS * k; }
-
 int64_t ali3_loop_count(const ali3_system *S) { return S->n_mode_triad_ptr > 0 ? S->n_mode_triad_ptr - 1 : 0; }
 
 int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_triad / ITEMS; }
@@ -47,15 +45,15 @@ ALI3_INLINED void vector(const ali3_system *S, const int32_t *signal, const doub
 
 /* Of the angle from arm a to arm b seen along n. */
 ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t, double *sine, double *cosine) {
-  double v[SIGNALS];
-  const double *n = v, *a = v + 3, *b = v + 6;
   if (t[KIND] & PLANAR) {
-    for (int i = 3; i < SIGNALS; i++)
-      if (i != 5 && i != 8) v[i] = ali3_signal_at(S, t[i], q, false);
-    const double det = a[0] * b[1] - a[1] * b[0], c = a[0] * b[0] + a[1] * b[1];
+    const double ax = ali3_signal_at(S, t[3], q, false), ay = ali3_signal_at(S, t[4], q, false);
+    const double bx = ali3_signal_at(S, t[6], q, false), by = ali3_signal_at(S, t[7], q, false);
+    const double det = ax * by - ay * bx, c = ax * bx + ay * by;
     put(t[KIND], det * fabs(det), c * fabs(c), 0.0, sine, cosine);
     return;
   }
+  double v[SIGNALS];
+  const double *n = v, *a = v + 3, *b = v + 6;
   for (int i = 0; i < SIGNALS; i += 3) vector(S, t + i, q, v + i);
   const double nn = dot(n, n), det = n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
                                      n[2] * (a[0] * b[1] - a[1] * b[0]);
@@ -65,8 +63,8 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
 
 /* Of all triads, signed squares of sines in in->mode_sine and of cosines in in->mode_cosine. */
 ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
-  for (int64_t k = 0; k < ali3_triad_count(in->system); k++)
-    angle(in->system, q, triad(in->system, k), in->mode_sine + k, in->mode_cosine + k);
+  const int32_t *t = in->system->mode_triad, *end = t + in->system->n_mode_triad;
+  for (double *sine = in->mode_sine, *cosine = in->mode_cosine; t < end; t += ITEMS) angle(in->system, q, t, sine++, cosine++);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, mode_angles, (ali3_instance * in, const double *q), (in, q))
