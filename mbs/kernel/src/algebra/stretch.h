@@ -57,10 +57,11 @@ static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
 
 #ifndef ALI3_WIDTH
 typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias));
 #endif
 
 /* statement for each i from a number on to n, where ALI3_AT(x) is entry i of x, or the four from i on while there are so
- * many: without what compilers put around a loop that they make vectors of. */
+ * many, then two: without what compilers put around a loop that they make vectors of. */
 #define ALI3_AT(x) (*(entry *)((x) + i))
 #ifdef ALI3_WIDTH
 #define ALI3_EACH(from, n, statement)                                                                                  \
@@ -77,8 +78,12 @@ typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias))
       typedef ali3_four entry;                                                                                         \
       statement;                                                                                                       \
     }                                                                                                                  \
-    ALI3_SHORT                                                                                                         \
-    for (; i < (n); i++) {                                                                                             \
+    if (i + 1 < (n)) {                                                                                                 \
+      typedef ali3_pair entry;                                                                                         \
+      statement;                                                                                                       \
+      i += 2;                                                                                                          \
+    }                                                                                                                  \
+    if (i < (n)) {                                                                                                     \
       typedef double entry;                                                                                            \
       statement;                                                                                                       \
     }                                                                                                                  \
