@@ -102,6 +102,12 @@ typedef struct {
   int32_t row, guide, power;
 } ali3_guide_term;
 
+typedef struct { /* of an element, outputs that are forces of a contact or a stop */
+  int32_t element, first, n; /* all of them */
+  int32_t judged, n_judged; /* of a tyre its load alone: the others follow pedals that jump */
+  bool tyre, touches; /* it has a depth */
+} ali3_contact_forces_of;
+
 typedef struct { /* of an element: how many, and where its first ones are */
   int32_t nsig, nreal, nint, nstate, nout, real, integer, state, out;
 } ali3_element_size;
@@ -180,7 +186,7 @@ struct ali3_system {
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   ali3_element_size *el_size; /* ne */
-  int32_t *contact_element; /* n_contact: those with a depth or a rebound stop */
+  ali3_contact_forces_of *contact; /* n_contact: elements with a depth or a rebound stop */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_signal,

@@ -26,8 +26,8 @@ static double depth_at(const ali3_instance *in, const double *q, int32_t e, doub
  * an input is missed by v + h a alike, and is no such event. */
 static bool road_changed(const ali3_instance *in) {
   for (int32_t c = 0; c < in->system->n_contact; c++) {
-    const int32_t e = in->system->contact_element[c];
-    if (in->system->el_kind[e]->depth == NULL) continue;
+    const int32_t e = in->system->contact[c].element;
+    if (!in->system->contact[c].touches) continue;
     double from, to;
     const double before = depth_at(in, in->next.q, e, &from), now = depth_at(in, in->now.q, e, &to);
     if ((before > 0.0) != (now > 0.0) || (now > 0.0 && fabs(now - before + to - from) > UNEVEN)) return true;

@@ -5,14 +5,10 @@
 
 #include <math.h>
 
-#include "../elements/element.h"
-#include "../elements/tyre_contact.h"
-
 static const double QUICK = 6e-4; /* s^1.5; calibrated on random drives of five cars over kerbs and drops */
 static const double MEMORY = 0.1; /* s, of the sum */
 static const double SPAN = 0.2;     /* s after an event in which the largest load comes */
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
-enum { LOAD = 2 };                  /* output of a tyre */
 
 /* The event whose span is over, against the largest load up to now. */
 static void judge(ali3_report *r) {
@@ -31,9 +27,9 @@ void ali3_quick_load(ali3_instance *in, double h) {
   ali3_report *r = &in->report;
   double worst = 0.0;
   for (int32_t c = 0; c < S->n_contact; c++) {
-    const int32_t e = S->contact_element[c];
-    if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
-    const double from = in->next.out[S->el_out_ptr[e] + LOAD], to = in->now.out[S->el_out_ptr[e] + LOAD];
+    const ali3_contact_forces_of *contact = S->contact + c;
+    if (!contact->tyre) continue;
+    const double from = in->next.out[contact->judged], to = in->now.out[contact->judged];
     worst = fmax(worst, fabs(to - from));
     r->largest_load = fmax(r->largest_load, fmax(from, to)); /* the start has no step before it */
   }
