@@ -55,7 +55,7 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
   ALI3_EACH(0, nq, ALI3_AT(q) = ALI3_AT(from) + ALI3_AT(D); ALI3_AT(qd) = rate * ALI3_AT(D) + ALI3_AT(hat);
             ALI3_AT(w) = ALI3_AT(D) - ALI3_AT(d0))
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
-  ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
+  if (in->system->n_velocity_row > 0) ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
   const ali3_force_call call = call_of(in, h, tangent);
   ali3_forces(in, &call);
   ali3_mass_times(in, w, r);

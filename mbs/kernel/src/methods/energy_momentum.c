@@ -83,7 +83,7 @@ static void evaluate(ali3_instance *in, double h) {
   }
   ali3_constraints(in, to->q, to->s, in->Phi, in->J);
   ali3_discrete_rows(in, in->D, to->q, &in->now, to);
-  ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
+  if (S->n_velocity_row > 0) ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
   const ali3_force_call call = {.q = in->middle,
                                 .qd = in->rate,
                                 .y_old = in->now.y,

@@ -119,7 +119,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   const double *row_lin = S->row_lin;
-  q = near_origin(in, q);
+  if (S->size.has_pose) q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
@@ -177,8 +177,8 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
     Phi[S->angle_row[i]] += cosine * across - sine * along;
     J[S->angle_theta_j[i]] -= sine * across + cosine * along;
   }
-  ali3_velocity_jacobian(in, q, Phi, J);
-  ali3_switch_rows(in, Phi, J);
+  if (S->n_velocity_row > 0) ali3_velocity_jacobian(in, q, Phi, J);
+  if (S->size.n_switch > 0) ali3_switch_rows(in, Phi, J);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constraints, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
@@ -189,13 +189,13 @@ void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *
   const ali3_system *S = in->system;
   memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);
   if (S->n_gterm_row == 0) return;
-  q = near_origin(in, q);
+  if (S->size.has_pose) q = near_origin(in, q);
   for (int64_t t = 0; t < S->n_gterm_row; t++) {
     const ali3_guide_term *g = &S->gterm[t];
     const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
     Phit[g->row] += guide_rate(g, guides) * qa * qb;
   }
-  ali3_switch_values(in, Phit);
+  if (S->size.n_switch > 0) ali3_switch_values(in, Phit);
 }
 
 /* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
@@ -203,7 +203,7 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
                                    real *gamma) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
-  q = near_origin(in, q);
+  if (S->size.has_pose) q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
@@ -245,8 +245,8 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
     }
     gamma[S->angle_row[i]] += second + 2.0 * rate * first - rate * rate * value;
   }
-  ali3_velocity_gamma(in, qd, gamma);
-  ali3_switch_values(in, gamma);
+  if (S->n_velocity_row > 0) ali3_velocity_gamma(in, qd, gamma);
+  if (S->size.n_switch > 0) ali3_switch_values(in, gamma);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constraint_gamma,
@@ -269,7 +269,7 @@ ALI3_INLINED void geometric(ali3_instance *in, const real *q, const real *s, con
   const ali3_system *S = in->system;
   const int32_t *ptr = S->quad_ptr, *pos = S->quad_pos;
   const double *second = S->quad_second;
-  q = near_origin(in, q);
+  if (S->size.has_pose) q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     const real factor = weight * lam[k];
     if (S->quad_end[k] < ptr[k + 1]) stretch_geometric(S, k, factor, F);

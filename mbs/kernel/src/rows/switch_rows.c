@@ -10,7 +10,6 @@ bool ali3_row_is_off(const ali3_instance *in, int32_t k) {
 /* Phi less the anchors; rows that are off vanish. */
 void ali3_switch_rows(const ali3_instance *in, real *Phi, real *J) {
   const ali3_system *S = in->system;
-  if (S->size.n_switch == 0) return;
   for (int32_t k = 0; k < S->size.nc; k++) {
     if (S->row_switch[k] < 0) continue;
     if (in->now.on[S->row_switch[k]] != 0.0) {
@@ -25,7 +24,6 @@ void ali3_switch_rows(const ali3_instance *in, real *Phi, real *J) {
 /* One number per row, zero where the row is off. */
 void ali3_switch_values(const ali3_instance *in, real *v) {
   const ali3_system *S = in->system;
-  if (S->size.n_switch == 0) return;
   for (int32_t k = 0; k < S->size.nc; k++)
     if (ali3_row_is_off(in, k)) v[k] = 0.0;
 }
