@@ -17,10 +17,6 @@ static const double NOTHING = 1e-24; /* of the squares of the lengths: arms with
 enum { SIGNALS = 9, KIND = 9, RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
 enum { TURNED = 1, PLANAR = 2 }; /* bits of the kind: from the perpendicular of arm b; n is z, the arms lie across */
 
-int64_t ali3_loop_count(const ali3_system *S) { return S->n_mode_triad_ptr > 0 ? S->n_mode_triad_ptr - 1 : 0; }
-
-int64_t ali3_triad_count(const ali3_system *S) { return S->n_mode_triad / ITEMS; }
-
 ALI3_INLINED double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Signed squares of sine and cosine from numbers proportional to both; 0 where these are nothing beside `lengths`. */
