@@ -59,7 +59,7 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
 
 /* Unknowns of a front, `width` of each coordinate: of its pivots, which lie side by side in b, then of the rest, of which
  * the last do so too. Without a rest they are worked on in b. */
-ALI3_INLINED real *ali3_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
+ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
   const ali3_system *S = in->system;
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
@@ -73,8 +73,8 @@ ALI3_INLINED real *ali3_unknowns(ali3_instance *in, int32_t f, int32_t width, re
 }
 
 /* They go back to b, the pivots or all. */
-ALI3_INLINED void ali3_put_back(const ali3_instance *in, int32_t f, int32_t width, const real *x, bool all,
-                                real *restrict b) {
+ALI3_INLINED void ali3_front_put_back(const ali3_instance *in, int32_t f, int32_t width, const real *x, bool all,
+                                      real *restrict b) {
   const ali3_system *S = in->system;
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];

@@ -246,19 +246,19 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
   ALI3_COUNT(in, solves);
   for (int32_t f = 0; f < S->size.nf; f++) {
-    real *x = ali3_unknowns(in, f, 1, b);
+    real *x = ali3_front_unknowns(in, f, 1, b);
     ali3_front_forward(F + S->front_off[f], x, S->front_col[f + 1] - S->front_col[f],
                        S->front_ptr[f + 1] - S->front_ptr[f]);
-    ali3_put_back(in, f, 1, x, true, b);
+    ali3_front_put_back(in, f, 1, x, true, b);
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
-    real *x = ali3_unknowns(in, f, 1, b);
+    real *x = ali3_front_unknowns(in, f, 1, b);
     if (n < FOUR_SUMS)
       few_pivots_back(F + S->front_off[f], x, n_pivot, n);
     else
       pivots_back(F + S->front_off[f], x, n_pivot, n);
-    ali3_put_back(in, f, 1, x, false, b);
+    ali3_front_put_back(in, f, 1, x, false, b);
   }
 }
 

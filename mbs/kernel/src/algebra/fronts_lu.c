@@ -114,16 +114,16 @@ ALI3_INLINED void solve(ali3_instance *in, int32_t width, const double *F, doubl
   const int64_t square = (int64_t)width * width;
   in->report.solves++;
   for (int32_t f = 0; f < S->size.nf; f++) {
-    double *x = ali3_unknowns(in, f, width, b);
+    double *x = ali3_front_unknowns(in, f, width, b);
     ali3_front_forward(F + square * S->front_off[f], x, width * (S->front_col[f + 1] - S->front_col[f]),
                        width * (S->front_ptr[f + 1] - S->front_ptr[f]));
-    ali3_put_back(in, f, width, x, true, b);
+    ali3_front_put_back(in, f, width, x, true, b);
   }
   for (int32_t f = S->size.nf - 1; f >= 0; f--) {
-    double *x = ali3_unknowns(in, f, width, b);
+    double *x = ali3_front_unknowns(in, f, width, b);
     backward(F + square * S->front_off[f], x, width * (S->front_col[f + 1] - S->front_col[f]),
              width * (S->front_ptr[f + 1] - S->front_ptr[f]));
-    ali3_put_back(in, f, width, x, false, b);
+    ali3_front_put_back(in, f, width, x, false, b);
   }
 }
 

@@ -292,7 +292,9 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const do
   *to += *(const ali3_four *)a * *(const ali3_four *)x;
 }
 
-static inline void ali3_three_put(double *to, const ali3_three *a) { to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2]; }
+static inline void ali3_three_put(double *to, const ali3_three *a) {
+  to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2];
+}
 
 static inline void ali3_three_put_first(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
 

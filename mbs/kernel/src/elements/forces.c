@@ -12,8 +12,7 @@
 
 /* Arguments that are the same for all elements. */
 static ali3_element_args common(const ali3_instance *in, const ali3_force_call *call) {
-  return (ali3_element_args){
-      .h = call->h, .wC = call->wC, .wK = call->wK, .input = in->force_input, .roads = in->road};
+  return (ali3_element_args){.h = call->h, .wC = call->wC, .wK = call->wK, .input = in->force_input, .roads = in->road};
 }
 
 /* Those of element e at its own signals u and their rates ud; f and S live with the caller. */
@@ -102,8 +101,8 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
     double *f = in->element_force + S->el_sig_ptr[e];
     const int32_t beside = S->el_beside[e];
     if (beside < 0) local(in, e, u, ud);
-    in->idle[e] = evaluate(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside, f, tangent,
-                           &a);
+    in->idle[e] =
+        evaluate(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside, f, tangent, &a);
   }
 }
 

@@ -60,7 +60,8 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
 /* Of all triads, signed squares of sines in in->mode_sine and of cosines in in->mode_cosine. */
 ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
   const int32_t *t = in->system->mode_triad, *end = t + in->system->n_mode_triad;
-  for (double *sine = in->mode_sine, *cosine = in->mode_cosine; t < end; t += ITEMS) angle(in->system, q, t, sine++, cosine++);
+  for (double *sine = in->mode_sine, *cosine = in->mode_cosine; t < end; t += ITEMS)
+    angle(in->system, q, t, sine++, cosine++);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, mode_angles, (ali3_instance * in, const double *q), (in, q))
