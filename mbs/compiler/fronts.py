@@ -44,11 +44,9 @@ def _trapezoid(pivots: int, size: int) -> int:
     return pivots * size - pivots * (pivots - 1) // 2
 
 
-def build_fronts(
-    pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({}), as_drawn: bool = True
-) -> Fronts:
-    """Fronts of a symmetric pattern for an elimination order; `as_drawn`: their pivots in the order of the model, else
-    in that order. Pivots in `late` come last in their front, by its numbers.
+def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({})) -> Fronts:
+    """Fronts of a symmetric pattern for an elimination order; their pivots are in the order of the model, those in
+    `late` last, by its numbers.
     """
     n = pattern.shape[0]
     if n == 0:
@@ -58,8 +56,7 @@ def build_fronts(
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
     pivots, above = _merge(structure, parent)
-    ranks = {k: (late[c], c) for k, c in enumerate(map(int, order)) if c in late}
-    drawn = {k: (0, int(c)) if as_drawn else (0, k) for k, c in enumerate(order)} | ranks
+    drawn = {k: (late.get(c, 0), c) for k, c in enumerate(map(int, order))}
     groups = {k: sorted(front, key=drawn.__getitem__) for k, front in pivots.items()}
     return _number(np.asarray(order), structure, groups, above)
 
