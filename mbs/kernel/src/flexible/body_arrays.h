@@ -1,6 +1,7 @@
 /* A flexible body in the arrays of a System, and the loops that its files share. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
+#include <stdbool.h>
 #include <string.h>
 
 #include "../algebra/processor.h"
@@ -139,5 +140,24 @@ static inline real ali3_inner(int32_t n, const real *restrict a, const real *res
 
 static inline void ali3_gather(int32_t n, const int32_t *index, const real *from, real *to) {
   for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
+}
+
+/* Whether n places that ascend lie side by side, as those of modes mostly do. */
+static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
+
+/* The amplitudes of x. */
+ALI3_INLINED void ali3_amplitudes(const ali3_flexible *f, const real *x, real *to) {
+  if (ali3_together(f->mode, f->n))
+    ali3_copy_few(to, x + f->mode[0], f->n);
+  else
+    ali3_gather(f->n, f->mode, x, to);
+}
+
+/* to += weight x at the modes */
+ALI3_INLINED void ali3_add_to_modes(const ali3_flexible *f, const real *x, double weight, real *to) {
+  if (ali3_together(f->mode, f->n))
+    ali3_add_multiple(to + f->mode[0], x, ali3_same(weight), f->n);
+  else
+    for (int32_t j = 0; j < f->n; j++) to[f->mode[j]] += weight * x[j];
 }
 #endif
