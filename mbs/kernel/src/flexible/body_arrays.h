@@ -124,18 +124,33 @@ ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const rea
   ali3_add_product(n, M, x, out, out);
 }
 
-static inline real ali3_inner(int32_t n, const real *restrict a, const real *restrict b) {
-  real even = {0}, odd = {0};
-  int32_t i = 1;
-#ifdef __clang__
-#pragma clang loop unroll_count(4)
-#endif
-  for (; i < n; i += 2) {
-    even += a[i - 1] * b[i - 1];
-    odd += a[i] * b[i];
+/* x times three rows that follow each other, each sum in the order of `ali3_product_from_far`. */
+ALI3_INLINED void ali3_three_products(int32_t n, const real *restrict rows, const real *restrict x, real out[3]) {
+#ifdef ALI3_WIDTH
+  for (int k = 0; k < 3; k++) out[k] = ali3_product_from_far(rows + k * n, x, n);
+#else
+  const double *restrict second = rows + n, *restrict third = second + n;
+  ali3_four a = {0}, b = {0}, c = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4) {
+    const ali3_four at = *(const ali3_four *)(x + i - 4);
+    a += *(const ali3_four *)(rows + i - 4) * at;
+    b += *(const ali3_four *)(second + i - 4) * at;
+    c += *(const ali3_four *)(third + i - 4) * at;
   }
-  if (i == n) even += a[i - 1] * b[i - 1];
-  return even + odd;
+  out[0] = (a[0] + a[1]) + (a[2] + a[3]);
+  out[1] = (b[0] + b[1]) + (b[2] + b[3]);
+  out[2] = (c[0] + c[1]) + (c[2] + c[3]);
+  while (i-- > 0) out[0] += rows[i] * x[i], out[1] += second[i] * x[i], out[2] += third[i] * x[i];
+#endif
+}
+
+/* y += the multiples of three rows that follow each other, in turn. */
+ALI3_INLINED void ali3_add_three_rows(int32_t n, const real *restrict rows, const real *factor, real *restrict y) {
+  const real *restrict second = rows + n, *restrict third = second + n;
+  const real a = factor[0], b = factor[1], c = factor[2];
+  ALI3_EACH(0, n, ALI3_AT(y) = ((ALI3_AT(y) + ALI3_AT(rows) * a) + ALI3_AT(second) * b) + ALI3_AT(third) * c)
 }
 
 static inline void ali3_gather(int32_t n, const int32_t *index, const real *from, real *to) {

@@ -31,13 +31,11 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
       ki[j] = c_ki[j] + (even[j] + odd[j]);
     }
   }
-  for (int i = 0; i < 3; i++) {
-    f->S[i] = ali3_inner(n, f->P + i * n, eta);
-    for (int k = 0; k <= i; k++) {
-      const real value = ali3_inner(n, f->c + (3 * k + i) * n, eta) + ali3_inner(n, f->D + (3 * i + k) * n, eta);
-      f->J[3 * i + k] = f->J[3 * k + i] = value;
-    }
-  }
+  ali3_three_products(n, f->P, eta, f->S);
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k <= i; k++)
+      f->J[3 * i + k] = f->J[3 * k + i] = ali3_product_from_far(f->c + (3 * k + i) * n, eta, n) +
+                                          ali3_product_from_far(f->D + (3 * i + k) * n, eta, n);
 }
 
 ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
@@ -53,20 +51,20 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     real *restrict rate = in->flex_work, *restrict force = rate + n;
-    real v[12], local[3], local_r[3] = {0};
+    real v[12], local[3], back[3], local_r[3] = {0};
     ali3_gather(12, f.frame, x, v);
     ali3_amplitudes(&f, x, rate);
     memset(force, 0, (size_t)n * sizeof *force);
     for (int i = 0; i < 4; i++) { /* r_o, then the axes */
-      const real *a = v + 3 * i;
+      const real *a = v + 3 * i, *rows = i == 0 ? f.P : f.D + 3 * (i - 1) * n;
       real total[3] = {0};
+      ali3_three_products(n, rows, rate, local);
       for (int l = 0; l < 3; l++) {
-        const real *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
-        const real *axis = f.A + 3 * l, back = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
-        local[l] = ali3_inner(n, row, rate);
-        for (int32_t j = 0; j < n; j++) force[j] += row[j] * back;
+        const real *axis = f.A + 3 * l;
+        back[l] = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
         for (int k = 0; k < 3; k++) total[k] += axis[k] * local[l];
       }
+      ali3_add_three_rows(n, rows, back, force);
       if (i > 0) {
         for (int k = 0; k < 3; k++) {
           total[k] += f.S[i - 1] * v[k];
@@ -106,18 +104,16 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
       ali3_accumulate(n, f.H + p * (int64_t)n * n, x, sum);
     }
     for (int i = 0; i < 4; i++) {
-      real total[3] = {0};
-      for (int l = 0; l < 3; l++) {
-        const real local = -2.0 * ali3_inner(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
-        for (int k = 0; k < 3; k++) total[k] += Ad[3 * l + k] * local;
-      }
+      real total[3] = {0}, local[3];
+      ali3_three_products(n, i == 0 ? f.P : f.D + 3 * (i - 1) * n, rate, local);
+      for (int l = 0; l < 3; l++)
+        for (int k = 0; k < 3; k++) total[k] -= 2.0 * Ad[3 * l + k] * local[l];
       for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : ali3_same(0.0));
     }
-    for (int l = 0; l < 3; l++) {
-      const real *axis = f.A + 3 * l, weight = axis[0] * g[0] + axis[1] * g[1] + axis[2] * g[2];
-      const real *restrict row = f.P + l * n;
-      for (int32_t j = 0; j < n; j++) sum[j] -= row[j] * weight;
-    }
+    real weight[3];
+    for (int l = 0; l < 3; l++)
+      weight[l] = -(f.A[3 * l] * g[0] + f.A[3 * l + 1] * g[1] + f.A[3 * l + 2] * g[2]);
+    ali3_add_three_rows(n, f.P, weight, sum);
     ali3_add_to_modes(&f, sum, -1.0, Q);
   }
 }
@@ -204,7 +200,7 @@ ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, doub
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const double *force = elastic_force(in, &f, q);
-    *elastic += 0.5 * ali3_inner(f.n, force, in->flex_work);
+    *elastic += 0.5 * ali3_product_from_far(force, in->flex_work, f.n);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }
