@@ -53,7 +53,8 @@ class MotionSensorVocabulary(SensorBase):
         unit = self._unit(unit, RATE_UNITS["m"][k])
         owner, place = self.owned(body, f"The {what}"), body.com if point is None else point
         carried = owner.carried(place)
-        parts, type = ((owner.point(place),), SensorType.COMPONENT) if carried is None else (carried, SensorType.CARRIED)
+        type = SensorType.COMPONENT if carried is None else SensorType.CARRIED
+        parts = (owner.point(place),) if carried is None else carried
         i = component_number(component, self.dimension, what)
         along = np.eye(self.dimension)[i]
         if isinstance(axes, str) and axes == "earth":
