@@ -36,7 +36,8 @@ _OPEN_RANGE = 10.0
 # Shares of the ranges in turn: a mechanism may not bear all of them.
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
-_WITH_ORDER, _SECOND = (SensorType.COMPONENT, SensorType.DIRECTION), 2  # second rates need accelerations
+_WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.DIRECTION)
+_SECOND = 2  # second rates need accelerations
 _ON_ROAD = (ElementType.TYRE, ElementType.MAGIC_TYRE, ElementType.CONTACT_POINTS)
 _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 

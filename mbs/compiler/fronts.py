@@ -16,6 +16,8 @@ DENSE_SIZE = 24
 """Systems up to this many coordinates are one dense front."""
 MERGE_SIZE = 12
 """A child is merged into its parent if the merged front is no larger than this ..."""
+MERGE_SIZE_FLEXIBLE = 44
+"""... where the root has many modes, whose vectors are long ..."""
 MERGE_ZEROS = 0.25
 """... or if at most this part of the merged trapezoid is zeros that were not there before."""
 
@@ -44,11 +46,9 @@ def _trapezoid(pivots: int, size: int) -> int:
     return pivots * size - pivots * (pivots - 1) // 2
 
 
-def build_fronts(
-    pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({}), as_drawn: bool = True
-) -> Fronts:
-    """Fronts of a symmetric pattern for an elimination order; `as_drawn`: their pivots in the order of the model, else
-    in that order. Pivots in `late` come last in their front, by its numbers.
+def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({})) -> Fronts:
+    """Fronts of a symmetric pattern for an elimination order; their pivots are in the order of the model, those in
+    `late` last, by its numbers.
     """
     n = pattern.shape[0]
     if n == 0:
@@ -57,9 +57,8 @@ def build_fronts(
         return Fronts(np.asarray(order), np.array([0, n]), [np.arange(n)], np.array([-1]))
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
-    pivots, above = _merge(structure, parent)
-    ranks = {k: (late[c], c) for k, c in enumerate(map(int, order)) if c in late}
-    drawn = {k: (0, int(c)) if as_drawn else (0, k) for k, c in enumerate(order)} | ranks
+    pivots, above = _merge(structure, parent, MERGE_SIZE_FLEXIBLE if late else MERGE_SIZE)
+    drawn = {k: (late.get(c, 0), c) for k, c in enumerate(map(int, order))}
     groups = {k: sorted(front, key=drawn.__getitem__) for k, front in pivots.items()}
     return _number(np.asarray(order), structure, groups, above)
 
@@ -84,8 +83,8 @@ def _columns(pattern: sparse.csc_matrix, order: Index) -> list[set[int]]:
     return structure
 
 
-def _merge(structure: list[set[int]], parent: list[int]) -> tuple[dict[int, list[int]], dict[int, int]]:
-    """Merge columns into fronts, children before parents.
+def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dict[int, list[int]], dict[int, int]]:
+    """Merge columns into fronts, children before parents; those of up to `size` coordinates always.
 
     Returns the pivots of each front by its last pivot, and the parent front (by its last pivot, or -1).
     """
@@ -111,7 +110,7 @@ def _merge(structure: list[set[int]], parent: list[int]) -> tuple[dict[int, list
         area = _trapezoid(len(mine) + len(pivots[top]), joined)
         before = _trapezoid(len(mine), own) + _trapezoid(len(pivots[top]), joined - len(mine))
         extra = area - before + zeros[k] + zeros[top]
-        if joined <= MERGE_SIZE or extra <= MERGE_ZEROS * area:
+        if joined <= size or extra <= MERGE_ZEROS * area:
             pivots[top] = mine + pivots[top]
             zeros[top] = extra
             head[k] = top

@@ -288,7 +288,7 @@ def _symbolic(
     drawn = pattern_with({})  # columns of modes lie side by side:
     late = {c: k for k, places in enumerate(modes, 1) for c in places[12:]}
     if not model.written_axes:
-        return build_fronts(drawn, fill_reducing_order(drawn), late, not modes), (drawn.nnz + nz) // 2
+        return build_fronts(drawn, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2
     cliques += axis_cliques(model, full)  # what turns the axes of wheels has room; the order is that without
     room = pattern_with(axis_room(model, known.seen))
-    return build_fronts(room, fill_reducing_order(drawn), late, not modes), (drawn.nnz + nz) // 2
+    return build_fronts(room, fill_reducing_order(drawn), late), (drawn.nnz + nz) // 2

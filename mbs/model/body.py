@@ -81,6 +81,21 @@ class Body:
         local = vector(position, self.dimension, f"a point of body '{self.name}'") - self.com
         return self._expression(local, 1.0)
 
+    def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
+        """Origin r, axes a, b, c and place x of a point r + A x that is no expression of coordinates.
+
+        Parameters
+        ----------
+        position : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        tuple of five AffineVector or None
+            None where `point` gives the point without new coordinates.
+        """
+        return None
+
     def vector(self, components: ArrayLike) -> AffineVector:
         """A vector fixed in the body.
 

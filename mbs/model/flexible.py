@@ -175,6 +175,13 @@ class FlexibleBody(Body):
             return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(3)))
         return self.interface_at(position, "a point").point()
 
+    def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
+        """See `Body.carried`: of a node that has no coordinates."""
+        place = vector(position, 3, f"a point of flexible body '{self.name}'")
+        if np.linalg.norm(place - self.com) <= SAME_PLACE:
+            return None
+        return self.interface_at(place, "a point").carried(place)
+
     def node(self, node: str | int) -> AffineVector:
         """A node as a point; it brings three coordinates and rows unless it is there already."""
         return self.interface(node).point()
@@ -285,10 +292,17 @@ class Interface(Body):
         """
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth
-            origin = AffineVector(tuple(Affine({self.owner.start + k: 1.0}) for k in range(3)))
-            self._point = origin + self._moved("", self.com - self.owner.com, self.translation)
+            self._point = self._frame(0) + self._moved("", self.com - self.owner.com, self.translation)
         arm = np.zeros(3) if position is None else vector(position, 3, f"a point of interface '{self.name}'") - self.com
         return self._point if np.linalg.norm(arm) <= SAME_PLACE else self._point + self.vector(arm)
+
+    def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
+        """See `Body.carried`: of the node itself, where it has no coordinates."""
+        place = vector(position, 3, f"a point of interface '{self.name}'")
+        if self._point is not None or np.linalg.norm(place - self.com) > SAME_PLACE or not np.any(self.translation):
+            return None
+        bent = self._bent(self.com - self.owner.com, self.translation)
+        return *(self._frame(i) for i in range(4)), AffineVector(tuple(bent))
 
     def vector(self, components: ArrayLike) -> AffineVector:
         """A vector that turns with the node.
@@ -328,17 +342,25 @@ class Interface(Body):
             return owner.vector(local)
         what = f"{self.name}{part}"
         new = self._new(what, "vector", local)
-        eta = frame + 12
-        bent = [
-            Affine({eta + int(j): float(motion[i, j]) for j in np.flatnonzero(motion[i])}, float(local[i]))
-            for i in range(3)
-        ]
+        bent = self._bent(local, motion)
         rows = []
         for k in range(3):
             products = [(-1.0, Affine({frame + 3 + 3 * i + k: 1.0}), bent[i]) for i in range(3)]
             rows.append(Equation(what, "interface", products, new[k]))
         self.model.joints.append(Joint(what, "interface", rows))
         return new
+
+    def _frame(self, i: int) -> AffineVector:
+        """Origin of the floating frame (0) or one of its axes."""
+        return AffineVector(tuple(Affine({self.owner.start + 3 * i + k: 1.0}) for k in range(3)))
+
+    def _bent(self, local: Vector, motion: NDArray[np.float64]) -> list[Affine]:
+        """``local + motion eta``"""
+        eta = self.owner.start + 12
+        return [
+            Affine({eta + int(j): float(motion[i, j]) for j in np.flatnonzero(motion[i])}, float(local[i]))
+            for i in range(3)
+        ]
 
     def _new(self, what: str, kind: str, drawn: Vector) -> AffineVector:
         """Three coordinates without mass."""

@@ -35,7 +35,7 @@ class MotionSensorVocabulary(SensorBase):
         """Component of the position of a point, m, of its velocity, m/s, or of its acceleration, m/s2.
 
         Velocity and acceleration are those in the earth, resolved along the axes; the acceleration is without that of
-        gravity.
+        gravity. A node of a flexible body is read without coordinates of its own.
 
         Parameters
         ----------
@@ -51,15 +51,22 @@ class MotionSensorVocabulary(SensorBase):
         what = f"sensor '{name}'"
         k = order_number(order, 2, what)
         unit = self._unit(unit, RATE_UNITS["m"][k])
-        p = self.owned(body, f"The {what}").point(body.com if point is None else point)
+        owner, place = self.owned(body, f"The {what}"), body.com if point is None else point
+        carried = owner.carried(place)
+        type = SensorType.COMPONENT if carried is None else SensorType.CARRIED
+        parts = (owner.point(place),) if carried is None else carried
         i = component_number(component, self.dimension, what)
+        along = np.eye(self.dimension)[i]
         if isinstance(axes, str) and axes == "earth":
-            return self._sense(name, unit, description, SIGNALS[k], [p[i]], reals=[1.0])
-        if (isinstance(axes, str) and axes != "body") or not isinstance(axes, (str, Body)):
+            if carried is None:
+                return self._sense(name, unit, description, SIGNALS[k], [parts[0][i]], reals=[1.0])
+            axis = AffineVector(tuple(Affine({}, v) for v in along.tolist()))
+        elif isinstance(axes, Body) or (isinstance(axes, str) and axes == "body"):
+            axis = (self.owned(axes, f"The {what}") if isinstance(axes, Body) else body).vector(along)
+        else:
             raise ModelError(f"The axes of {what} are {shown(axes)}; they must be 'earth', 'body' or a body.")
-        turning = body if isinstance(axes, str) else self.owned(axes, f"The {what}")
-        axis = turning.vector(np.eye(self.dimension)[i])
-        return self._sense(name, unit, description, SensorType.COMPONENT, [*spatial(p), *spatial(axis)], integers=[k])
+        signals = [s for part in (*parts, axis) for s in spatial(part)]
+        return self._sense(name, unit, description, type, signals, integers=[k])
 
     def sense_vector(
         self,

@@ -38,7 +38,7 @@ WHOLE = 200  # intervals of a record that is compared at all its samples: they a
 STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 COORDINATES = "1"
-WITH_ORDER = (SensorType.COMPONENT, SensorType.NORM)  # their first integer
+WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
 LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
 
 

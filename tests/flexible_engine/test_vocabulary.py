@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ctypes
+
 import numpy as np
 import pytest
 
-from mbs import compile
+from mbs import Settings, compile
 from mbs.model import Model, ModelError
 from mbs.model.flexible import FlexibleBody
 from mbs.simulation.stepping import Simulation
@@ -42,6 +44,52 @@ def test_a_shared_point_needs_no_coordinates_of_its_own() -> None:
     rod = m.body("rod", mass=1.0, com=(1.5, 0, 0), inertia=(1e-3, 0.1, 0.1))
     m.spherical("ball", beam, rod, point=(1, 0, 0))
     assert compile(m).nq == (12 + 8) + 12
+
+
+def _watched(node_first: bool) -> Simulation:
+    """A body that turns and bends, its node 3 in earth axes, in its own and in those of another body, all orders."""
+    m = Model("watched")
+    body = m.flexible_body("cloud", cloud())
+    m.initial_velocity(body, (0.1, 0.2, 0.3), (1.0, 2.0, 3.0))
+    place = body.node_positions[3]
+    other = m.body("other", mass=1.0, com=(2.0, 0, 0), inertia=(0.1, 0.2, 0.25))
+    m.initial_velocity(other, (0, 0, 0), (0.5, 0, -1.0))
+    if node_first:
+        body.node(3)
+    for order in range(3):
+        for c in "xyz":
+            m.sense_position(f"earth {order} {c}", body, place, c, order=order)
+            m.sense_position(f"node {order} {c}", body.interface(3), None, c, body.frame, order=order)
+            m.sense_position(f"other {order} {c}", body, place, c, other, order=order)
+    simulation = Simulation(compile(m), settings=Settings(tolerance_r=1e-13))
+    simulation.step(1e-4, 400)
+    return simulation
+
+
+def test_a_node_is_read_without_coordinates() -> None:
+    """Place, velocity and acceleration are those of the node that has coordinates, of its own also by differences."""
+    alone, node = _watched(False), _watched(True)
+    assert alone.system.nq == node.system.nq - 3
+    for name, value in node.sensors.items():
+        assert alone.sensors[name] == pytest.approx(value, rel=1e-6, abs=1e-7), name
+    assert max(abs(alone.sensors[f"node 2 {c}"]) for c in "xyz") > 1.0
+
+
+@pytest.mark.parametrize("node_first", [False, True])
+def test_rates_of_a_node_are_known(node_first: bool) -> None:
+    """Of places and velocities, against differences; those of accelerations are not."""
+    simulation, h = _watched(node_first), 1e-6
+    names = [s["name"] for s in simulation.system.meta["sensors"]]
+    rates, known = (ctypes.c_double * len(names))(), ctypes.create_string_buffer(len(names))
+    instance = simulation.instance
+    assert instance._library.ali3_sensor_rates(instance._handle, rates, known) == 0
+    before = dict(simulation.sensors)
+    simulation.step(h)
+    for name, rate, is_known in zip(names, rates, known.raw[: len(names)], strict=True):
+        order = int(name.split()[1])
+        assert bool(is_known) == (order < 2)
+        if order < 2:
+            assert rate == pytest.approx((simulation.sensors[name] - before[name]) / h, rel=1e-3, abs=1e-3), name
 
 
 def test_place_and_axes_of_the_finite_element_model() -> None:

@@ -174,6 +174,7 @@ class SensorType(IntEnum):
     REACTION_BY_TABLE = 22
     GUIDED_WORK = 23
     SCALED_INPUT = 24
+    CARRIED = 25
 
 
 SENSOR_READS = {
@@ -202,6 +203,7 @@ SENSOR_READS = {
     SensorType.REACTION_BY_TABLE: SensorReads.ROWS,
     SensorType.GUIDED_WORK: SensorReads.FORCES,
     SensorType.SCALED_INPUT: SensorReads.INPUTS,
+    SensorType.CARRIED: SensorReads.MOTION,
 }
 
 

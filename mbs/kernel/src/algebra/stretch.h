@@ -74,7 +74,7 @@ typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias))
   {                                                                                                                    \
     int64_t i = from;                                                                                                  \
     ALI3_SHORT                                                                                                         \
-    for (; i + 3 < (n); i += 4) {                                                                                      \
+    for (const int64_t whole = (n) - 3; i < whole; i += 4) {                                                           \
       typedef ali3_four entry;                                                                                         \
       statement;                                                                                                       \
     }                                                                                                                  \

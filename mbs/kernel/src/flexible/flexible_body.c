@@ -17,7 +17,7 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
   const int64_t square = (int64_t)n * n;
   real *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
   ali3_gather(9, f->frame + 3, q, f->A);
-  ali3_gather(n, f->mode, q, eta);
+  ali3_amplitudes(f, q, eta);
   for (int i = 0; i < 3; i++) ali3_add_product(n, f->E + i * square, eta, f->c + 4 * i * n, f->D + 4 * i * n);
   for (int p = 0; p < 3; p++) { /* the pairs yz, zx, xy: sum m phi_i phi_k' = E - H, its transpose E + H */
     const int i = (p + 1) % 3, k = (p + 2) % 3;
@@ -31,13 +31,11 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
       ki[j] = c_ki[j] + (even[j] + odd[j]);
     }
   }
-  for (int i = 0; i < 3; i++) {
-    f->S[i] = ali3_inner(n, f->P + i * n, eta);
-    for (int k = 0; k <= i; k++) {
-      const real value = ali3_inner(n, f->c + (3 * k + i) * n, eta) + ali3_inner(n, f->D + (3 * i + k) * n, eta);
-      f->J[3 * i + k] = f->J[3 * k + i] = value;
-    }
-  }
+  ali3_three_products(n, f->P, eta, f->S);
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k <= i; k++)
+      f->J[3 * i + k] = f->J[3 * k + i] = ali3_product_from_far(f->c + (3 * k + i) * n, eta, n) +
+                                          ali3_product_from_far(f->D + (3 * i + k) * n, eta, n);
 }
 
 ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
@@ -53,20 +51,20 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     real *restrict rate = in->flex_work, *restrict force = rate + n;
-    real v[12], local[3], local_r[3] = {0};
+    real v[12], local[3], back[3], local_r[3] = {0};
     ali3_gather(12, f.frame, x, v);
-    ali3_gather(n, f.mode, x, rate);
+    ali3_amplitudes(&f, x, rate);
     memset(force, 0, (size_t)n * sizeof *force);
     for (int i = 0; i < 4; i++) { /* r_o, then the axes */
-      const real *a = v + 3 * i;
+      const real *a = v + 3 * i, *rows = i == 0 ? f.P : f.D + 3 * (i - 1) * n;
       real total[3] = {0};
+      ali3_three_products(n, rows, rate, local);
       for (int l = 0; l < 3; l++) {
-        const real *restrict row = i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n;
-        const real *axis = f.A + 3 * l, back = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
-        local[l] = ali3_inner(n, row, rate);
-        for (int32_t j = 0; j < n; j++) force[j] += row[j] * back;
+        const real *axis = f.A + 3 * l;
+        back[l] = axis[0] * a[0] + axis[1] * a[1] + axis[2] * a[2];
         for (int k = 0; k < 3; k++) total[k] += axis[k] * local[l];
       }
+      ali3_add_three_rows(n, rows, back, force);
       if (i > 0) {
         for (int k = 0; k < 3; k++) {
           total[k] += f.S[i - 1] * v[k];
@@ -77,7 +75,7 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
       for (int k = 0; k < 3; k++) out[f.frame[3 * i + k]] += total[k];
     }
     for (int k = 0; k < 3; k++) out[f.frame[k]] += local_r[k];
-    for (int32_t j = 0; j < n; j++) out[f.mode[j]] += force[j];
+    ali3_add_to_modes(&f, force, 1.0, out);
   }
 }
 
@@ -92,8 +90,8 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
     real Ad[9];
     ali3_gather(9, f.frame + 3, qd, Ad);
     for (int i = 0; i < 9; i++) Ad[i] *= turning;
-    ali3_gather(n, f.mode, qd, rate);
-    ali3_gather(n, f.mode, q, x);
+    ali3_amplitudes(&f, qd, rate);
+    ali3_amplitudes(&f, q, x);
     memset(sum, 0, (size_t)n * sizeof *sum);
     ali3_accumulate(n, f.K, x, sum);
     ali3_accumulate(n, f.C, rate, sum);
@@ -106,26 +104,24 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
       ali3_accumulate(n, f.H + p * (int64_t)n * n, x, sum);
     }
     for (int i = 0; i < 4; i++) {
-      real total[3] = {0};
-      for (int l = 0; l < 3; l++) {
-        const real local = -2.0 * ali3_inner(n, i == 0 ? f.P + l * n : f.D + (3 * (i - 1) + l) * n, rate);
-        for (int k = 0; k < 3; k++) total[k] += Ad[3 * l + k] * local;
-      }
+      real total[3] = {0}, local[3];
+      ali3_three_products(n, i == 0 ? f.P : f.D + 3 * (i - 1) * n, rate, local);
+      for (int l = 0; l < 3; l++)
+        for (int k = 0; k < 3; k++) total[k] -= 2.0 * Ad[3 * l + k] * local[l];
       for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : ali3_same(0.0));
     }
-    for (int l = 0; l < 3; l++) {
-      const real *axis = f.A + 3 * l, weight = axis[0] * g[0] + axis[1] * g[1] + axis[2] * g[2];
-      const real *restrict row = f.P + l * n;
-      for (int32_t j = 0; j < n; j++) sum[j] -= row[j] * weight;
-    }
-    for (int32_t j = 0; j < n; j++) Q[f.mode[j]] -= sum[j];
+    real weight[3];
+    for (int l = 0; l < 3; l++)
+      weight[l] = -(f.A[3 * l] * g[0] + f.A[3 * l + 1] * g[1] + f.A[3 * l + 2] * g[2]);
+    ali3_add_three_rows(n, f.P, weight, sum);
+    ali3_add_to_modes(&f, sum, -1.0, Q);
   }
 }
 
 /* Lower triangle of wC C + wK K into the body's front. */
 ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  const bool together = mode[n - 1] - mode[0] == n - 1;
+  const bool together = ali3_together(mode, n);
   for (int32_t j = 0; j < n; j++) {
     const double *restrict C = f->C + (int64_t)j * n, *restrict K = f->K + (int64_t)j * n;
     real *restrict column = block + (int64_t)mode[j] * size;
@@ -140,7 +136,7 @@ ALI3_INLINED void add_moduli(const ali3_flexible *f, int32_t size, double wC, do
  * body has many others. */
 ALI3_INLINED void add_coupling(const ali3_flexible *f, int32_t size, double wM, double wK, real *block) {
   const int32_t n = f->n, *mode = f->loc + 12;
-  bool together = mode[n - 1] - mode[0] == n - 1;
+  bool together = ali3_together(mode, n);
   for (int i = 0; i < 12; i++) together = together && f->loc[i] < mode[0];
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++) {
@@ -193,7 +189,7 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
 /* K eta with the amplitudes eta of x, which stay in in->flex_work. */
 ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
   double *eta = in->flex_work, *force = eta + f->n;
-  ali3_gather(f->n, f->mode, x, eta);
+  ali3_amplitudes(f, x, eta);
   memset(force, 0, (size_t)f->n * sizeof(double));
   ali3_accumulate(f->n, f->K, eta, force);
   return force;
@@ -204,7 +200,7 @@ ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, doub
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const double *force = elastic_force(in, &f, q);
-    *elastic += 0.5 * ali3_inner(f.n, force, in->flex_work);
+    *elastic += 0.5 * ali3_product_from_far(force, in->flex_work, f.n);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }
@@ -229,7 +225,7 @@ void ali3_flexible_elastic(const ali3_instance *in, double weight, const double 
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const double *force = elastic_force(in, &f, x);
-    for (int32_t j = 0; j < f.n; j++) out[f.mode[j]] += weight * force[j];
+    ali3_add_to_modes(&f, force, weight, out);
   }
 }
 #endif

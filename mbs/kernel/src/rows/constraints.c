@@ -115,7 +115,8 @@ static real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
+/* `singles`: rows may have entries of a term each at most. */
+ALI3_INLINED void all_rows(ali3_instance *in, const real *q, const real *s, real *Phi, real *J, bool singles) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   const double *row_lin = S->row_lin;
@@ -123,6 +124,14 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
+    const int32_t single = singles && S->row_single[k] ? ptr[k + 1] : i;
+    ALI3_SHORT
+    for (; i < single; i++) {
+      const double lin = row_lin[i];
+      const real sum = lin + S->single_val[i] * q[S->single_col[i]];
+      J[i] = sum;
+      value += (sum + lin) * q[col[i]];
+    }
     const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     if (triples > i && S->row_triples[k] == ALI3_POINTS)
       for (int32_t t = S->hess_ptr[i]; i < triples; i += 3) {
@@ -181,8 +190,23 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
   if (S->size.n_switch > 0) ali3_switch_rows(in, Phi, J);
 }
 
-ALI3_BY_PROCESSOR(in->system, void, constraints, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
+ALI3_INLINED void rigid_rows(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
+  all_rows(in, q, s, Phi, J, false);
+}
+
+ALI3_INLINED void flexible_rows(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
+  all_rows(in, q, s, Phi, J, true);
+}
+
+ALI3_BY_PROCESSOR(in->system, void, rigid_rows, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
                   (in, q, s, Phi, J))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_rows,
+                  (ali3_instance * in, const real *q, const real *s, real *Phi, real *J), (in, q, s, Phi, J))
+
+void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
+  (in->system->n_flexible > 0 ? ali3_flexible_rows : ali3_rigid_rows)(in, q, s, Phi, J);
+}
 
 /* Phit = d Phi / dt */
 void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
@@ -199,14 +223,17 @@ void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *
 }
 
 /* gamma = d(Phi_q)/dt qd + d(Phi_t)/dt, so that Phi'' = Phi_q qdd + gamma. */
-ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
-                                   real *gamma) {
+ALI3_INLINED void all_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma,
+                            bool singles) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   if (S->size.has_pose) q = near_origin(in, q);
   for (int32_t k = 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
+    const int32_t single = singles && S->row_single[k] ? ptr[k + 1] : i;
+    ALI3_SHORT
+    for (; i < single; i++) value += S->single_val[i] * qd[S->single_col[i]] * qd[col[i]];
     const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
     if (triples > i && S->row_triples[k] == ALI3_POINTS)
       for (int32_t t = S->hess_ptr[i]; i < triples; i += 3) {
@@ -249,9 +276,27 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
   if (S->size.n_switch > 0) ali3_switch_values(in, gamma);
 }
 
-ALI3_BY_PROCESSOR(in->system, void, constraint_gamma,
+ALI3_INLINED void rigid_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
+                              real *gamma) {
+  all_gamma(in, q, qd, guides, gamma, false);
+}
+
+ALI3_INLINED void flexible_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,
+                                 real *gamma) {
+  all_gamma(in, q, qd, guides, gamma, true);
+}
+
+ALI3_BY_PROCESSOR(in->system, void, rigid_gamma,
                   (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma),
                   (in, q, qd, guides, gamma))
+
+ALI3_BY_PROCESSOR(in->system, void, flexible_gamma,
+                  (ali3_instance * in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma),
+                  (in, q, qd, guides, gamma))
+
+void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides, real *gamma) {
+  (in->system->n_flexible > 0 ? ali3_flexible_gamma : ali3_rigid_gamma)(in, q, qd, guides, gamma);
+}
 
 /* The terms of the stretch of row k, which are columns of its front. */
 static inline void stretch_geometric(const ali3_system *S, int32_t k, real factor, real *F) {

@@ -63,6 +63,15 @@ static double change_component(const ali3_instance *in, const int32_t *v, const 
   return dot_change(&p, &a);
 }
 
+static double change_carried(const ali3_instance *in, const int32_t *v, const double *real) {
+  const moving axis = vector(in, v + 16, 0, 3);
+  moving p;
+  (void)real;
+  ali3_carried(in, v + 1, v[0], p.v);
+  ali3_carried(in, v + 1, v[0] + 1, p.d);
+  return dot_change(&p, &axis);
+}
+
 static double change_angle(const ali3_instance *in, const int32_t *v, const double *real) {
   const moving y = vector(in, v, 0, 1), x = vector(in, v + 1, 0, 1);
   (void)real;

@@ -51,6 +51,35 @@ static double value_component(const ali3_instance *in, const int32_t *v, const d
   return along(in, v + 1, v + 4, v[0]);
 }
 
+/* A signal of modes, which may lie side by side, or one of its rates. */
+static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order) {
+  const ali3_system *S = in->system;
+  const int32_t first = S->sig_ptr[i], n = S->sig_ptr[i + 1] - first, *col = S->sig_col + first;
+  if (n == 0 || col[n - 1] - col[0] != n - 1 || S->n_tabled > 0) return signal(in, i, order);
+  const double *x = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
+  return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_from_far(S->sig_val + first, x + col[0], n);
+}
+
+void ali3_carried(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
+  static const double binomial[3][3] = {{1.0}, {1.0, 1.0}, {1.0, 2.0, 1.0}};
+  vector(in, v, order, out);
+  for (int i = 0; i < 3; i++)
+    for (int32_t k = 0; k <= order; k++) {
+      double axis[3];
+      vector(in, v + 3 + 3 * i, order - k, axis);
+      const double along = binomial[order][k] * signal_of_modes(in, v[12 + i], k);
+      for (int j = 0; j < 3; j++) out[j] += axis[j] * along;
+    }
+}
+
+static double value_carried(const ali3_instance *in, const int32_t *v, const double *real) {
+  double p[3], axis[3];
+  (void)real;
+  ali3_carried(in, v + 1, v[0], p);
+  vector(in, v + 16, 0, axis);
+  return dot(p, axis);
+}
+
 static double value_angle(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   return ali3_atan2(signal(in, v[0], 0), signal(in, v[1], 0));

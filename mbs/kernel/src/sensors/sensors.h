@@ -9,6 +9,8 @@ void ali3_sensors_evaluate(const ali3_instance *in, double *out);
 void ali3_record_row(const ali3_instance *in, int64_t row, double *out, double *positions);
 /* Unit quaternion, scalar first and not negative, of the body axes whose signals v numbers. */
 void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]);
+/* p = r + a x + b y + c z of the signals v numbers, or its first or second rate. */
+void ali3_carried(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]);
 
 #define ALI3_SLOWEST_DIRECTION 0.1 /* m/s: the direction of a slower velocity reads zero */
 #endif

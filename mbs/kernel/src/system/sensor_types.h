@@ -72,7 +72,11 @@
   X(23, GUIDED_WORK, guided_work, "n(e)", 0, 0, NEVER, FORCES, \
     "n, then n elements", "-", "work of all guides and nonconservative work of elements since the start, J") \
   X(24, SCALED_INPUT, scaled_input, "u", 1, 0, NEVER, INPUTS, \
-    "input", "scale", "scale * input as used")
+    "input", "scale", "scale * input as used") \
+  X(25, CARRIED, carried, "dssssssssssssssssss", 0, 0, BY_FIRST, MOTION, \
+    "order (0, 1, 2), 3 signals r, 9 signals a, b, c, 3 signals x, y, z, 3 signals axis", "-", \
+    "axis . (p, p', p'') with p = r + a x + b y + c z: a place in moving axes that moves in them (axis not " \
+    "differentiated)")
 /* clang-format on */
 
 enum {

@@ -30,6 +30,9 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->column_entry = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->column_row = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->column_triple = ali3_pool_items(p, nq, 1);
+  s->row_single = ali3_pool_items(p, (size_t)s->size.nc, 1);
+  s->single_col = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->single_val = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(double));
   s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
@@ -175,6 +178,21 @@ static bool of_points(const ali3_system *s, int32_t k) {
   return true;
 }
 
+/* Whether no entry of row k has more than one term, as of interfaces of flexible bodies; its term is found without a
+ * search then. */
+static bool of_single_terms(const ali3_system *s, int32_t k) {
+  const int32_t *ptr = s->hess_ptr;
+  if (s->n_flexible == 0 || s->row_triples[k] || s->row_stretch[k] < s->row_ptr[k + 1]) return false;
+  for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++)
+    if (ptr[i + 1] - ptr[i] > 1) return false;
+  for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
+    if (ptr[i] == ptr[i + 1]) continue;
+    s->single_col[i] = s->hess_col[ptr[i]];
+    s->single_val[i] = s->hess_val[ptr[i]];
+  }
+  return true;
+}
+
 /* Entry from which row k is a stretch, the end of the row where it would be short. */
 static int32_t stretch_of(const ali3_system *s, int32_t k) {
   const int32_t *ptr = s->hess_ptr, *col = s->hess_col, end = s->row_ptr[k + 1];
@@ -231,6 +249,7 @@ static void derive_hessian(ali3_system *s) {
     if (s->row_triples[k] && of_points(s, k)) s->row_triples[k] = ALI3_POINTS;
     const int32_t first = s->row_triples[k] ? s->row_ptr[k + 1] : stretch_of(s, k);
     s->row_stretch[k] = first;
+    s->row_single[k] = of_single_terms(s, k);
     if (first < s->row_ptr[k + 1])
       interleave(s, s->hess_ptr[first], s->row_ptr[k + 1] - first, s->hess_ptr[first + 1] - s->hess_ptr[first]);
   }
