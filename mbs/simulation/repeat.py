@@ -112,17 +112,21 @@ class Repeats:
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
-        """After two finer runs: where what they differ by may change the verdict, by a third one.
+        """After two finer runs: where what the last two differ by may change the verdict, by a third, then a fourth.
 
         Raises
         ------
         SimulationError
-            It does not end.
+            One does not end.
         """
-        run, first, second = map(self._table, (self.run, *self._finer))
-        if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
-            return known
-        return by_limit(self.finer(parts), [run, second, self._table(self._finer[-1])], self.groups, self.before)
+        for times in (1, 2):
+            first, second = map(self._table, self._finer[-2:])
+            if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
+                break
+            known = self.finer(times * parts)
+            tables = [self._table(self.run), second, self._table(self._finer[-1])]
+            known = by_limit(known, tables, self.groups, self.before)
+        return known
 
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
@@ -179,7 +183,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
 
     Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
     the step. Where they differ it is repeated with half the step, near the limit with a quarter, and if these differ
-    with an eighth; with less where steps were halved. With `Repeats.twin` only the first of the shorter ones is made.
+    with an eighth, then a 16th; with less where steps were halved. With `Repeats.twin` only the first of these is made.
 
     Parameters
     ----------
@@ -199,7 +203,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
         for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, report):
             screened = repeats.coarser(glance)
-            apart = math.inf if screened is None else difference_from(screened, method, glance)
+            apart = math.inf if screened is None else difference_from(screened, method, h)
             if screened is not None and apart <= glance.difference:
                 return screened
             if screened is not None and apart > HOPELESS:
