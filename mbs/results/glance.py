@@ -39,7 +39,7 @@ def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: boo
     return resolved or (replace(chosen[-1], difference=CLOSE),)
 
 
-def difference_from(known: Accuracy, method: str, glance: Glance) -> float:
-    """Largest difference of a run from a coarser one, of the range."""
-    order = known.order or float(METHOD_TABLE[method].order)
-    return 0.0 if known.error is None else known.error * (glance.times**order - 1.0)
+def difference_from(known: Accuracy, method: str, h: float) -> float:
+    """Largest difference of a run in steps of `h` from a coarser one, of the range."""
+    order, times = known.order or float(METHOD_TABLE[method].order), (known.repeated_with or h) / h
+    return 0.0 if known.error is None else known.error * (times**order - 1.0)

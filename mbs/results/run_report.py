@@ -57,7 +57,7 @@ class Report:
         Of a tyre, a contact or a spring with end stops in a System with roads, N.
     divisions : int
         Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
-        changed abruptly in them.
+        changed abruptly in them; and parts of steps that ended where a table of inputs jumps.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float

@@ -17,13 +17,12 @@ from mbs.results.accuracy import Accuracy
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.input_signals import InputSignals, Signal
+from mbs.settings.input_signals import Signal
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
-from mbs.simulation.missed_inputs import jumps_within_steps, missed_peak
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
@@ -88,9 +87,7 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            tables = InputSignals(inputs or {}, system.meta["inputs"]).tables() if checked else []
-            missed = missed_peak(tables, t0, t_end, h), jumps_within_steps(tables, t0, t_end, h)
-            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin, *missed)
+            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin)
             if checked:
                 found = repeat.check(repeats, always=estimate_error is True)
             repeats.add_ends()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import threading
 import time
@@ -44,7 +43,6 @@ from mbs.simulation.fixed_steps import Told, judged_run
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
-from mbs.simulation.missed_inputs import missed_peak
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
@@ -157,9 +155,8 @@ class _Run:
         told = list(self.told_at_start)
         report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
         end = self.t0 + self.steps * self.h
-        missed = missed_peak(self.signals.tables(), self.t0, end, self.h) < math.inf
         doubt = accuracy.doubt(report, report.steps, report.halvings, method)
-        if missed or doubt or accuracy.balance_decides(report, method, driven):
+        if doubt or accuracy.balance_decides(report, method, driven):
             judged = judged_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None, told
             )
@@ -309,7 +306,7 @@ def _run_group(
         for k, variant in members.items():
             try:
                 run = _Run(system, variant, settings, t0, h, steps, every)
-                stack.enter_context(attached(run.simulation, run.signals, t0, t0 + steps * h, 1e-6 * h))
+                stack.enter_context(attached(run.simulation, run.signals, t0, t0 + steps * h, h))
                 runs[k] = run
             except SimulationError as error:
                 found[k] = _Found(None, error, 0, [])

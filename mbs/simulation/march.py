@@ -24,6 +24,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
+from mbs.simulation.input_breaks import AT_END, input_breaks
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
@@ -69,7 +70,7 @@ def march(
     seen = [simulation.state.q] if look else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
     done, wall, chunk, before = 0, 0.0, every, simulation.report
-    with progress_for(progress) as bar, attached(simulation, signals, t0, t0 + steps * h, 1e-6 * h):
+    with progress_for(progress) as bar, attached(simulation, signals, t0, t0 + steps * h, h):
         while done < steps:
             ahead = [k - done for k in looks if k > done]
             n = min(chunk, steps - done, *ahead[:1])
@@ -120,11 +121,10 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
 
 
 @contextmanager
-def attached(
-    simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, tolerance: float
-) -> Iterator[None]:
+def attached(simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, h: float) -> Iterator[None]:
     """Inputs of a run: the kernel asks for them at the times at which its method evaluates them."""
-    signals.attach(simulation.instance, t0, t_end, tolerance)
+    signals.attach(simulation.instance, t0, t_end, AT_END * h)
+    simulation.instance.set_input_breaks(input_breaks(signals.tables(), t0, t_end, h))
     try:
         yield
     finally:

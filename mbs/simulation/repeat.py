@@ -17,7 +17,6 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
-from mbs.simulation.missed_inputs import FEWEST_SEEN_BY, FINEST, JUMP_PARTS, SEEN_BY
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
@@ -46,10 +45,6 @@ class Repeats:
         The ends of what moved in the runs before this one, by name.
     twin : bool
         Whether a repeat goes on from the one of a run before, so that there is a single one.
-    peak : float
-        Duration of the shortest peak of an input that the first run does not see, s.
-    jumps : bool
-        Whether an input jumps within a step.
 
     Attributes
     ----------
@@ -71,8 +66,6 @@ class Repeats:
     update: Callable[[float], None]
     before: dict[str, NDArray[np.float64]] | None = None
     twin: bool = False
-    peak: float = math.inf
-    jumps: bool = False
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
@@ -119,17 +112,21 @@ class Repeats:
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
-        """After two finer runs: where what they differ by may change the verdict, by a third one.
+        """After two finer runs: where what the last two differ by may change the verdict, by a third, then a fourth.
 
         Raises
         ------
         SimulationError
-            It does not end.
+            One does not end.
         """
-        run, first, second = map(self._table, (self.run, *self._finer))
-        if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
-            return known
-        return by_limit(self.finer(parts), [run, second, self._table(self._finer[-1])], self.groups, self.before)
+        for times in (1, 2):
+            first, second = map(self._table, self._finer[-2:])
+            if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
+                break
+            known = self.finer(times * parts)
+            tables = [self._table(self.run), second, self._table(self._finer[-1])]
+            known = by_limit(known, tables, self.groups, self.before)
+        return known
 
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
@@ -184,10 +181,9 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
-    A run that is not plainly smooth is compared with ones of eight and four times and twice the step, but not where an
-    input jumps within a step nor with `Repeats.before`. Where they differ it is repeated with half the step, near the
-    limit with a quarter, and if these differ with an eighth; with less where steps were halved or miss a peak or jump.
-    With `Repeats.twin` the first of the shorter ones alone is made.
+    Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
+    the step. Where they differ it is repeated with half the step, near the limit with a quarter, and if these differ
+    with an eighth, then a 16th; with less where steps were halved. With `Repeats.twin` only the first of these is made.
 
     Parameters
     ----------
@@ -201,25 +197,18 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
-    finest = min(FINEST, math.ceil(SEEN_BY * h / repeats.peak))
-    if FEWEST_SEEN_BY * h > FINEST * repeats.peak:
-        return replace(
-            known,
-            message=f"An input has a peak of {repeats.peak:.2g} s between two steps of {h:g} s, which do not see it; "
-            "simulate(..., tolerance=1e-3) in place of a step goes from point to point of tables.",
-        )
-    doubt = accuracy.REPEAT if finest else accuracy.doubt(report, report.steps, report.halvings, method)
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method)
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
-    if not always and repeats.before is None and doubt == accuracy.SCREEN and not repeats.jumps:
+    if not always and repeats.before is None and doubt == accuracy.SCREEN:
         for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, report):
             screened = repeats.coarser(glance)
-            apart = math.inf if screened is None else difference_from(screened, method, glance)
+            apart = math.inf if screened is None else difference_from(screened, method, h)
             if screened is not None and apart <= glance.difference:
                 return screened
             if screened is not None and apart > HOPELESS:
                 break
-    parts = max(accuracy.divisor(report.steps, report.halvings), finest, JUMP_PARTS if repeats.jumps else 0)
+    parts = accuracy.divisor(report.steps, report.halvings)
     try:
         known = repeats.finer(parts)
         least, most = accuracy.NEAR_LIMIT

@@ -64,9 +64,9 @@ def simulate(
         is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
     inputs : mapping of str to signal, optional
         Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
-        use the value at the end of a step, the other methods those at the times of their stages; where a table jumps,
-        a step that begins there the value behind the jump, one that ends there the value before it. With a
-        tolerance the points of tables are ends of steps; a function is taken as smooth.
+        use the value at the end of a step, the other methods those at the times of their stages; parts of a step end
+        where a table jumps or peaks, with the value before the jump, and begin with the one behind it. With a tolerance
+        the points of tables are ends of steps; a function is taken as smooth.
     settings : Settings, optional
         How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional

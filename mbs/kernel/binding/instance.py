@@ -105,10 +105,9 @@ class Instance:
                 return 1
             return 0
 
-        callback = _INPUT_FUNCTION(ask) if function is not None else None
-        address = ctypes.cast(callback, c_void_p) if callback is not None else None
+        self._inputs = _INPUT_FUNCTION(ask) if function is not None else None
+        address = ctypes.cast(self._inputs, c_void_p) if function is not None else None
         self._check(self._library.ali3_set_input_function(self._handle, address, None))
-        self._inputs = callback
 
     def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
         """The same from tables, without a call of Python.
@@ -120,17 +119,17 @@ class Instance:
         tolerance : float
             Times this near to a jump are at it, s.
         """
-        alive, rows = [], []
-        for index, (times, values) in tables.items():
-            n = memoryview(times).nbytes // 8
-            arrays = [buffer(part, n, "a table", writable=False) for part in (times, values)]
-            alive.append(arrays)
-            rows.append(InputTable(index, n, *(ctypes.cast(a, _DOUBLES) for a in arrays)))
-        table = (InputTable * len(rows))(*rows)
-        context = InputTables(tolerance, len(rows), table)
+        alive = {i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()}
+        rows = [InputTable(i, len(a[0]), *(ctypes.cast(x, _DOUBLES) for x in a)) for i, a in alive.items()]
+        context = InputTables(tolerance, len(rows), (InputTable * len(rows))(*rows))
         address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
         self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
-        self._inputs = (context, table, alive)
+        self._inputs = (context, alive)
+
+    def set_input_breaks(self, times: Any) -> None:
+        """Times at which the present function or tables jump, s, ascending: steps are made in parts that end there."""
+        self._breaks = buffer(times, len(times), "the breaks", writable=False)
+        self._check(self._library.ali3_set_input_breaks(self._handle, self._breaks, len(times)))
 
     def set_parameter(self, index: int, value: float) -> None:
         """Value of a parameter from now on; refused outside its range, of a fixed one after the start too."""

@@ -33,6 +33,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_set_input": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_input": (c_int32, [c_void_p, c_int32, _DOUBLES]),
     "ali3_set_input_function": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "ali3_set_input_breaks": (c_int32, [c_void_p, _DOUBLES, c_int64]),
     "ali3_set_parameter": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_try_parameter": (c_int32, [c_void_p, c_int32, c_double]),
     "ali3_get_parameter": (c_int32, [c_void_p, c_int32, _DOUBLES]),

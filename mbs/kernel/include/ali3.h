@@ -128,7 +128,7 @@ typedef struct {
   double largest_force, quick_change, quick_time, quick_step;
   double hit_change, hit_time, hit_h, hit_left;
   int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest */
-  int64_t divisions; /* of steps into halves because of such a change: it is followed with a quarter of the step */
+  int64_t divisions; /* of steps at such a change, which is followed with a quarter of the step, or at input breaks */
   double change_rate; /* of such a force in the last part of a step, over the largest, 1/s */
   /* Systems with tyres: largest load, N; where loads changed too quickly for the step, the worst h sqrt(h) times the
    * root of the squares of their changes in a step over the largest load, s^1.5, 0: nowhere; when the first began, s; a
@@ -203,6 +203,8 @@ ALI3_API ali3_status ali3_set_input(ali3_instance *in, int32_t index, double val
  * state; ali3_reset takes it away. */
 typedef int32_t ali3_input_function(void *context, double t, int32_t after, double *input);
 ALI3_API ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context);
+/* Times (n, ascending, the caller's) at which it jumps: until a function is set, steps have parts that end there. */
+ALI3_API ali3_status ali3_set_input_breaks(ali3_instance *in, const double *time, int64_t n);
 /* Such a function, whose context is an ali3_input_tables: straight lines between the points of each table, held
  * outside; a time given twice is a jump, and times within `tolerance` of a jump are at it. A table of one point is a
  * constant. */

@@ -125,6 +125,8 @@ struct ali3_instance {
    * the present part of it: inputs at the start, its start, its length; the time of in->now */
   ali3_input_function *input_function;
   void *input_context;
+  const double *input_break; /* n_breaks: times at which steps are parted */
+  int64_t n_breaks;
   double *input_from, *input_to, *input_begin, *stage_input; /* nu; of the stages of radau.c */
   double whole_time, whole_length, input_time, input_length, t_now;
   /* of branch_watch.c, signed squares: sines and cosines of the triads at in->now; sines before the step, after it,

@@ -1,4 +1,4 @@
-/* A step by the method of the settings, in halves where it does not converge or a force changes abruptly in it. */
+/* A step by the method of the settings, in parts where it does not converge, a force changes abruptly or inputs jump. */
 #include "../instance.h"
 #include "../method.h"
 #include "../state/inputs.h"
@@ -53,7 +53,13 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   return first == ALI3_OK ? advance_part(in, t, 0.5 * h, depth - 1, iterations_end) : first;
 }
 
-/* A step to time t by the method of the settings, which may halve it so deep. */
+/* A step to time t by the method of the settings, which may halve it so deep, in parts that end where inputs jump. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
-  return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);
+  const double until = ali3_inputs_until(in, t);
+  if (until == t) return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);
+  ali3_back_up(in);
+  in->report.divisions++;
+  const ali3_status first = ali3_advance(in, until, until - in->t_now, depth);
+  in->iterations_before = in->report.iterations;
+  return first == ALI3_OK ? ali3_advance(in, t, t - until, depth) : first;
 }

@@ -92,5 +92,25 @@ ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *func
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   in->input_function = function;
   in->input_context = context;
+  in->n_breaks = 0;
   return ALI3_OK;
+}
+
+ali3_status ali3_set_input_breaks(ali3_instance *in, const double *time, int64_t n) {
+  if (in == NULL || n < 0 || (n > 0 && time == NULL)) return ALI3_BAD_ARGUMENT;
+  in->input_break = time;
+  in->n_breaks = n;
+  return ALI3_OK;
+}
+
+/* The first break of the inputs after the present time and before t, else t. */
+double ali3_inputs_until(const ali3_instance *in, double t) {
+  int64_t low = 0, high = in->n_breaks;
+  while (low < high) {
+    const int64_t middle = low + (high - low) / 2;
+    const bool past = in->input_break[middle] <= in->t_now;
+    low = past ? middle + 1 : low;
+    high = past ? high : middle;
+  }
+  return low < in->n_breaks && in->input_break[low] < t ? in->input_break[low] : t;
 }

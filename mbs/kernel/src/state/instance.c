@@ -135,6 +135,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->count = 0;
   in->initialised = 0;
   in->input_function = NULL;
+  in->n_breaks = 0;
   in->mode_known = false;
   in->placed = ALI3_PLACED_BY_FILE;
   in->start_moved = false;

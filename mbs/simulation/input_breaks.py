@@ -1,0 +1,37 @@
+"""Where steps end early: at jumps and peaks of tables of inputs within them."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.settings.input_signals import Table
+
+LEAST = 0.05  # of the range of the table: a smaller departure is noise of a record
+AT_END = 1e-6  # steps: what is so near to the end of one, or to another break, is at it
+
+
+def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> NDArray[np.float64]:
+    """Times, s, at which steps of `h` from `t0` are parted: in each part tables go straight, but for `LEAST`."""
+    found = [t_end]
+    for t, x in tables:
+        phase, least = (t - t0) / h, LEAST * float(np.ptp(x))
+        step = np.floor(phase)
+        ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
+        begin, end = np.interp(ends, t, x)
+        within = (np.abs(phase - np.round(phase)) > AT_END) & (t > t0) & (t < t_end)
+        departs = within & (np.abs(x - begin - (phase - step) * (end - begin)) > least)
+        for number in np.unique(step[departs]):
+            inside = within & (step == number)
+            k = int(np.argmax(inside))
+            found += _parted(np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]], least)
+    times = np.unique(found)[:-1]
+    return times[np.diff(times, prepend=-np.inf) > AT_END * h]
+
+
+def _parted(t: NDArray[np.float64], x: NDArray[np.float64], least: float) -> list[float]:
+    """Points without which straight lines would miss a table by more than `least` (Douglas, Peucker 1973)."""
+    apart = np.abs(x - np.interp(t, [t[0], t[-1]], [x[0], x[-1]]))
+    k = int(np.argmax(apart))
+    parts = apart[k] > least and t[0] < t[-1]
+    return [*_parted(t[: k + 1], x[: k + 1], least), float(t[k]), *_parted(t[k:], x[k:], least)] if parts else []
