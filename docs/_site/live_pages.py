@@ -53,12 +53,8 @@ def make(names: Sequence[str], out: Path) -> str:
     """Make pages in a program of their own; what went wrong in one line, or nothing."""
     command = [sys.executable, str(Path(__file__).with_name("make_live_page.py")), *names, str(out)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-    lines = done.stderr.strip().splitlines()
-    return (
-        ""
-        if done.returncode == 0
-        else f"{' and '.join(names)}: {lines[-1] if lines else f'exit code {done.returncode}'}"
-    )
+    words = [f"exit code {done.returncode}", *done.stderr.strip().splitlines()][-1]
+    return "" if done.returncode == 0 else f"{' and '.join(names)}: {words}"
 
 
 def build(app: Sphinx) -> None:
