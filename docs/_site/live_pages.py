@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -25,6 +26,8 @@ PAGES = {
     "fails there.",
     "puma": "**The PUMA robot**: its six torques follow a table until you move a slider.",
 }
+OF_ONE_FMU = ("proving_ground", "prototype")
+"""Made by one program, which builds their FMU once."""
 MARK = "<!-- live pages -->"
 MODE = "ALI3_LIVE_PAGES"
 """Environment variable: ``required``, a page that cannot be made is an error; ``none``, no page is made."""
@@ -46,12 +49,12 @@ def digest() -> str:
     return found.hexdigest()
 
 
-def make(name: str, out: Path) -> str:
-    """Make a page in a program of its own; what went wrong in one line, or nothing."""
-    command = [sys.executable, str(Path(__file__).with_name("make_live_page.py")), name, str(out)]
+def make(names: Sequence[str], out: Path) -> str:
+    """Make pages in a program of their own; what went wrong in one line, or nothing."""
+    command = [sys.executable, str(Path(__file__).with_name("make_live_page.py")), *names, str(out)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-    lines = done.stderr.strip().splitlines()
-    return "" if done.returncode == 0 else f"{name}: {lines[-1] if lines else f'exit code {done.returncode}'}"
+    words = [f"exit code {done.returncode}", *done.stderr.strip().splitlines()][-1]
+    return "" if done.returncode == 0 else f"{' and '.join(names)}: {words}"
 
 
 def build(app: Sphinx) -> None:
@@ -65,8 +68,9 @@ def build(app: Sphinx) -> None:
     if not (stamp.is_file() and stamp.read_text() == known):
         out.mkdir(parents=True, exist_ok=True)
         stamp.unlink(missing_ok=True)
+        programs = [OF_ONE_FMU, *((name,) for name in PAGES if name not in OF_ONE_FMU)]
         with ThreadPoolExecutor(2) as pool:
-            wrong = [words for words in pool.map(lambda name: make(name, out), PAGES) if words]
+            wrong = [words for words in pool.map(lambda names: make(names, out), programs) if words]
         if wrong and mode == "required":
             raise ExtensionError(f"Pages that run FMUs could not be made: {'; '.join(wrong)}")
         if wrong:  # a plain line: the rest of the site is as good, also where warnings are errors

@@ -1,4 +1,4 @@
-"""Makes one page of `docs/drive.md`: ``python docs/_site/make_live_page.py NAME OUT``."""
+"""Makes pages of `docs/drive.md`: ``python docs/_site/make_live_page.py NAME... OUT``."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import csv
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
@@ -21,8 +22,9 @@ from viewer.recording import Recording
 _FAILS = "ali3p_no_projection"
 
 
+@cache
 def built(folder: Path, *what: str) -> FmuParts:
-    """An FMU for pages."""
+    """An FMU for pages, once for all that show it."""
     if build([*what, "--kind", "native", "--platforms", "wasm32", "--out", str(folder)], "ali3 build"):
         raise SystemExit(f"ali3 build {' '.join(what)} failed")
     return fmu_parts(next(folder.glob("*.fmu")))
@@ -102,14 +104,14 @@ MAKERS: dict[str, Callable[[Path], str]] = {
 }
 
 
-def main(name: str, out: Path) -> int:
-    """Make a page and put it into a folder; 0."""
-    with tempfile.TemporaryDirectory() as folder:
-        text = MAKERS[name](Path(folder))
+def main(names: Sequence[str], out: Path) -> int:
+    """Make pages and put them into a folder; 0."""
     out.mkdir(parents=True, exist_ok=True)
-    (out / f"{name}.html").write_text(text, encoding="utf-8", newline="\n")
+    with tempfile.TemporaryDirectory() as folder:
+        for name in names:
+            (out / f"{name}.html").write_text(MAKERS[name](Path(folder)), encoding="utf-8", newline="\n")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(run_command(lambda: main(sys.argv[1], Path(sys.argv[2])), (RuntimeError, ValueError)))
+    sys.exit(run_command(lambda: main(sys.argv[1:-1], Path(sys.argv[-1])), (RuntimeError, ValueError)))

@@ -5,17 +5,18 @@ from __future__ import annotations
 import fnmatch
 import math
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.columns import in_columns
+from ali3.columns import in_columns, some_of
 from ali3.errors import UserError
 from ali3.tables import TextTable
+from hosts.check.deviations import BOUND, Deviation, deviations, remedies
 from hosts.check.junit import Case
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -23,106 +24,16 @@ from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.manoeuvre_table import read_table
-from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.run_with_bar import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
-BOUND = 0.01
-"""Largest error of a signal over its size, unless another is given."""
 _WORST = 10
 _DIAGNOSTICS = "solver."
-# Of a signal that hardly moves, the least size: shares of its largest value, whose digits a table cuts, and of its
-# nominal value.
-_OF_VALUE, _OF_NOMINAL = 1e-3, 1e-4
 # Of a communication step by which the time of a row may miss a communication point.
 _ROUND_OFF = 1e-4
-
-
-@dataclass(frozen=True)
-class Deviation:
-    """How far a signal is from its reference."""
-
-    name: str
-    unit: str
-    error: float
-    """The largest, in that unit."""
-    at: float
-    """Its time, s."""
-    size: float
-    """Of the signal: the range of the reference, or a thousandth of its largest value, or a millionth of the nominal
-    value, whichever is largest."""
-    bound: float
-    """Largest share of the size that is allowed."""
-
-    @property
-    def share(self) -> float:
-        """Error over size."""
-        return self.error / self.size
-
-    @property
-    def good(self) -> bool:
-        """Whether it is within its bound; what is no number is not."""
-        return self.share <= self.bound
-
-    @property
-    def words(self) -> tuple[str, str, str, str]:
-        """The error, its time, its share and the bound."""
-        unit = "" if self.unit == "1" else f" {self.unit}"
-        return f"{self.error:.3g}{unit}", f"{self.at:g} s", f"{100.0 * self.share:.2g} %", f"{100.0 * self.bound:g} %"
-
-    def case(self, reference: str) -> Case:
-        """The result as a case of a JUnit file."""
-        error, at, share, bound = self.words
-        words = f"largest error {error} at {at}, {share} of its range; the bound is {bound}"
-        return Case(reference, self.name, "good" if self.good else "bad", words)
-
-
-def bounded(name: str, bounds: Sequence[tuple[str, float]]) -> float:
-    """The bound of a signal: the last whose pattern fits."""
-    return next((bound for pattern, bound in reversed(bounds) if fnmatch.fnmatchcase(name, pattern)), BOUND)
-
-
-def deviations(
-    fmu: Fmu,
-    result: Result,
-    times: NDArray[np.float64],
-    columns: Mapping[str, NDArray[np.float64]],
-    bounds: Sequence[tuple[str, float]] = (),
-) -> list[Deviation]:
-    """Errors of outputs at the times of a reference, the worst against its bound first.
-
-    Parameters
-    ----------
-    fmu : Fmu
-        Of the result; angles that differ by whole turns are the same.
-    result : Result
-        With a row at each of the times, up to its end.
-    times : ndarray of shape (n,)
-        s, not decreasing; of rows of one time the first counts.
-    columns : mapping of str to ndarray of shape (n,)
-        Outputs by name.
-    bounds : sequence of (str, float)
-        Patterns of names with bounds; the last that fits counts.
-    """
-    used = np.flatnonzero(np.diff(times, prepend=-math.inf) > 0.0)
-    step = result.time[1] - result.time[0] if len(result.time) > 1 else 1.0
-    rows = np.round(times[used] / step).astype(int)
-    used, rows = used[rows < len(result.time)], rows[rows < len(result.time)]
-    found = []
-    for name, values in columns.items():
-        wanted, unit = values[used], result.units[name]
-        gap = result[name][rows] - wanted
-        if unit == "rad":
-            gap -= 2.0 * math.pi * np.round(gap / (2.0 * math.pi))
-        error = np.where(np.isnan(gap), math.inf, np.abs(gap))
-        worst = int(np.argmax(error))
-        nominal = abs(float(fmu.variables[name].nominal or 1.0))
-        size = max(float(np.ptp(wanted)), _OF_VALUE * float(np.abs(wanted).max()), _OF_NOMINAL * nominal)
-        found.append(Deviation(name, unit, float(error[worst]), float(times[used][worst]), size, bounded(name, bounds)))
-    return sorted(found, key=lambda d: -d.share / d.bound)
 
 
 def check_references(
@@ -219,10 +130,23 @@ def check_reference(
         result = run_with_bar(fmu, driven, step, driver)
         if not any(pattern.startswith(_DIAGNOSTICS) for pattern, _ in bounds):  # of steps, not of the car
             columns = {n: values for n, values in columns.items() if not n.startswith(_DIAGNOSTICS)} or columns
-        found = deviations(fmu, result, times, columns, bounds)
+        nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
+        found = deviations(nominals, result, times, columns, bounds)
     for name, words in settings.rows():
         print(f"{name}  {words}")
     _print_table(found[:_WORST])
+    bad = [d for d in found if not d.good]
+    for words in remedies(result, times, columns, bad):
+        print(words)
+    if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and manoeuvre is None]:
+        print(f"inputs without a column, which keep their start values: {some_of(still)}")
+    if (
+        bad
+        and manoeuvre is None
+        and driven.inputs
+        and (apart := float(np.diff(times).max())) > (1.0 + _ROUND_OFF) * step
+    ):
+        print(f"between rows, up to {apart:g} s apart, inputs go straight: did those of the reference do so?")
     if left:
         print(f"not compared, for {path.name} has no such output: {', '.join(left)}")
     if times[0] > 0.0 and manoeuvre is None:
@@ -233,11 +157,10 @@ def check_reference(
         print(": ".join(missed))
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
-    bad = sum(not d.good for d in found)
     share = "" if bounds else f"; the bound is {100.0 * BOUND:g} % of the range of each, --bound NAME=SHARE sets others"
     print(
         f"\n{path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
-        f"{'all within their bounds' if not bad else f'{bad} beyond their bounds'}{share}"
+        f"{'all within their bounds' if not bad else f'{len(bad)} beyond their bounds'}{share}"
     )
     ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
     if result.failed_steps:
@@ -292,7 +215,7 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
 
 
 def _print_table(found: Sequence[Deviation]) -> None:
-    rows = [("", "signal", "largest error", "at", "of its range", "bound")]
+    rows = [("", "signal", "largest error", "at", "its range", "share of it", "bound")]
     for d in found:
         rows.append((" ok " if d.good else "BAD ", d.name, *d.words))
     print("\n".join(in_columns(rows)))

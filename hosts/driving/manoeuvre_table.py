@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ali3.decimal_number import parse_number
-from ali3.tables import TextTable
+from ali3.tables import HEADING, TextTable
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
@@ -43,6 +43,12 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     """
     table = TextTable(path, HostError)
     names = table.names
+    for match in filter(None, map(HEADING.fullmatch, names)):
+        if known is None or match[0] not in known:
+            raise HostError(
+                f"{path}: the heading {brief(match[0])} has a unit; here it is {brief(match['name'])} alone, and its "
+                "values are in the unit that the FMU has for it, times in s."
+            )
     if names[0] != "time" or len(names) < 2:
         raise HostError(f'{path}: the heading is {brief(", ".join(names))}; it must be "time" and the names of inputs.')
     rows: list[list[float]] = []
@@ -52,6 +58,10 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
     if not rows:
         raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
+    if rows[0][0] < 0.0:
+        raise HostError(
+            f"{path} begins at {rows[0][0]:g} s; a run begins at 0: add {-rows[0][0]:g} s to all its times."
+        )
     record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
     step, given = record.step, dict[str, Value]()

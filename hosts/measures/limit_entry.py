@@ -23,6 +23,8 @@ class LimitEntry(BaseModel):
     def _pair(cls, given: object) -> object:
         if isinstance(given, list) and len(given) != 2:
             raise ValueError(f"it is a list of {len(given)}; a list has the least and the largest value")
+        if not isinstance(given, (list, dict)):
+            raise ValueError(f"it is {given}; it must be a table with min or max, or a list of both")
         return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) else given
 
     @model_validator(mode="after")

@@ -96,7 +96,7 @@ def _checked(values: Mapping[str, Value], fmu: SimulatedFmu, where: str) -> dict
 def _check_effect(manoeuvre: Manoeuvre, parameters: Sequence[str], where: str) -> None:
     for name in parameters:
         if name in manoeuvre.inputs:
-            raise HostError(f"{where}: '{name}' is a parameter of the study and a column of the manoeuvre, which wins.")
+            raise HostError(f"{where}: '{name}' is to be varied and is a column of the manoeuvre, which wins.")
         if manoeuvre.driver and name in ACTS:
             raise HostError(f"{where}: '{name}' is a parameter of the study; the driver of the manoeuvre acts on it.")
 

@@ -53,8 +53,8 @@ class Found:
     """Values of the parameter of these neighbours."""
     rises: bool
     falls: bool
-    """`rises`, `falls`: whether the measure does so anywhere between neighbouring runs, by more than the tolerance;
-    both: it is not monotone."""
+    """`rises`, `falls`: whether the measure does so anywhere between neighbouring runs, by more than the tolerance or
+    a thousandth of its largest value; both: it is not monotone."""
     crossed: bool
     """Whether the wanted value lies between those of two runs."""
 
@@ -243,6 +243,7 @@ class _Search:
         made = list(self._runs)  # of equal ones the last: at a jump the nearest to it
         place, best = min(known, key=lambda item: (abs(item[1].y - self._wanted), -made.index(item[0])))
         changes = [b.y - a.y for (_, a), (_, b) in itertools.pairwise(known)]
+        least = min(self._tolerance, TOLERANCE * max(abs(run.y) for _, run in known))  # what is wanted may be far off
         apart = [(u, run) for u, run in known if abs(u - place) >= _APART or _are_apart(run.x, best.x)]
         below = [run for u, run in apart if u < place] or [best]
         above = [run for u, run in apart if u > place] or [best]
@@ -258,8 +259,8 @@ class _Search:
             self._tolerance,
             _slope(one, best, other),
             (one.x, other.x),
-            any(c > self._tolerance for c in changes),
-            any(c < -self._tolerance for c in changes),
+            any(c > least for c in changes),
+            any(c < -least for c in changes),
             min(run.y for _, run in known) <= self._wanted <= max(run.y for _, run in known),
         )
 

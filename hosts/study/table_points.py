@@ -38,14 +38,14 @@ def table_points(
     variable_of : callable
         Of a name and of words for messages; raises `HostError` where there is no such variable that can be set.
     entries : mapping of str to ParameterEntry
-        Units of columns.
+        Units of columns whose heading has none.
 
     Raises
     ------
     HostError
         With the line, the name and the value.
     """
-    table = TextTable(file, HostError, f"The table {file}")
+    table = TextTable(file, HostError, f"The table {file}", units=True)
     names = table.names
     variables = [variable_of(name, f"{file}, heading") for name in names]
     unknown = next((name for name in entries if name not in names), None)
@@ -54,7 +54,7 @@ def table_points(
     columns: dict[str, list[Value]] = {name: [] for name in names}
     for row in table.rows():
         for variable, cell in zip(variables, row.cells, strict=True):
-            unit = entries[variable.name].unit if variable.name in entries else None
+            unit = table.units.get(variable.name) or (entries[variable.name].unit if variable.name in entries else None)
             text = cell.replace(",", ".") if table.decimal and variable.kind == "Real" else cell
             columns[variable.name].append(_cell(text, variable, unit, f"{file}, line {row.line}"))
     if not columns[names[0]]:

@@ -125,13 +125,16 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     unit, log = (entry.unit, entry.log) if entry is not None else (None, False)
     variables = Variables(described(fmu))
     ends: tuple[float, float] | None = target.range
-    kind = variables.settable(target.by, "--by").kind if target.by in variables.names else "Real"
+    named = target.by in variables.names or study.aliases is None  # else it may be a name of the aliases
+    kind = variables.settable(target.by, "--by").kind if named else "Real"
     if kind != "Real":
         words = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
         what = words.get(kind, f"of the kind {kind}")
         raise HostError(f"--by {target.by}: it is {what}; only real numbers can be sought.")
     if ends is not None:
         unit, log = None, log and ends[0] > 0.0
+        for end in ends if named else ():
+            variables[target.by].check(end, "--between")
     elif entry is not None and entry.range is not None:
         ends = (entry.range[0], entry.range[1])
     else:

@@ -304,7 +304,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         """
         table = TextTable(path, TableError, units=True)
         names = table.names[1:]
-        if table.names[0] != "time" or "time" not in table.units:
+        if table.names[0] != "time" or table.units.get("time") != "s":
             raise TableError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")
         for name in names:
             if name not in table.units:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
@@ -14,12 +15,16 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture(scope="module")
 def live_pages() -> ModuleType:
     pytest.importorskip("sphinx")
-    spec = importlib.util.spec_from_file_location("live_pages", ROOT / "docs" / "_site" / "live_pages.py")
+    return module("live_pages")
+
+
+def module(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / "_site" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made
 
 
 def site(out: Path) -> SimpleNamespace:
@@ -39,11 +44,10 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
 ) -> None:
     made = {"prototype"}
 
-    def make(name: str, out: Path) -> str:
-        if name not in made:
-            return f"{name}: there is no compiler"
-        (out / f"{name}.html").write_text("x" * 1_600_000)
-        return ""
+    def make(names: Sequence[str], out: Path) -> str:
+        for name in made & set(names):
+            (out / f"{name}.html").write_text("x" * 1_600_000)
+        return "; ".join(f"{name}: there is no compiler" for name in names if name not in made)
 
     monkeypatch.setattr(live_pages, "make", make)
     monkeypatch.delenv(live_pages.MODE, raising=False)
@@ -82,3 +86,27 @@ def test_a_site_without_them_says_so(live_pages: ModuleType, tmp_path: Path, mon
 def test_every_page_of_the_list_can_be_made(live_pages: ModuleType) -> None:
     source = (ROOT / "docs" / "_site" / "make_live_page.py").read_text(encoding="utf-8")
     assert all(f'"{name}":' in source for name in live_pages.PAGES)
+
+
+def test_pages_of_one_fmu_build_it_once(
+    live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    maker, builds = module("make_live_page"), []
+
+    def build(arguments: Sequence[str], command: str) -> int:
+        builds.append(arguments)
+        Path(arguments[-1], "Car.fmu").touch()
+        return 0
+
+    def view(arguments: Sequence[str], command: str) -> int:
+        title = arguments[arguments.index("--title") + 1]
+        Path(arguments[arguments.index("--out") + 1], "Car_live.html").write_text(title)
+        return 0
+
+    monkeypatch.setattr(maker, "build", build)
+    monkeypatch.setattr(maker, "view", view)
+    monkeypatch.setattr(maker, "fmu_parts", lambda path: SimpleNamespace(path=path))
+    maker.main(live_pages.OF_ONE_FMU, tmp_path)
+    assert len(builds) == 1
+    shown = {name: (tmp_path / f"{name}.html").read_text() for name in live_pages.OF_ONE_FMU}
+    assert shown == {"proving_ground": "The proving ground", "prototype": "The prototype car"}

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 from hosts.check.command import main
+from hosts.check.deviations import deviations
+from hosts.driving.result import Result
 from hosts.run.command import main as run_main
 from tests.in_process import run
 
@@ -91,6 +93,51 @@ def test_a_jump_inside_a_step_is_told(fmu: Path, tmp_path: Path, at: float) -> N
     told = run(main, fmu, "--reference", reference, "-m", table, "--step", 0.01).stdout
     assert told.count("jumps inside a communication step: 1 of pull, the first at 0.404 s") == (at == 0.404)
     assert told.count("jumps inside") == (at == 0.404)
+
+
+@pytest.mark.parametrize(
+    ("what", "bounds", "said"),
+    [
+        (lambda y: 1000.0 * y, (), "bob.y: in agreement where the table has it 1000 times as large: another unit?"),
+        (lambda y: -y, (), "bob.y: in agreement where the table has it with the other sign"),
+        (lambda y: np.r_[y[0], y[:-1]], ("--bound", "bob.y=1e-5"), "where the table has it 0.01 s later, by one row"),
+        (lambda y: np.r_[y[1:], y[-1]], ("--bound", "bob.y=1e-5"), "where the table has it 0.01 s earlier, by one row"),
+        (lambda y: y + 0.2, (), "off from the first row on: bob.y; does the FMU start"),
+        (lambda y: 0.0 * y, (), "1 m            0 s     0 m, taken as 0.0001  10000 times"),
+    ],
+)
+def test_what_it_would_agree_with_is_told(
+    what: Callable[[np.ndarray], np.ndarray], bounds: tuple[str, ...], said: str, fmu: Path, result: Path
+) -> None:
+    def change(heading: list[str], rows: list[list[str]]) -> None:
+        k = heading.index("bob.y")
+        for row, value in zip(rows, what(np.array([float(row[k]) for row in rows])), strict=True):
+            row[k] = repr(float(value))
+
+    done = run(main, fmu, "--reference", changed(result, change), *bounds)
+    assert done.returncode == 1
+    assert said in done.stdout
+    assert ("in agreement" in done.stdout) == ("in agreement" in said or "by one row" in said)
+
+
+def test_inputs_without_a_column_and_rows_far_apart_are_told(fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "few.csv").write_text('"time","pull","bob.x"\n0,0,0\n0.5,20,0\n1,0,0\n')
+    (tmp_path / "none.csv").write_text('"time","bob.x"\n0,0\n0.5,0\n1,0\n')
+    few, none = (run(main, fmu, "--reference", tmp_path / f"{name}.csv").stdout for name in ("few", "none"))
+    assert "between rows, up to 0.5 s apart, inputs go straight" in few
+    assert "inputs without a column, which keep their start values: pull" in none
+    assert "inputs without" not in few
+    assert "inputs go straight" not in none
+
+
+def test_an_angle_is_off_by_its_share_of_a_turn_where_whole_turns_are_left_out() -> None:
+    """Over many turns half of one is less than a hundredth, so that nothing would be beyond it."""
+    time = np.linspace(0.0, 1.0, 101)
+    angle = 600.0 * time
+    for gap, share in ((3.0, 3.0 / 600.0), (100.0, (100.0 % math.tau) / math.tau), (4.0 * math.tau, 0.0)):
+        result = Result(["turned"], {"turned": "rad"}, time, (angle + gap)[:, None], 0.0, 1.0, 0, [])
+        (found,) = deviations({"turned": 1.0}, result, time, {"turned": angle})
+        assert found.share == pytest.approx(min(share, gap / 600.0, 1.0 - share), abs=1e-9)
 
 
 def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:

@@ -93,7 +93,8 @@ def test_a_failure_says_how_far_off_it_is(repository: Path, tmp_path: Path) -> N
     (suite,) = junitparser.JUnitXml.fromfile(str(tmp_path / "a.xml"))
     (failure,) = [result for case in suite for result in case.result]
     assert re.fullmatch(
-        r"largest error [\d.e-]+ m at 0\.4 s, 5(\.\d)? % of its range; the bound is 1 %", failure.message
+        r"largest error [\d.e-]+ m at 0\.4 s, 5(\.\d)? % of its range in the table of [\d.e-]+ m; the bound is 1 %",
+        failure.message,
     )
 
 

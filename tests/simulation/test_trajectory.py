@@ -53,6 +53,7 @@ def test_csv_keeps_every_bit_name_and_unit(trajectory, tmp_path):
     ("text", "sentence"),
     [
         ("", "other.csv holds no values"),
+        ("time [ms],b [m]\n", r"the first line must be 'time \[s\]'"),
         ("a [m],b [m]\n", r"the first line must be 'time \[s\]'"),
         ("time [s],b\n", r"the heading 'b' must read 'name \[unit\]'"),
         ("time [s],b [m]\n0,1\n1\n", "line 3: 1 values where the heading has 2 columns"),

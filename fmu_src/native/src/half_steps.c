@@ -1,18 +1,20 @@
-/* Where a force of a tyre, a contact or a spring with end stops changes abruptly, the next 0.2 s are made a second time
- * with half the step: what both differ by is the error of the step (step doubling). A run without such changes, or that
- * has been told of one, pays nothing. The other motion is a snapshot of the same instance. */
+/* Where a force of a tyre, a contact or a spring with end stops changes abruptly, the next 0.4 s are made a second time
+ * with half of a short step and down to an eighth of a long one: what both differ by is the error of the step. A run
+ * without such changes, or that has been told of one, pays nothing. The other motion is a snapshot of the same
+ * instance. */
 #include <math.h>
 #include <string.h>
 
 #include "slave.h"
 
-static const double SPAN = 0.2; /* s after the last abrupt step: a wheel on its tyre swings about twice */
+static const double SPAN = 0.4; /* s after the last abrupt step: a wheel swings about four times, a car bounces once */
 static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
 static const double JUMP = 0.05; /* of its range: an input that jumps */
 static const double WRONG = 0.05; /* of the largest force at communication points */
-static const double ORDER_2 = 4.0 / 3.0; /* error of a step over the difference to half of it */
+static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
+static const int64_t MOST = 8; /* parts of a step */
 static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
-static const double FREE = 1.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
+static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
 
 /* From the state that is there now nothing is made twice. */
 void slave_half_steps_begin(slave *s) {
@@ -57,18 +59,26 @@ static bool jumps(const slave *s, const double *input) {
   return false;
 }
 
+/* In how many parts the other motion makes a step. */
+static int64_t parts_of(double h) {
+  int64_t n = 2;
+  while (n < MOST && h / (double)n > SHORT) n *= 2;
+  return n;
+}
+
 /* The communication step from the state of `other`, with inputs and parameters of the one that was made. */
 static ali3_status make(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_instance *kernel = s->fidelity.kernel;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
-  const double h = 0.5 * s->made.h;
+  const int64_t n = parts_of(s->made.h);
+  const double h = s->made.h / (double)n;
   slave_look_at_step(s, t->parameter, t->input);
   slave_inputs_at(s, 0.0, t->input);
   ali3_snapshot_restore(kernel, t->other);
   t->jumped = t->jumped || jumps(s, t->input);
   ali3_status status = slave_set_step(s, t->parameter, t->input);
-  for (int64_t k = 1; k <= 2 * s->made.n && status == ALI3_OK; k++) {
+  for (int64_t k = 1; k <= n * s->made.n && status == ALI3_OK; k++) {
     memcpy(t->input + z.nu, t->input, (size_t)z.nu * sizeof(double));
     slave_inputs_at(s, (double)k * h, t->input + z.nu);
     status = ali3_run(kernel, h, 1, t->input + z.nu, 1, NULL, NULL, NULL);
@@ -102,16 +112,18 @@ static void follow(slave *s, double now) {
 /* The largest difference, when what comes later has shown how large forces are. */
 static slave_status judge(slave *s, const ali3_report *r) {
   slave_half_steps *t = &s->half_steps;
-  const double off = ORDER_2 * t->apart, error = off / t->largest, h = t->h;
+  const double n = (double)parts_of(t->h), order_2 = n * n / (n * n - 1.0);
+  const double off = order_2 * t->apart, error = off / t->largest, h = t->h;
   t->apart = 0.0;
   if (!(error > WRONG)) return SLAVE_OK;
   if (slave_event_told(r)) return slave_say_event(s, r);
   s->event_said = true;
-  return slave_say(s, SLAVE_WARNING,
-                   "At %.4g s a contact or a stop had changed a force too quickly for the step: made again with half "
-                   "of it, forces are off by about %.0f N, %.2g %% of the largest at communication points. Run again "
-                   "with a step_size of %.2g s. This is said once.",
-                   t->time, off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
+  return slave_say(
+      s, SLAVE_WARNING,
+      "At %.4g s a contact or a stop had changed a force too quickly for the step: made again with "
+      "1/%.0f of it, forces are off by about %.0f N, %.2g %% of the largest at communication points. Run again "
+      "with a step_size of %.2g s. This is said once.",
+      t->time, n, off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
 }
 
 /* What can be said by now, or when the run has `ended`. */

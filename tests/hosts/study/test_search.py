@@ -50,6 +50,14 @@ def test_a_value_that_is_met_at_once_gets_one_near_run_for_its_slope() -> None:
     assert found.slope == pytest.approx(1.0, abs=0.1)
 
 
+def test_what_is_far_off_is_not_what_a_change_is_measured_by() -> None:
+    """A thousandth of what is wanted is more than all that the measure changes by."""
+    far = sought(lambda x: 9.0 + x, 1e4, 0.0, 1.0)
+    assert (far.met, far.rises, far.falls) == (False, True, False)
+    still = sought(lambda x: 9.0 + 1e-3 * x, 1e4, 0.0, 1.0)
+    assert (still.rises, still.falls) == (False, False)
+
+
 def test_two_solutions_inside_the_range_and_the_one_near_the_start() -> None:
     for start, x in ((0.5, 1.0), (3.5, 3.0)):
         found = sought(lambda x: (x - 2.0) ** 2, 1.0, 0.0, 4.0, start=start)

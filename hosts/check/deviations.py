@@ -1,0 +1,176 @@
+"""How far the outputs of a run are from a table of reference results, and what they would agree with."""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.columns import some_of
+from hosts.check.junit import Case
+from hosts.driving.result import Result
+
+BOUND = 0.01
+"""Largest error of a signal over its size, unless another is given."""
+# Of a signal that hardly moves, the least size: shares of its largest value, whose digits a table cuts, and of its
+# nominal value.
+_OF_VALUE, _OF_NOMINAL = 1e-3, 1e-4
+_FACTORS = (1000.0, 100.0, 180.0 / math.pi, 9.80665, 3.6)  # between usual units
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """How far a signal is from its reference."""
+
+    name: str
+    unit: str
+    error: float
+    """The largest, in that unit."""
+    at: float
+    """Its time, s."""
+    range: float
+    """Of the reference, in that unit."""
+    size: float
+    """Of the signal: that range, or a thousandth of its largest value, or a ten-thousandth of the nominal value,
+    whichever is largest; of an angle that was off by whole turns at most a turn."""
+    bound: float
+    """Largest share of the size that is allowed."""
+
+    @property
+    def share(self) -> float:
+        """Error over size."""
+        return self.error / self.size
+
+    @property
+    def good(self) -> bool:
+        """Whether it is within its bound; what is no number is not."""
+        return self.share <= self.bound
+
+    @property
+    def words(self) -> tuple[str, str, str, str, str]:
+        """The error, its time, the range, the share of it and the bound."""
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        size = f"{self.range:.3g}{unit}" + (f", taken as {self.size:.3g}" if self.size != self.range else "")
+        part = 100.0 * self.share
+        share = f"{part:.2g} %" if part < 99.5 else f"{part:.0f} %" if part < 1000.0 else f"{self.share:.0f} times"
+        return f"{self.error:.3g}{unit}", f"{self.at:g} s", size, share, f"{100.0 * self.bound:g} %"
+
+    def case(self, reference: str) -> Case:
+        """The result as a case of a JUnit file."""
+        error, at, size, share, bound = self.words
+        words = f"largest error {error} at {at}, {share} of its range in the table of {size}; the bound is {bound}"
+        return Case(reference, self.name, "good" if self.good else "bad", words)
+
+
+def bounded(name: str, bounds: Sequence[tuple[str, float]]) -> float:
+    """The bound of a signal: the last whose pattern fits."""
+    return next((bound for pattern, bound in reversed(bounds) if fnmatch.fnmatchcase(name, pattern)), BOUND)
+
+
+def deviations(
+    nominals: Mapping[str, float],
+    result: Result,
+    times: NDArray[np.float64],
+    columns: Mapping[str, NDArray[np.float64]],
+    bounds: Sequence[tuple[str, float]] = (),
+) -> list[Deviation]:
+    """Errors of outputs at the times of a reference, the worst against its bound first.
+
+    Parameters
+    ----------
+    nominals : mapping of str to float
+        Nominal values of the outputs.
+    result : Result
+        With a row at each of the times, up to its end; angles (rad) that differ by whole turns are the same.
+    times : ndarray of shape (n,)
+        s, not decreasing; of rows of one time the first counts.
+    columns : mapping of str to ndarray of shape (n,)
+        Outputs by name.
+    bounds : sequence of (str, float)
+        Patterns of names with bounds; the last that fits counts.
+    """
+    used, rows = places(result, times)
+    found = [
+        _deviation(name, result, values[used], rows, nominals[name], bounded(name, bounds))
+        for name, values in columns.items()
+    ]
+    return sorted(found, key=lambda d: -d.share / d.bound)
+
+
+def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Rows of a reference that are compared, and those of the result at the same times."""
+    used = np.flatnonzero(np.diff(times, prepend=-math.inf) > 0.0)
+    step = result.time[1] - result.time[0] if len(result.time) > 1 else 1.0
+    rows = np.round(times[used] / step).astype(np.int64)
+    return used[rows < len(result.time)], rows[rows < len(result.time)]
+
+
+def _deviation(
+    name: str, result: Result, wanted: NDArray[np.float64], rows: NDArray[np.int64], nominal: float, bound: float
+) -> Deviation:
+    span, unit = float(np.ptp(wanted)), result.units[name]
+    size = max(span, _OF_VALUE * float(np.abs(wanted).max()), _OF_NOMINAL * nominal)
+
+    def of(gap: NDArray[np.float64], size: float) -> Deviation:
+        error = np.where(np.isnan(gap), math.inf, np.abs(gap))
+        worst = int(np.argmax(error))
+        return Deviation(name, unit, float(error[worst]), float(result.time[rows[worst]]), span, size, bound)
+
+    gap = result[name][rows] - wanted
+    plain = of(gap, size)
+    if unit != "rad":
+        return plain
+    # Within a turn nothing is off by more than half of one, so that it is no share of many turns.
+    turned = of(gap - math.tau * np.round(gap / math.tau), min(size, math.tau))
+    return min(plain, turned, key=lambda d: d.share)
+
+
+def remedies(
+    result: Result,
+    times: NDArray[np.float64],
+    columns: Mapping[str, NDArray[np.float64]],
+    bad: Sequence[Deviation],
+) -> list[str]:
+    """What signals beyond their bounds would agree with, in sentences: another unit, sign, time or start.
+
+    Parameters
+    ----------
+    result, times, columns
+        Of `deviations`.
+    bad : sequence of Deviation
+        What it has found.
+    """
+    used, rows = places(result, times)
+    wanted = {d.name: columns[d.name][used] for d in bad}
+    lines, left = [], list(bad)
+
+    def agrees(d: Deviation, values: NDArray[np.float64], wanted: NDArray[np.float64]) -> bool:
+        return bool(np.abs(values - wanted).max() <= d.bound * d.size)
+
+    factors = [*_FACTORS, *(1.0 / f for f in _FACTORS), -1.0]
+    for d in bad:
+        fits = [f for f in factors if d.range > 0.0 and agrees(d, f * result[d.name][rows], wanted[d.name])]
+        if fits:
+            left.remove(d)
+            why = "with the other sign" if fits[0] == -1.0 else f"{fits[0]:.4g} times as large: another unit?"
+            lines.append(f"{d.name}: in agreement where the table has it {why}")
+    apart = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
+    for late in (apart, -apart) if left else ():
+        inside = (rows >= late) & (rows - late < len(result.time))
+        if inside.sum() > 2 and all(
+            agrees(d, result[d.name][rows[inside] - late], wanted[d.name][inside]) for d in left
+        ):
+            how = "later" if late > 0 else "earlier"
+            by = abs(late) * float(result.time[1] - result.time[0])
+            return [
+                *lines,
+                f"{some_of(d.name for d in left)}: in agreement where the table has it {by:g} s {how}, by one row",
+            ]
+    at_once = [d.name for d in left if not agrees(d, result[d.name][rows[:1]], wanted[d.name][:1])]
+    if at_once:
+        lines.append(f"off from the first row on: {some_of(at_once)}; does the FMU start as the reference did? (--set)")
+    return lines
