@@ -17,6 +17,7 @@ _SOURCES = {
     "fidelity": "SLAVE_FIDELITY",
     "step_iterations": "SLAVE_STEP_ITERATIONS",
     "settling": "SLAVE_SETTLING",
+    "lead": "SLAVE_LEAD",
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
     "capped_residual": "SLAVE_CAPPED_RESIDUAL",

@@ -57,7 +57,7 @@ class Input:
 
 @dataclass(frozen=True)
 class Ahead:
-    """An output of FMUs alone: what a sensor will read at the next communication point, by the sensor of its rate."""
+    """An output of FMUs alone: what a sensor will read some communication steps later, by the sensor of its rate."""
 
     name: str
     unit: str
