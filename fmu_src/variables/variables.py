@@ -104,6 +104,8 @@ class Variable:
     -1."""
     tried: float | None = None
     """Of an input: how far the trials at build time move it from its start; by default over its range."""
+    figures: tuple[float, ...] = ()
+    """Of an input with a role: what its watch must know."""
     scale: float = 1.0
     """Of an input or a sensor: the value is this times that of the System."""
     ours: str = ""
@@ -329,6 +331,7 @@ def _ranged(
         port=bool(entry.get("port", False)),
         role=int(entry.get("role", 0)),
         tried=entry.get("tried"),
+        figures=tuple(entry.get("figures", ())),
     )
 
 

@@ -44,6 +44,7 @@ typedef struct {
   int32_t
       other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
   double scale; /* of inputs and sensors: the value is this times that of the System */
+  double figure[4]; /* of a hub, see mbs.model.records.Role */
 } slave_variable;
 
 typedef struct {
