@@ -69,7 +69,7 @@ static void watch_bend(slave *s, size_t i) {
     away += along * along;
   }
   const double start = 0.5 * bend * fmin(away / square, FARTHEST), end = start - lifted(s, i, centre);
-  if (!(fabs(end) + fabs(start) / 3.0 > BEND)) return; /* a step makes more of its end */
+  if (!(fabs(end) + 0.25 * fabs(start) > BEND)) return; /* a step makes more of its end */
   s->said[i + 1] |= SLAVE_TURNED;
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
