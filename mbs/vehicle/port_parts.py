@@ -207,8 +207,8 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
         m.sense_input("brake_pressure", b.inputs["brake"], scale=car.ports.full_pressure, unit="Pa", description=text)
     for channel in b.port_inputs if car.ports.brakes == "torque" else ():
         wheel, _, name = channel.name.partition(".")
-        share, side = car.brakes.shares(wheel[-2:])
+        share, factor = car.brakes.shares(wheel[-2:])
         if name == "brake_torque_demand" and share > 0.0:
             text = "pressure that the torque asked for takes in a brake as that of the car file"
-            scale = car.ports.full_pressure / (car.brakes.torque * share * side)
+            scale = car.ports.full_pressure / (car.brakes.torque * share * factor)
             m.sense_input(f"used.{wheel}.brake_pressure", channel, scale=scale, unit="Pa", description=text)
