@@ -13,7 +13,6 @@ from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre, TyreCurve
 from mbs.tyre_files.pure_curves import (
     at_load,
-    carcass_along,
     cornering_stiffness,
     magic_lateral,
     magic_longitudinal,
@@ -293,4 +292,4 @@ def _carcass(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
     """Stiffness at the nominal load: of the file, or slip stiffness over relaxation length, or of assumed lengths."""
     length = c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0
     across = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load) / (length * tyre.radius)
-    return carcass_along(c, tyre.nominal_load, tyre.radius)[1], c.get("LATERAL_STIFFNESS", 0.0) or across
+    return tyre.along[1], c.get("LATERAL_STIFFNESS", 0.0) or across

@@ -88,15 +88,6 @@ def magic_longitudinal(given: Mapping[str, float], nominal: float, load: float, 
     return _sine(K / (C * D), C, D, E, np.asarray(kappa, float))
 
 
-def carcass_along(given: Mapping[str, float], nominal: float, radius: float) -> tuple[float, float]:
-    """Slip stiffness at the nominal load, N, and stiffness of the carcass, N/m: of the file, or the slip stiffness over
-    the relaxation length, where there is none over half a radius.
-    """
-    c = {**MAGIC_COEFFICIENTS, **given}
-    by_slip = c["PKX1"] * c["LKX"] * nominal
-    return by_slip, c["LONGITUDINAL_STIFFNESS"] or by_slip / ((c["PTX1"] or 0.5) * radius)
-
-
 def cornering_stiffness(given: Mapping[str, float], nominal: float, load: float) -> float:
     """K of 4.E25 without camber, N/rad, positive."""
     c = {**MAGIC_COEFFICIENTS, **given}

@@ -149,11 +149,8 @@ class MagicFormula(Section):
         """Along the heading: slip stiffness at the nominal load, N, stiffness of the carcass, N/m, its damping over
         that at rest, s, and how that fades by the square of the speed, s2/m2.
         """
-        from mbs.tyre_files.pure_curves import carcass_along
-
-        t = self._left
-        by_slip, stiffness = carcass_along(t.coefficients, t.nominal_load, t.radius)
-        return self.lkx * by_slip, stiffness, t.settling, 1.0
+        by_slip, stiffness = self._left.along
+        return by_slip, stiffness, self._left.settling, 1.0
 
     def rolling_radius(self, loaded: float) -> float:
         """Way of a free wheel per radian, m, at rest with a loaded radius.
