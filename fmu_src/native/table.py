@@ -17,6 +17,7 @@ _SOURCES = {
     "fidelity": "SLAVE_FIDELITY",
     "step_iterations": "SLAVE_STEP_ITERATIONS",
     "settling": "SLAVE_SETTLING",
+    "lead": "SLAVE_LEAD",
     "sensor": "SLAVE_SENSOR",
     "solver": "SLAVE_SOLVER",
     "capped_residual": "SLAVE_CAPPED_RESIDUAL",
@@ -60,7 +61,7 @@ def c_table(
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
         f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {str(v.port).lower()}, {v.road}, {bits:#x}, "
         f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}, "
-        f"{v.role}, {v.other}, {_number(v.scale, '1.0')}}},"
+        f"{v.role}, {v.other}, {_number(v.scale, '1.0')}, {{{', '.join(map(repr, v.figures)) or '0.0'}}}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))

@@ -28,9 +28,10 @@ _POSE = (
 )
 STEP_SIZE = "step_size"
 SETTLING = "initial.settling"
+LEAD = "ports.road_lead"
 _DEPRECATED = "deprecated"
 STEP_ITERATIONS = "solver.step_iterations"
-_MOST_ITERATIONS = 1000.0
+_MOST_ITERATIONS, _LONGEST_LEAD = 1000.0, 10.0
 # Name, number in the kernel (ALI3_SOLVER_*), unit, whether it is a whole number, description.
 _SOLVER = (
     ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
@@ -73,8 +74,8 @@ class Variable:
     """One sentence."""
     source: str
     """What it is in the System: ``input``, ``parameter``, ``sensor``, ``pose``, ``step_size``, ``fidelity``,
-    ``step_iterations``, ``settling``, ``solver``, what the solver says about itself, ``capped_residual``, ``ahead``,
-    what an output will be at the next communication point, or ``constant``."""
+    ``step_iterations``, ``settling``, ``lead``, ``solver``, what the solver says about itself, ``capped_residual``,
+    ``ahead``, what an output will be some communication steps later, or ``constant``."""
     index: int
     """Number of that input, parameter, sensor or figure of the solver; place in `_POSE` for ``pose``, in the table for
     ``ahead``; 0 for others."""
@@ -103,6 +104,8 @@ class Variable:
     -1."""
     tried: float | None = None
     """Of an input: how far the trials at build time move it from its start; by default over its range."""
+    figures: tuple[float, ...] = ()
+    """Of an input with a role: what its watch must know."""
     scale: float = 1.0
     """Of an input or a sensor: the value is this times that of the System."""
     ours: str = ""
@@ -198,6 +201,9 @@ def variable_table(
     if pose:
         text = "How long the start's horizontal motion is held beforehand while tyres, springs and steering settle"
         table.append(Variable(SETTLING, "parameter", "fixed", "s", text, "settling", 0, 0.0, 0.0, LONGEST_SETTLING))
+    if meta.get("ahead"):
+        text = "How many communication steps ahead the points are where the road is to be asked for"
+        table.append(Variable(LEAD, "parameter", "fixed", "1", text, "lead", 0, 1.0, 0.0, _LONGEST_LEAD))
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
     sensed = {entry["name"] for entry in meta["sensors"]}
     table += [
@@ -325,6 +331,7 @@ def _ranged(
         port=bool(entry.get("port", False)),
         role=int(entry.get("role", 0)),
         tried=entry.get("tried"),
+        figures=tuple(entry.get("figures", ())),
     )
 
 

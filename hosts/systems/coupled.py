@@ -35,6 +35,8 @@ class _Part:
     wires: tuple[Wire, ...]
     give: Callable[[Sequence[float]], None]
     set_slopes: Callable[[Sequence[float]], None] | None
+    follows: NDArray[np.bool_]
+    """Which wires may have slopes: those to real inputs."""
     outputs: tuple[str, ...]
     read: Callable[[], list[float]]
     last: Array | None = None
@@ -247,7 +249,10 @@ class CoupledFmus(Closing):
         for p in self._parts:
             first = np.array([begin[w.source, w.output] for w in p.wires])
             known = dict(now) if self.order == "in turn" else {}
-            newest = np.array([(end or known or begin)[w.source, w.output] for w in p.wires])
+            ends_at = [end if follows else None for follows in p.follows]
+            newest = np.array(
+                [(e or known or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
+            )
             told = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
                 if p.wires:
@@ -264,12 +269,12 @@ class CoupledFmus(Closing):
         if p.set_slopes is None or self.inputs == "held":
             p.give(newest.tolist())
             return
-        p.give(first.tolist())
+        p.give(np.where(p.follows, first, newest).tolist())
         before = np.zeros_like(first) if p.last is None else first - p.last
         slope = np.where(known, newest - first, before) / self.step_length
         if not repeated:
             p.last = first
-        p.set_slopes(np.nan_to_num(slope, nan=0.0, posinf=0.0, neginf=0.0).tolist())
+        p.set_slopes(np.nan_to_num(slope[p.follows], nan=0.0, posinf=0.0, neginf=0.0).tolist())
 
     def _outputs(self, p: _Part, time: float) -> dict[tuple[str, str], float]:
         values = p.read()
@@ -300,5 +305,7 @@ def _part(name: str, fmu: Fmu, wires: Sequence[Wire]) -> _Part:
     mine = tuple(w for w in wires if w.target == name)
     inputs = [w.input for w in mine]
     outputs = tuple(dict.fromkeys(w.output for w in wires if w.source == name))
-    slopes = fmu.slope_setter(inputs) if fmu.follows_slopes and mine else None
-    return _Part(name, fmu, mine, fmu.setter(inputs), slopes, outputs, fmu.getter(outputs))
+    real = [i for i in inputs if fmu.variables[i].type == "Real"]
+    follows = np.array([i in real for i in inputs], bool)
+    slopes = fmu.slope_setter(real) if fmu.follows_slopes and real else None
+    return _Part(name, fmu, mine, fmu.setter(inputs), slopes, follows, outputs, fmu.getter(outputs))

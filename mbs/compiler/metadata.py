@@ -51,6 +51,7 @@ def metadata(
             | ({"role": int(i.role)} if i.role else {})
             | ({"tried": i.tried} if i.tried is not None else {})
             | ({"near": i.near} if i.near else {})
+            | ({"figures": list(i.figures)} if i.figures else {})
             for i in model.inputs
         ],
         "sensors": [

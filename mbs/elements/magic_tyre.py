@@ -93,6 +93,15 @@ class MagicTyre:
     bore: TyreBore | None = None
     """Torque against turning on the spot; it fades out up to 1 m/s, from where the formula has the moments."""
 
+    @property
+    def along(self) -> tuple[float, float]:
+        """Slip stiffness along the heading at the nominal load, N, and stiffness of the carcass, N/m: of the file, or
+        the slip stiffness over the relaxation length, where there is none over half a radius.
+        """
+        c = {**MAGIC_COEFFICIENTS, **self.coefficients}
+        by_slip = c["PKX1"] * c["LKX"] * self.lkx * self.nominal_load
+        return by_slip, c["LONGITUDINAL_STIFFNESS"] or by_slip / ((c["PTX1"] or 0.5) * self.radius)
+
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
 

@@ -24,6 +24,7 @@ def new_input(
     role: Role = Role.NONE,
     near: str = "",
     tried: float | None = None,
+    figures: tuple[float, ...] = (),
 ) -> Input:
     """Register an input; limits may be infinite."""
     low, high = limit(min, f"The min of input '{name}'"), limit(max, f"The max of input '{name}'")
@@ -40,7 +41,8 @@ def new_input(
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
     as_port = flag(port, f"The port of input '{name}'")
     number_of, own = len(model.inputs), model.unique("input", name)
-    channel = Input(own, number_of, value, low, high, unit, description, bool(whole), bool(as_port), role, near, tried)
+    limits = value, low, high, unit, description
+    channel = Input(own, number_of, *limits, bool(whole), bool(as_port), role, near, tried, figures)
     model.inputs.append(channel)
     return channel
 

@@ -30,7 +30,9 @@ class Role(IntEnum):
     ANSWER = 2
     """x of the point of an answer on a road; `near` is the sensor of the x of what meets the road there."""
     HUB = 3
-    """x of the force of a tyre; `near` is the sensor of the velocity of the hub along x."""
+    """x of the force of a tyre; `near` is the sensor of the velocity of the hub along x, `figures` are settling time of
+    its carcass at rest, s, how that goes with speed, s2/m2, settling time by speed, s2/m, and stiffness over inertia of
+    the spin, 1/s2."""
 
 
 @dataclass(frozen=True)
@@ -53,11 +55,12 @@ class Input:
     role: Role = Role.NONE
     near: str = ""
     tried: float | None = None
+    figures: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
 class Ahead:
-    """An output of FMUs alone: what a sensor will read at the next communication point, by the sensor of its rate."""
+    """An output of FMUs alone: what a sensor will read some communication steps later, by the sensor of its rate."""
 
     name: str
     unit: str

@@ -290,11 +290,6 @@ def _most_load(curves: Sequence[TyreCurve]) -> float:
 
 def _carcass(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
     """Stiffness at the nominal load: of the file, or slip stiffness over relaxation length, or of assumed lengths."""
-    slip = c["PKX1"] * c["LKX"] * tyre.nominal_load, cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load)
-    lengths = (
-        c.get("PTX1", 0.0) or 0.5,
-        c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0,
-    )
-    given = c.get("LONGITUDINAL_STIFFNESS", 0.0), c.get("LATERAL_STIFFNESS", 0.0)
-    along, across = (g or k / (n * tyre.radius) for g, k, n in zip(given, slip, lengths, strict=True))
-    return along, across
+    length = c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0
+    across = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load) / (length * tyre.radius)
+    return tyre.along[1], c.get("LATERAL_STIFFNESS", 0.0) or across

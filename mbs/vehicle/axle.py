@@ -170,7 +170,7 @@ class Axle(Section):
         for name, real in (("toe", "azimuth"), ("camber", "elevation")):
             b.tie(self.alignment, f"{name}_{corner.side.name}", written, real, -corner.side.sign, late=True)
         if b.ports.tyre is not None:
-            hub_port(b, w, spin)
+            hub_port(b, w, spin, self.tyre, self.wheel.spin_inertia)
             return spin
         made = self.tyre.tyre(corner.side.name)
         tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))

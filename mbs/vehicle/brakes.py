@@ -38,6 +38,11 @@ class Brakes(Section):
     rear: AxleBrakes
     """Brakes of the rear wheels."""
 
+    def shares(self, wheel: str) -> tuple[float, float]:
+        """Share of a wheel, as "FL", in `torque`, and the factor of its side of the car."""
+        share = 1.0 - self.balance if wheel.startswith("R") else self.balance
+        return share, 1.0 + (self.side if wheel.endswith("L") else -self.side)
+
     def _port(self, b: CarBuilder, wheel: str) -> Input:
         """The input of the brake of a wheel that another program sets."""
         if b.ports.brakes == "torque":
@@ -57,16 +62,15 @@ class Brakes(Section):
         behind = corner.side.axle == "rear"
         stiffness = (self.rear if behind else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)
-        share = 1.0 - self.balance if behind else self.balance
+        share, side = self.shares(corner.side.wheel)
         left = 1.0 if corner.side.wheel.endswith("L") else -1.0
         by_size, per_unit = b.ports.brakes is not None, 1.0
         if b.ports.brakes == "pressure":
             per_unit = 1.0 / b.ports.full_pressure
         torque = self.torque * per_unit
         if b.ports.brakes == "torque":
-            torque = share = 1.0
+            torque = share = side = 1.0
         channel = self._port(b, corner.side.wheel) if by_size else b.inputs["brake"]
-        side = 1.0 if b.ports.brakes == "torque" else 1.0 + left * self.side
         brake = Brake(torque, stiffness, damping, share, self.hand_torque if behind else 0.0, side)
         hand = b.inputs["hand_brake"].index if behind else None
         name = f"brake {corner.side.wheel}"

@@ -76,6 +76,7 @@ class CarBuilder:
         near: str = "",
         *,
         whole: bool = False,
+        figures: tuple[float, ...] = (),
     ) -> Input:
         """An input that another program sets, 0 until then.
 
@@ -83,12 +84,13 @@ class CarBuilder:
         ----------
         least, largest : float
             Ends of its range, at which larger values are held, in `unit`.
-        role, near : Role, str
-            What an FMU watches it for, by which sensor.
+        role, near, figures : Role, str, tuple of float
+            What an FMU watches it for, by which sensor, and what it must know.
         whole : bool
             Whether it is a whole number.
         """
-        channel = new_input(self.m, name, 0.0, least, largest, unit, description, whole, True, role, near)
+        limits = 0.0, least, largest, unit, description
+        channel = new_input(self.m, name, *limits, whole, True, role, near, figures=figures)
         self.port_inputs.append(channel)
         return channel
 

@@ -6,25 +6,35 @@ from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried import Spin
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.tyre import TMeasy
+from mbs.vehicle.tyre_by_file import MagicFormula
 
 LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
 """Unit, end of the range and word by the letter."""
 
 
-def hub_port(b: CarBuilder, wheel: str, spin: Spin) -> None:
+def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: TMeasy | MagicFormula, inertia: float) -> None:
     """Add inputs, their element, and what a tyre needs to know beside place, axis, velocity and speed of the wheel.
 
     Parameters
     ----------
     wheel : str
         Its name, as "FL".
+    tyre : TMeasy or MagicFormula
+        That which is left out; what another program has in its place is taken for like it.
+    inertia : float
+        Of the wheel about its axis, kg m2.
     """
+    by_slip, stiffness, settling, fading = tyre.carcass
+    lever = tyre.radius**2 / inertia
+    figures = (settling, fading, 1.0 / (by_slip * lever), stiffness * lever)
     channels: list[int] = []
     for letter, (unit, largest, what) in LARGEST.items():
         for c in "xyz":
             text = f"{what} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
-            watched = (Role.HUB, f"wheel_{wheel}.earth_vx") if not channels else ()
-            channel = b.port(f"wheel_{wheel}.hub_{letter}{c}", -largest, largest, unit, text, *watched)
+            name = f"wheel_{wheel}.hub_{letter}{c}"
+            watched = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
+            channel = b.port(name, -largest, largest, unit, text, *watched, figures=() if channels else figures)
             channels.append(channel.index)
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 

@@ -182,9 +182,7 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
             text = f"velocity of the centre of the wheel along the earth's {c} axis"
             m.sense_coordinate(f"wheel_{w}.earth_v{c}", spin.centre[k], order=1, unit="m/s", description=text)
         for c in "xy" if car.ports.road is not None else "":
-            text = (
-                f"{c} of the contact point at the next communication point, if that step is like the last: to ask for"
-            )
+            text = f"{c} of the contact point ports.road_lead steps of communication later, if they are like the last"
             place, rate = f"wheel_{w}.contact_{c}", f"wheel_{w}.earth_v{c}"
             m.ahead.append(Ahead(f"wheel_{w}.road_ahead_{c}", "m", text, place, rate))
         damper = f"damper {w}" if f"damper {w}" in named else f"spring {w}"
@@ -207,3 +205,10 @@ def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> N
     if car.ports.brakes is None:
         text = "pressure in the brakes of all wheels by the pedal"
         m.sense_input("brake_pressure", b.inputs["brake"], scale=car.ports.full_pressure, unit="Pa", description=text)
+    for channel in b.port_inputs if car.ports.brakes == "torque" else ():
+        wheel, _, name = channel.name.partition(".")
+        share, factor = car.brakes.shares(wheel[-2:])
+        if name == "brake_torque_demand" and share > 0.0:
+            text = "pressure that the torque asked for takes in a brake as that of the car file"
+            scale = car.ports.full_pressure / (car.brakes.torque * share * factor)
+            m.sense_input(f"used.{wheel}.brake_pressure", channel, scale=scale, unit="Pa", description=text)

@@ -10,7 +10,7 @@ from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import BrakePressure, Frequency, Point
 from mbs.vehicle.section import Section
 
-PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind", "gear", "clutch")
+PORTS = ("torque", "brakes", "steering", "road", "tyre", "forces", "wind", "gear", "clutch", "outputs")
 
 
 class Ports(Section):
@@ -38,6 +38,8 @@ class Ports(Section):
     """A forward gear that is asked for, beside an `automatic` drive, which shifts by itself where none is."""
     clutch: Literal["pedal"] | None = None
     """A clutch behind the converter of an `automatic` drive: the part 1 - pedal of its largest torque in a gear."""
+    outputs: Literal["loops"] | None = None
+    """No input: the outputs that come with any port, of a car that is as it was."""
     force_points: dict[Name, Point] = Field(default_factory=dict)
     """Where the forces act, as drawn, such as a hitch; left and right are as given; by default the reference point."""
     full_pressure: BrakePressure = 10e6

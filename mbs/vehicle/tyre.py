@@ -138,6 +138,14 @@ class TMeasy(Section):
         longitudinal, lateral = (c.max_force[0] / self.nominal_load for c in (self.longitudinal, self.lateral))
         return longitudinal, lateral
 
+    @property
+    def carcass(self) -> tuple[float, float, float, float]:
+        """Along the heading: slip stiffness at the nominal load, N, stiffness of the carcass, N/m, its damping over
+        that at rest, s, and how that fades by the square of the speed, s2/m2.
+        """
+        stiffness = self.carcass_stiffness[0]
+        return self.longitudinal.slope[0], stiffness, self.carcass_damping[0] / stiffness, 0.0
+
     def rolling_radius(self, loaded: float) -> float:
         """Way of a free wheel per radian, m.
 

@@ -144,6 +144,14 @@ class MagicFormula(Section):
         largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * c.get(f"LMU{axis}", 1.0)
         return largest * (self.lmux if axis == "X" else self.lmuy)
 
+    @property
+    def carcass(self) -> tuple[float, float, float, float]:
+        """Along the heading: slip stiffness at the nominal load, N, stiffness of the carcass, N/m, its damping over
+        that at rest, s, and how that fades by the square of the speed, s2/m2.
+        """
+        by_slip, stiffness = self._left.along
+        return by_slip, stiffness, self._left.settling, 1.0
+
     def rolling_radius(self, loaded: float) -> float:
         """Way of a free wheel per radian, m, at rest with a loaded radius.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 import subprocess
 from pathlib import Path
 
@@ -24,18 +25,19 @@ def sledge(build, kind) -> Path:
     return build("answered", kind)
 
 
-def test_the_point_ahead_is_that_of_the_next_communication_point(host, sledge) -> None:
-    """At constant speed it is met exactly; before the first step an inner step is looked ahead."""
-    h = host(sledge).start({"initial.speed": 2.0} | LEVEL)
+@pytest.mark.parametrize("lead", [1.0, 2.0])
+def test_the_point_ahead_is_that_of_the_communication_point_asked_for(host, sledge, lead) -> None:
+    """At constant speed it is met exactly; before the first step inner steps are looked ahead."""
+    h = host(sledge).start({"initial.speed": 2.0, "ports.road_lead": lead} | LEVEL)
     inner = h.get("step_size")
-    assert h.get("road_ahead_x") == h.get("x") + inner * h.get("vx")
+    assert h.get("road_ahead_x") == h.get("x") + lead * inner * h.get("vx")
     assert h.step(0.0, 0.02) == OK
-    for step, time in ((0.02, 0.02), (0.05, 0.04)):
-        ahead = h.get("road_ahead_x")
-        assert h.step(time, step) == OK
-        if step == 0.02:
-            assert h.get("x") == pytest.approx(ahead, abs=1e-9)
-    assert h.get("road_ahead_x") - h.get("x") == pytest.approx(0.05 * h.get("vx"))
+    ahead = h.get("road_ahead_x")
+    for time in (0.02, 0.04)[: round(lead)]:
+        assert h.step(time, 0.02) == OK
+    assert h.get("x") == pytest.approx(ahead, abs=1e-9)
+    assert h.step(0.02 * (1.0 + lead), 0.05) == OK
+    assert h.get("road_ahead_x") - h.get("x") == pytest.approx(lead * 0.05 * h.get("vx"))
 
 
 def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge) -> None:
@@ -127,6 +129,27 @@ def test_an_edge_whose_plane_turns_about_what_touches_it_is_no_jump(host, sledge
         h.set("road_normal_z", normal[1])
         h.step(1e-6 * k, 1e-6)
         assert sum("the plane of the last one" in text for text in h.messages) == k
+
+
+@pytest.mark.parametrize(
+    ("lead", "radius", "last", "new"),
+    [(0.0, 400.0, 0.11, 0.0), (0.0, 550.0, 0.0, 0.0), (1.0, 125.0, 0.0, 0.0), (1.0, 100.0, 0.0, 0.45)],
+)
+def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, lead, radius, last, new) -> None:
+    """Circles of radius R under a way of w a step: an answer for its start is off by w^2/2R at its end."""
+    h = host(sledge).start({"initial.speed": 100.0, "ports.road_lead": lead, "step_size": 0.003} | LEVEL)
+    begin = h.get("x")
+    for k in range(8):
+        angle = (h.get("road_ahead_x") - begin) / radius
+        answer = radius * math.sin(angle), 0.0, radius * (1.0 - math.cos(angle)), -math.sin(angle), 0.0, math.cos(angle)
+        for name, value in zip(ANSWER, answer, strict=False):
+            h.set(name, value)
+        assert h.step(0.003 * k, 0.003) == OK
+    told = [text for text in h.messages if "tells that the last one was off" in text]
+    assert len(told) == (last + new > 0.1)
+    for text in told:
+        found = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
+        assert found == pytest.approx([last, new], abs=0.015)
 
 
 @pytest.mark.parametrize(("turn", "told"), [(0.28, 0), (0.32, 1)])

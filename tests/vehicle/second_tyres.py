@@ -1,10 +1,11 @@
 """Copies of the tyres of a car in a second place, at the ports of its hubs, and the table of where they shake.
 
-python -m tests.vehicle.second_tyres
+python -m tests.vehicle.second_tyres [--limits]
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 from functools import cache
 
@@ -15,7 +16,7 @@ from mbs.elements import PlaneRoad
 from mbs.kernel.binding import KernelError
 from mbs.vehicle import Car, load
 from tests.elements.harness import Element
-from tests.vehicle.test_ports import WHEELS, hatchback, simulation
+from tests.vehicle.test_ports import WHEELS, hatchback, rigid, simulation
 
 HUB = [f"hub_{letter}{c}" for letter in "FM" for c in "xyz"]
 INNER = 0.002  # s
@@ -52,23 +53,27 @@ def drive(
     *,
     make: Callable[[], Car] = hatchback,
     slopes: bool = False,
+    late: bool = False,
     time: float = 0.6,
     steer: float = 0.3,
     pedals: Mapping[str, float] | None = None,
 ) -> tuple[float, float, float, mbs.Simulation]:
     """Deviations of load, path and speed of a wheel, each over its own size, from the closed car; and the loop.
 
-    With `slopes` the forces go on within a step as they went in the last one, as by derivatives of inputs.
+    With `slopes` the forces go on within a step as they went in the last one, as by derivatives of inputs; with `late`
+    they come a step later, as where both step at once.
     """
     closed, loop = simulation(make, speed), simulation(make, speed, tyre="hub")
     names = [entry["name"] for entry in loop.system.meta["inputs"]]
     tyres = [SecondTyre(w, make()) for w in WHEELS]
     places = [[names.index(f"wheel_{w}.{n}") for n in HUB] for w in WHEELS]
     n, loads, last = max(1, round(step / INNER)), [], None
+    coming = None
     for k in range(round(time / step)):
         now = loop.sensors
         told = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
-        wrench = np.array([each for each, _ in told])
+        found = np.array([each for each, _ in told])
+        wrench, coming = found if not late or coming is None else coming, found
         rate = np.zeros_like(wrench) if last is None or not slopes else (wrench - last) / step
         last = wrench
         loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, told, strict=True)])
@@ -95,6 +100,32 @@ def drive(
     )
 
 
+def longest(car: Car, speed: float, *, slopes: bool, late: bool) -> float:
+    """The step at which the spin of a front wheel is not damped (decision 225), s."""
+    by_slip, stiffness, settling, fading = car.front.tyre.carcass
+    lever = car.front.tyre.radius**2 / car.front.wheel.spin_inertia
+    time = settling / (1.0 + fading * speed**2) + speed / (by_slip * lever)
+    if late:
+        return 2.0 / 3.0 * time
+    return float(np.cbrt(4.0 * time / (stiffness * lever))) if slopes else 2.0 * time
+
+
+def print_limits() -> None:
+    """The deviation of the speed of the wheels at parts of the longest step, in per cent."""
+    parts = (0.85, 1.0, 1.2, 1.5)
+    print("| car | forces | H, ms | " + " | ".join(f"{part:g} H" for part in parts) + " |")
+    print("| --- | --- | --- |" + " --- |" * len(parts))
+    for make in (hatchback, saloon, rigid):
+        for late in (False, True):
+            for slopes in (False, True):
+                h = longest(make(), 5.0, slopes=slopes, late=late)
+                found = [drive(part * h, 5.0, make=make, slopes=slopes, late=late, time=1.0)[2] for part in parts]
+                forces = ("along derivatives" if slopes else "held") + (", at once" if late else "")
+                name = "prototype" if make is rigid else make.__name__
+                cells = " | ".join(f"{100.0 * deviation:.2g}" for deviation in found)
+                print(f"| {name} | {forces} | {1e3 * h:.2g} | {cells} |", flush=True)
+
+
 def main() -> None:
     """Print the deviation of the speed of the wheels, in per cent, held and with derivatives."""
     steps = (0.001, 0.002, 0.005, 0.008, 0.01)
@@ -118,4 +149,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    print_limits() if "--limits" in sys.argv[1:] else main()

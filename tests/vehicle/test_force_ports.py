@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 import mbs
-from mbs.vehicle import CarFileError
+from mbs.vehicle import Car, CarFileError
 from tests.scenes.car import ON_ICE
-from tests.vehicle.second_tyres import drive, saloon
+from tests.vehicle.second_tyres import drive, longest, saloon
 from tests.vehicle.test_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
 
 STORED = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
@@ -114,6 +116,17 @@ def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> N
     works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
     assert abs(works["energy.ports"]) > 100.0
     assert works["energy.tyres"] == 0.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("late", [False, True], ids=["in turn", "at once"])
+@pytest.mark.parametrize("make", [hatchback, saloon, rigid])
+def test_a_wheel_is_calm_up_to_the_step_that_its_tyre_bears(make: Callable[[], Car], late: bool) -> None:
+    """At 5 m/s, with forces that are held; an FMU tells from 0.85 of it on."""
+    h = longest(make(), 5.0, slopes=False, late=late)
+    calm, shaken = (drive(part * h, 5.0, make=make, late=late, time=1.0)[2] for part in (0.85, 1.4))
+    assert calm < 0.015
+    assert shaken > 0.05
 
 
 @pytest.mark.slow

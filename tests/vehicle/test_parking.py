@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from mbs import compile, simulate
+from mbs import Simulation, compile, simulate
+from mbs.elements import PlaneRoad
 from mbs.vehicle import load
 from mbs.vehicle.kinematics import kinematics
 
@@ -64,3 +65,36 @@ def test_a_smaller_step_gives_the_same(parked):
     fine = _parked(0.0025, **{"front.tyre.bore": BORE, "rear.tyre.bore": BORE})
     coarse = np.interp(fine.t, parked.t, parked["steering_rack_force"])
     assert np.abs(coarse - fine["steering_rack_force"]).max() < 0.03 * np.abs(coarse).max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["hatchback", "prototype"])
+@pytest.mark.parametrize("pedal", ["brake", "hand_brake"])
+def test_a_braked_car_stays_on_a_slope_of_a_tenth(name: str, pedal: str) -> None:
+    """Within 20 um in a minute, once it has settled; it rolls away without."""
+    car = load(name)
+    system = compile(car.model(PlaneRoad(grade_x=0.1, friction=car.road.friction)))
+    names = [entry["name"] for entry in system.meta["inputs"]]
+    neutral = {"selector": 0.0} if "selector" in names else {}
+    s = Simulation(system, inputs={pedal: 1.0} | neutral)
+    s.step(0.002, 5000)
+    before = s.sensors["chassis.x"]
+    s.step(0.002, 30000)
+    assert abs(s.sensors["chassis.x"] - before) < 2e-5
+    s.set_input(pedal, 0.0)
+    s.step(0.002, 500)
+    assert s.sensors["chassis.x"] < before - 0.3
+
+
+def test_a_pushed_car_without_brakes_rolls_as_its_resistance_lets_it() -> None:
+    """r artanh(F r / (f_r m g R)) in the end, r the loaded radius; with the hand brake it stands."""
+    car = load("hatchback").changed({"ports.forces": "earth"})
+    s = Simulation(compile(car.model()), inputs={"point_reference.Fx": 5.0, "hand_brake": 1.0, "selector": 0.0})
+    s.step(0.002, 2500)
+    assert abs(s.sensors["speed"]) < 1e-5
+    s.set_input("hand_brake", 0.0)
+    s.step(0.002, 15000)
+    now, tyre = s.sensors, car.front.tyre
+    resistance = tyre.rolling_resistance * sum(now[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR"))
+    loaded = now["wheel_FL.loaded_radius"]
+    assert now["speed"] == pytest.approx(loaded * math.atanh(5.0 / resistance * loaded / tyre.radius), rel=0.02)

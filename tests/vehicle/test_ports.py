@@ -247,6 +247,39 @@ def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
     assert "brake_pressure" not in port.sensors
 
 
+def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
+    """Of brakes as those of the car file, whose sides differ here: both cars brake alike."""
+    made = {"brakes.side": 0.1, "ports.full_pressure": 8e6}
+    cars = [hatchback().changed(made | {"ports.brakes": kind}) for kind in ("torque", "pressure")]
+    torque, pressure = (mbs.Simulation(mbs.compile(car.model()), pose=mbs.Pose(speed=10.0)) for car in cars)
+    for k, w in enumerate(WHEELS):
+        torque.set_input(f"wheel_{w}.brake_torque_demand", 100.0 + 50.0 * k)
+    torque.step(STEP, 50)
+    for w in WHEELS:
+        pressure.set_input(f"wheel_{w}.brake_pressure", torque.sensors[f"used.wheel_{w}.brake_pressure"])
+    pressure.step(STEP, 50)
+    for w in WHEELS:
+        told = torque.sensors[f"wheel_{w}.brake_torque"]
+        assert told < -90.0
+        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(told, rel=1e-9)
+
+
+def test_outputs_of_loops_alone_leave_a_car_as_it_is() -> None:
+    """The same inputs and bits; what is more stands behind, and damper, drive and brakes tell of their powers."""
+    plain, more = (simulation(rigid, 12.0, **ports) for ports in ({}, {"outputs": "loops"}))
+    assert [i["name"] for i in more.system.meta["inputs"]] == [i["name"] for i in plain.system.meta["inputs"]]
+    for s in (plain, more):
+        s.set_input("throttle", 0.4)
+        s.set_input("steering", 0.2)
+        s.step(STEP, 200)
+    first, now = plain.sensors, more.sensors
+    common = [n for n in now if n in first]
+    assert common == list(first)
+    assert [now[n] for n in common] == [first[n] for n in common]
+    assert {"brake_pressure", "damper_FL.speed", "wheel_RL.drive_power", "wheel_FL.Mx"} <= now.keys() - first.keys()
+    assert now["wheel_RL.drive_power"] == pytest.approx(now["wheel_RL.drive_torque"] * now["wheel_RL.omega"], rel=0.02)
+
+
 def test_a_brake_by_torque_holds_the_standing_car() -> None:
     """It is what the brake can hold, not a torque that turns the wheel backwards."""
     s = simulation(rigid, 3.0, brakes="torque")

@@ -13,8 +13,8 @@ static bool table_fits(const ali3_system *system, size_t fidelity) {
   if (t->first_row[fidelity + 1] - t->first_row[fidelity] != (size_t)z.nc) return false;
   for (size_t i = 0; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
-    const int32_t limit[] = {
-        z.nu, z.np, z.has_pose ? ALI3_POSE : 0, 1, 1, 1, z.has_pose ? 1 : 0, z.ns, ALI3_SOLVER_COUNT, 1, n, 1};
+    const int32_t limit[] = {z.nu, z.np, z.has_pose ? ALI3_POSE : 0, 1, 1, 1, z.has_pose ? 1 : 0,
+                             1,    z.ns, ALI3_SOLVER_COUNT,          1, n, 1};
     if ((i < t->n_known) != (v->source < SLAVE_SENSOR)) return false;
     if (v->index < 0 || v->index >= limit[v->source] || v->other >= n) return false;
   }

@@ -67,6 +67,7 @@ static void start_values(slave *s) {
     s->value[i] = t->variable[i].start;
     if (t->variable[i].source == SLAVE_STEP_SIZE) s->step_reference = i;
     if (t->variable[i].source == SLAVE_STEP_ITERATIONS) s->iterations_reference = i;
+    if (t->variable[i].source == SLAVE_LEAD) s->lead_reference = i;
   }
 }
 

@@ -1,4 +1,5 @@
-/* Answers on the road that lift a wheel at once, take the road away from it, or turn the load on it. */
+/* Answers on the road that lift a wheel at once, take the road away from it, turn the load on it, or lie too far apart
+ * for how the road bends. */
 #include <math.h>
 
 #include "slave.h"
@@ -7,12 +8,26 @@ static const double JUMP = 0.015; /* m; from 0.02 m on a load is off by a fifth,
 
 static const double TURN = 0.3; /* of unit normals; sums of ground and edge stay below it, see docs/decisions/0186 */
 
+static const double BEND = 1e-4; /* m; loads are then off by up to 1.2 %, see docs/decisions/0219 */
+static const double FARTHEST = 4.0; /* square of a wheel's way to an answer over that between two */
+
+/* An input at the end of the last step, whose derivatives it may have followed. */
+static double reached(const slave *s, size_t i) {
+  double value, power = 1.0;
+  ali3_get_input(s->fidelity.kernel, slave_the_table.variable[i].index, &value);
+  for (size_t k = 0; s->made.sloped && k < SLAVE_MOST_ORDERS; k++) {
+    power *= (double)s->made.n * s->made.h / (double)(k + 1);
+    value += s->made_slope[i * SLAVE_MOST_ORDERS + k] * power;
+  }
+  return value;
+}
+
 /* A normal that turns at once says that one plane bears where ground and edge do. */
 static void watch_turn(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   double last[3], now[3], square = 0.0;
   for (size_t k = 0; k < 3; k++) {
-    ali3_get_input(s->fidelity.kernel, v[3 + k].index, &last[k]);
+    last[k] = reached(s, i + 3 + k);
     now[k] = s->value[i + 3 + k];
   }
   for (size_t k = 0; k < 3; k++) square += (now[k] - last[k]) * (now[k] - last[k]);
@@ -32,9 +47,37 @@ static void watch_turn(slave *s, size_t i) {
 static double lifted(const slave *s, size_t i, const double *point) {
   const double *now = &s->value[i];
   double last[6], by = 0.0; /* points and normals */
-  for (size_t k = 0; k < 6; k++) ali3_get_input(s->fidelity.kernel, slave_the_table.variable[i + k].index, &last[k]);
+  for (size_t k = 0; k < 6; k++) last[k] = reached(s, i + k);
   for (size_t k = 0; k < 3; k++) by += last[3 + k] * (point[k] - last[k]) - now[3 + k] * (point[k] - now[k]);
   return by;
+}
+
+/* Two planes that touch a road tell how it bends between them, and by that how far each missed it at the wheel: the last
+ * one at the end of its step, the new one at the start of its. */
+static void watch_bend(slave *s, size_t i) {
+  const double *now = &s->value[i], *centre = &s->value[slave_the_table.variable[i].other];
+  double bend = 0.0, square = 0.0, above = 0.0, away = 0.0;
+  for (size_t k = 0; k < 3; k++) {
+    const double way = now[k] - reached(s, i + k);
+    square += way * way;
+    bend += way * (now[3 + k] - reached(s, i + 3 + k));
+  }
+  if (s->made.n == 0 || !(fabs(bend) > BEND || fabs(lifted(s, i, now)) > BEND) || !slave_outputs(s)) return;
+  for (size_t k = 0; k < 3; k++) above += now[3 + k] * (centre[k] - now[k]);
+  for (size_t k = 0; k < 3; k++) {
+    const double along = centre[k] - now[k] - above * now[3 + k];
+    away += along * along;
+  }
+  const double start = 0.5 * bend * fmin(away / square, FARTHEST), end = start - lifted(s, i, centre);
+  if (!(fabs(end) + 0.25 * fabs(start) > BEND)) return; /* a step makes more of its end */
+  s->said[i + 1] |= SLAVE_TURNED;
+  slave_say(s, SLAVE_WARNING,
+            "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
+            "of its step, and that it is off by %.2g mm itself; where the road goes on so, loads are off by 1 %% or "
+            "more. Ask at the point ahead, with ports.road_lead = 1 where an answer holds in the step that follows the "
+            "question, with 2 where all programs step at once, or take shorter communication steps. This is said "
+            "once.",
+            ali3_time(s->fidelity.kernel), slave_the_table.variable[i].name, 1e3 * fabs(end), 1e3 * fabs(start));
 }
 
 /* Before a step, after normals are held: an answer that lifts its wheel at once, or takes the road away from it. The
@@ -48,6 +91,7 @@ const slave_variable *slave_watch_jumps(slave *s) {
     const slave_variable *v = &t->variable[i];
     if (v->role != SLAVE_ANSWER || t->variable[i + 3].role != SLAVE_NORMAL || v->other < 0) continue;
     if (!(s->said[i] & SLAVE_TURNED)) watch_turn(s, i);
+    if (!(s->said[i + 1] & SLAVE_TURNED)) watch_bend(s, i);
     if (!(fabs(lifted(s, i, &s->value[i])) > JUMP) || !slave_outputs(s)) continue;
     const double by = lifted(s, i, &s->value[v->other]);
     if (fabs(by) > largest) {

@@ -17,10 +17,11 @@ typedef enum {
   SLAVE_FIDELITY,
   SLAVE_STEP_ITERATIONS,
   SLAVE_SETTLING,
+  SLAVE_LEAD, /* of what is ahead, in communication steps */
   SLAVE_SENSOR,
   SLAVE_SOLVER,          /* what the solver says about itself: ali3_solver_value */
   SLAVE_CAPPED_RESIDUAL, /* of the last communication step */
-  SLAVE_AHEAD, /* an output at the next communication point, by its rate */
+  SLAVE_AHEAD, /* an output communication steps later, by its rate */
   SLAVE_CONSTANT /* the start is its value */
 } slave_source;
 
@@ -43,6 +44,7 @@ typedef struct {
   int32_t
       other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
   double scale; /* of inputs and sensors: the value is this times that of the System */
+  double figure[4]; /* of a hub, see mbs.model.records.Role */
 } slave_variable;
 
 typedef struct {
@@ -96,7 +98,7 @@ enum {
   SLAVE_HELD_NORMAL = 16,
   SLAVE_FAR = 32, /* also of a hub: that it is slow for the step */
   SLAVE_JUMPED = 64,
-  SLAVE_TURNED = 128
+  SLAVE_TURNED = 128 /* also of y of an answer: that the road bends too much */
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
 enum { SLAVE_SHORTER_STEPS = 1, SLAVE_LONGER_STEPS }; /* and of inner steps that are not step_size */
@@ -164,7 +166,7 @@ struct slave {
   bool overturned_said, rim_said, event_said;
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
-  size_t step_reference, iterations_reference;
+  size_t step_reference, iterations_reference, lead_reference;
   size_t fidelity_reference; /* n_variables where there is no choice */
 };
 

@@ -11,10 +11,10 @@ bool slave_is_output(uint32_t reference) {
   return reference >= t->n_known && reference < t->n_variables && t->variable[reference].source != SLAVE_CONSTANT;
 }
 
-/* At the end of a communication step like the last one, before the first of an inner step. */
+/* After communication steps like the last one, before the first of an inner step. */
 static double ahead(const slave *s, const slave_variable *v, const double *value) {
   const double step = s->made.n > 0 ? (double)s->made.n * s->made.h : s->value[s->step_reference];
-  return value[v->index] + step * value[v->other];
+  return value[v->index] + s->value[s->lead_reference] * step * value[v->other];
 }
 
 /* Of the derivatives of sensors, those of what is ahead. */

@@ -1,13 +1,12 @@
 /* What other programs answer for a wheel: a normal of the road that is none holds the last one, an answer on a place far
- * from the wheel is told, and so is a tyre whose step is long for its speed. */
+ * from the wheel is told, and so is a tyre whose step is long for it. */
 #include <math.h>
 #include <stdio.h>
 
 #include "slave.h"
 
 static const double FAR_AWAY = 10.0; /* m */
-static const double SLOW = 20.0; /* m/s; this and the steps are measured, see docs/fmu.md */
-static const double CALM[2][2] = {{2e-3, 5e-3}, {5e-3, 8e-3}}; /* s: held, along derivatives; slow, quick */
+static const double CALM = 0.85; /* of the step from which on a wheel shakes; measured, see docs/decisions/0225 */
 enum { HUB = 6 }; /* force and moment */
 
 /* Before a step or a start. The last normal is that of the kernel, at a start that of the table. */
@@ -74,21 +73,30 @@ static bool follows(const slave *s, size_t hub) {
   return false;
 }
 
-/* A tyre that answers once in a long step shakes its wheel, a slow one first. The first step knows no derivative. */
+/* The step up to which a wheel with a tyre like its own is calm. The spin turns on the spring of the carcass, whose force
+ * comes late; settling times are the damping, which a delay takes away: held forces, used in the step that follows or
+ * one later, have that of 1/2 or 3/2 of a step, lines of the last two, used at once, the delay of its cube. */
+static double calm_step(const slave_variable *v, double speed, bool followed, bool late) {
+  const double settling = v->figure[0] / (1.0 + v->figure[1] * speed * speed) + v->figure[2] * speed;
+  if (late) return CALM * 2.0 / 3.0 * settling;
+  return CALM * (followed ? cbrt(4.0 * settling / v->figure[3]) : 2.0 * settling);
+}
+
+/* A tyre that answers once in a long step shakes its wheel. The first step knows no derivative. */
 static void watch_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
   const double speed = sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
   const bool followed = follows(s, i);
-  const double *calm = CALM[followed], time = ali3_time(s->fidelity.kernel);
-  if (!(step > 1.001 * calm[speed >= SLOW]) || time - s->calls.start_time < 1.5 * step) return;
+  const double late = calm_step(v, speed, followed, true), time = ali3_time(s->fidelity.kernel);
+  if (!(step > 1.001 * late) || time - s->calls.start_time < 1.5 * step) return;
   s->said[i] |= SLAVE_FAR;
   slave_say(s, SLAVE_WARNING,
-            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of tyres that %s "
-            "for longer than %g ms below %g m/s, or than %g ms above, may shake it. Take shorter communication steps. "
-            "This is said once.",
-            time, v->name, speed, step, followed ? "follow derivatives" : "are held", 1e3 * calm[0], SLOW,
-            1e3 * calm[1]);
+            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of a tyre like "
+            "the one left out that %s for longer than %.2g ms may shake it, where all programs step at once for longer "
+            "than %.2g ms. Take shorter communication steps. This is said once.",
+            time, v->name, speed, step, followed ? "follow derivatives" : "are held",
+            1e3 * calm_step(v, speed, followed, false), 1e3 * late);
 }
 
 /* After the outputs are known. */

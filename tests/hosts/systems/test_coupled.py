@@ -19,7 +19,7 @@ from hosts.systems import CoupledFmus, write_ssp
 from tests.hosts.systems import controlled, trailer
 from tests.hosts.systems.controlled import SYSTEMS, run
 from tests.hosts.systems.masters import MASTERS
-from tests.hosts.systems.on_off import SHORT, error, way
+from tests.hosts.systems.on_off import SHORT, error, shifted, way
 from tests.hosts.systems.twins import twin
 from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, parts_of, start_of
 from tests.quick import quick
@@ -216,8 +216,8 @@ def test_a_car_wired_to_a_copy_of_its_part_converges_to_the_closed_car(name: str
     assert again < 0.5 * load
     assert path_again < 0.5 * path
     rate = coupled(name, 0.004)[0] / load
-    assert 1.5 < rate < 5.0, "of order one, and of order two where the answers are planes"
-    assert (rate > 3.0) == (name == "road")
+    assert 1.5 < rate < 5.0, "of order one, and more where the answers are planes"
+    assert (rate > 2.4) == (name == "road")
 
 
 @pytest.mark.slow
@@ -238,6 +238,15 @@ def test_a_law_that_is_on_or_off_comes_late_by_the_step_whatever_the_inputs_do()
     assert held[-1] < 1e-2
     assert error(0.002, "repeated") > 0.5 * held[1]
     assert error(0.01, "followed") > 0.5 * held[-1]
+
+
+@pytest.mark.slow
+def test_gears_that_another_program_asks_for_are_held_whatever_other_inputs_do() -> None:
+    """A whole number has no derivative; against steps of 1 ms the way is the nearer the shorter the step."""
+    late = [abs(shifted(h) / shifted(0.001) - 1.0) for h in (0.002, 0.01)]
+    assert 1e-6 < late[0] < 1e-4
+    assert late[0] < late[1] < 2e-3
+    assert shifted(0.01, "followed") == shifted(0.01, "repeated") == shifted(0.01)
 
 
 @pytest.mark.slow

@@ -69,7 +69,7 @@ CASES = {
     ),
     "road": Case(
         *("hatchback", "road", "second_road"),
-        {f"partner.{w}.{c}": f"car.wheel_{w}.contact_{c}" for w in WHEELS for c in "xy"}
+        {f"partner.{w}.{c}": f"car.wheel_{w}.road_ahead_{c}" for w in WHEELS for c in "xy"}
         | {f"car.wheel_{w}.road_{n}": f"partner.{w}.road_{n}" for w in WHEELS for n in ANSWER},
         *(CAR_LOADS, {"steering": 0.05, "throttle": 0.3}),
     ),
@@ -113,11 +113,13 @@ def parts_of(name: str) -> dict[str, Path]:
     return {"car": car_fmu(case.car, case.ports), "partner": partner}
 
 
-def start_of(name: str) -> dict[str, float]:
-    """Start values of the parts of a case."""
+def start_of(name: str, order: Order = "at once", inputs: Inputs = "held") -> dict[str, float]:
+    """Start values of the parts of a case; a road is asked for the end of the step in which its answer is held."""
     case = CASES[name]
     movable = [part for part in ("car", "trailer") if part in parts_of(name)]
-    return {f"{part}.initial.speed": SPEED for part in movable} | {f"car.{n}": x for n, x in case.inputs.items()}
+    start = {f"{part}.initial.speed": SPEED for part in movable} | {f"car.{n}": x for n, x in case.inputs.items()}
+    lead = 0.0 if inputs != "held" else 1.0 if order == "in turn" else 2.0
+    return start | ({"car.ports.road_lead": lead} if name == "road" else {})
 
 
 def closed_system(name: str) -> mbs.System:
@@ -156,7 +158,7 @@ def coupled(
     """Error of the wheel loads, rms over their mean, and of the path over its length; what was said."""
     case = CASES[name]
     with CoupledFmus(parts_of(name), case.wires, step=step, order=order, inputs=inputs) as system:
-        system.initialise(**start_of(name))
+        system.initialise(**start_of(name, order, inputs))
         rows = system.run(TIME, (*case.loads, *case.path))
         messages = system.messages
     loads, ways = (values[:: round(step / INNER)] for values in closed(name))

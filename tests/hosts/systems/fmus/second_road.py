@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from tests.hosts.systems.partner import Partner
-from tests.vehicle.test_road_port import FRICTION, height, slope
+from tests.vehicle.test_road_port import FRICTION, WAVES
 
 WHEELS = ("FL", "FR", "RL", "RR")
 ANSWER = ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
@@ -24,6 +24,6 @@ class SecondRoad(Partner):
     def find(self, step: float) -> None:
         for w in WHEELS:
             x, y = self.value[f"{w}.x"], self.value[f"{w}.y"]
-            size = math.hypot(1.0, slope(x))
-            told = (x, y, height(x), -slope(x) / size, 0.0, 1.0 / size, FRICTION)
+            size = math.hypot(1.0, WAVES.slope(x))
+            told = (x, y, WAVES.height(x), -WAVES.slope(x) / size, 0.0, 1.0 / size, FRICTION)
             self.value.update({f"{w}.road_{n}": v for n, v in zip(ANSWER, told, strict=True)})
