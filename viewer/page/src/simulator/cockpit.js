@@ -59,10 +59,11 @@ export class Cockpit {
     this._asking = setInterval(() => this._poll(), HANDS_MS);
   }
 
-  /** Rates of pictures and frames, pictures a second, and the delay of the picture, s. */
+  /** Rates of pictures and frames, pictures a second, their size, and the delay of the picture, s. */
   flow() {
     const frames = this._frames();
-    return { drawn: this._beat.rate, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
+    const [width, height] = this.view.pixels;
+    return { drawn: this._beat.rate, size: `${width} × ${height}`, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
   /** A frame has come. @param {Data} frame @param {boolean} restarted - It begins an epoch. */
