@@ -138,9 +138,8 @@ class BodyShell:
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel."""
         x = self.stations()
-        top, half = self.deck(x)
-        low = self.lower_edge(x)
-        top = np.maximum(top, low + 0.02)  # over a wheel that is higher than the bonnet
+        (deck, half), low = self.deck(x), self.lower_edge(x)
+        top = np.maximum(deck, low + 0.02)  # over a wheel that is higher than the bonnet
         rise = top - low
         places, triangles = loft(
             [

@@ -45,8 +45,7 @@ def occupant_shapes(looks: Looks) -> None:
 
 def _person(looks: Looks, at: Point, driver: bool) -> None:
     """A person who sits, with the seat; `at` is the centre of mass."""
-    chassis, (x, y, z) = looks.chassis, at
-    floor = SILL * looks.car.front.tyre.radius
+    chassis, (x, y, z), floor = looks.chassis, at, SILL * looks.car.front.tyre.radius
 
     def limb(radius: float, paint: Paint, *offsets: tuple[float, float, float]) -> None:
         points = [(chassis, (x + a, y + b, max(z + c, floor + radius))) for a, b, c in offsets]
