@@ -97,13 +97,16 @@ def _manoeuvre(name: str, car: str = manoeuvres.PROTOTYPE) -> Callable[[], Recor
     return lambda: recording_of(manoeuvres.run(name, 0.002, car=car, every=5))
 
 
-def _lane_change() -> Recording:
+def _lane_change(car: str) -> Callable[[], Recording]:
     """The replay of a drive through the lanes of ISO 3888-1, with their cones."""
-    found = _manoeuvre("double_lane_change_replay")()
-    assert found.scene is not None
-    width = load(manoeuvres.PROTOTYPE).vehicle.width
-    scene = with_course(found.scene, course_of("iso_3888_1", width))
-    return Recording(scene, found.t, found.columns, found.units, found.name)
+
+    def record() -> Recording:
+        found = _manoeuvre("double_lane_change_replay", car)()
+        assert found.scene is not None
+        scene = with_course(found.scene, course_of("iso_3888_1", load(car).vehicle.width))
+        return Recording(scene, found.t, found.columns, found.units, found.name)
+
+    return record
 
 
 def _kerb_test() -> Recording:
@@ -132,7 +135,9 @@ ANIMATIONS = {
     "pendulum": Animation("The pendulum", _scene(pendulum.build, 4.0, 0.002), 0.0, 4.0),
     "cart_pole": Animation("The cart-pole with a light cart", _scene(cart_pole.build, 1.0, 2e-5), 0.0, 1.0, 0.25),
     "spatial_chain": Animation("A chain of ten links", _scene(spatial_chain.build, 5.0, 0.005), 0.0, 5.0),
-    "double_lane_change": Animation("The prototype car, double lane change", _lane_change, 1.0, 6.0, camera="chase"),
+    "double_lane_change": Animation(
+        "The prototype car, double lane change", _lane_change(manoeuvres.PROTOTYPE), 1.0, 6.0, camera="chase"
+    ),
     "proving_ground": Animation(
         "The proving ground of the simulator: a jump from a metre, a sudden turn",
         proving_ground.jump,
@@ -148,8 +153,8 @@ ANIMATIONS = {
         options={"stress": True, "deformation": 30.0},
     ),
     "drop": Animation("The car is dropped", _manoeuvre("drop"), 0.0, 1.6, 0.5),
-    "hatchback_slalom": Animation(
-        "The hatchback, slalom", _manoeuvre("slalom", "hatchback"), 2.0, 7.0, camera="trackside"
+    "hatchback_lane_change": Animation(
+        "The hatchback changes lanes and back", _lane_change("hatchback"), 1.0, 6.0, camera="trackside"
     ),
 }
 """By the name of their file."""

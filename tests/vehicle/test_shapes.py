@@ -12,9 +12,9 @@ import pytest
 import mbs
 from mbs.vehicle import car_names, load
 from mbs.vehicle.shapes import car_shapes as shapes_module
-from mbs.vehicle.shapes.body_shell import DASHBOARD, BodyShell
+from mbs.vehicle.shapes.body_shell import ARCH, DASHBOARD, BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
-from mbs.vehicle.shapes.occupants import driver_place
+from mbs.vehicle.shapes.occupants import SHIRT, TROUSERS, driver_place
 from mbs.vehicle.shapes.steering import HANDS, RADIUS, TILT
 from mbs.vehicle.shapes.tube_frame import FRAME
 from mbs.vehicle.suspensions import Suspension
@@ -109,8 +109,9 @@ def test_levers_of_an_anti_roll_bar_turn_with_their_links() -> None:
         assert np.ptp(run[f"anti_roll_bar_{w}.angle"]) > 0.01
 
 
-def test_the_body_encloses_its_wheels_and_faces_outwards() -> None:
-    car = load("hatchback")
+@pytest.mark.parametrize("name", [name for name in car_names() if name != "prototype"])
+def test_the_body_encloses_its_wheels_and_faces_outwards(name: str) -> None:
+    car = load(name)
     shell = BodyShell(car)
     for surface in (shell.lower_body, shell.windows, shell.panel):
         places, triangles = surface()
@@ -124,7 +125,16 @@ def test_the_body_encloses_its_wheels_and_faces_outwards() -> None:
         x, _, z = axle.wheel.centre
         near = places[np.abs(places[:, 0] - x) < 0.7 * axle.tyre.radius]
         ways = np.hypot(near[:, 0] - x, near[:, 2] - z)
-        assert ways.min() > axle.tyre.radius + 0.03  # the tyre is free in its arch
+        assert ways.min() > axle.tyre.radius + ARCH - 1e-3  # the tyre is free in its arch
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_who_sits_in_a_car_sits_above_its_floor(name: str) -> None:
+    car = load(name)
+    persons = [s for s in scene(name)["shapes"] if s.get("color") in (TROUSERS["color"], SHIRT["color"])]
+    low = [place[2] - s["radius"] for s in persons for place in drawn(name, s["points"])]
+    assert len(low) >= 12
+    assert min(low) > 0.6 * car.front.tyre.radius
 
 
 @pytest.mark.parametrize("name", ["hatchback", "saloon", "ferrari_250_lm"])

@@ -84,6 +84,33 @@ def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_pla
     assert np.abs(drawn.picture() - fine).max() <= 2, "back to the picture of before"
 
 
+def test_a_draft_looks_up_three_textures_a_pixel_of_the_ground_and_the_sky_only_where_it_is_seen(drawn, car):
+    drawn.show(car, camera="chase", quality="draft")
+    order, lookups = drawn.ask(
+        """() => {
+      const { renderer, world, cameras } = view;
+      const gl = renderer.getContext();
+      const [own, order] = [renderer.renderBufferDirect, []];
+      let lookups = 0;
+      renderer.renderBufferDirect = function (camera, scene, geometry, material, ...rest) {
+        own.call(this, camera, scene, geometry, material, ...rest);
+        order.push(material.transparent ? "laid" : material.uniforms?.cube ? "sky" : "solid");
+        if (!material.customProgramCacheKey().includes("surface false")) return;
+        const shaders = gl.getAttachedShaders(gl.getParameter(gl.CURRENT_PROGRAM));
+        const code = gl.getShaderSource(shaders.find((one) => gl.getShaderParameter(one, gl.SHADER_TYPE) === gl.FRAGMENT_SHADER));
+        lookups = code.slice(code.lastIndexOf("void main")).match(/texture2D\\(a[A-Z]/g).length;
+      };
+      renderer.render(world, cameras.current);
+      renderer.renderBufferDirect = own;
+      return [order, lookups];
+    }"""  # noqa: E501
+    )
+    sky = order.index("sky")
+    assert set(order[:sky]) == {"solid"}
+    assert set(order[sky + 1 :]) == {"laid"}
+    assert lookups == 3
+
+
 def test_a_frame_that_bends_has_few_triangles_in_a_draft_and_all_of_them_again(drawn):
     scene = compile(load("prototype").model(fidelity="dynamic")).scene
     assert len(scene["flexible"][0]["nodes"]) > 100

@@ -132,7 +132,7 @@ def test_pages_are_dark_where_everything_is(shown: Any, kind: str) -> None:
 
 @pytest.mark.slow
 def test_the_bar_is_one_line(shown: Any, kind: str) -> None:
-    for width in (800, 1000):
+    for width in (800, 901, 1000, 1280):
         check_bar(shown, BARS[kind], width)
 
 
@@ -169,6 +169,25 @@ def test_no_instrument_of_the_simulator_lies_over_another_in_small_windows(chrom
                 if all(a[low] < b[high] and b[low] < a[high] for low, high in (("left", "right"), ("top", "bottom")))
             ]
     assert over == []
+
+
+@pytest.mark.slow
+def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
+    """Nor is the world small: it is as wide or as high as what is left of the window."""
+    with dark_page(chromium) as page:
+        open_simulator(page)
+        page.evaluate("player.camera('map')")
+        for width, height in ((640, 360), (800, 450), (1280, 720)):
+            page.set_viewport_size({"width": width, "height": height})
+            wait_until(page, f"player.cockpit.map._canvas.width === {width}")
+            (left, top), (right, bottom) = page.evaluate(
+                "[[-9, 9], [9, -9]].map((point) => player.cockpit.map.pixel(point))"
+            )
+            assert min(left, top, width - right, height - bottom) >= 0
+            assert bottom - top > 0.5 * height
+            for box in page.evaluate(BOXES):
+                beside = box["right"] <= left or box["left"] >= right or box["bottom"] <= top or box["top"] >= bottom
+                assert beside, (width, box)
 
 
 @with_axe

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
-from mbs.vehicle.shapes.looks import ACCENT, DARK, Looks, Paint
+from mbs.vehicle.shapes.looks import ACCENT, DARK, SILL, Looks, Paint
 from mbs.vehicle.shapes.occupants import driver_place
 from mbs.vehicle.shapes.steering import HANDS
 
@@ -63,7 +63,6 @@ ARCH = 0.055  # m between tyre and arch
 GAP = 0.02  # m between an arch and what the cabin opens
 DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
 RIM = 4  # cross-sections of the lower body: its points from here on are over the cabin
-SILL = 0.62  # height of the sill over the radius of the tyres
 FRONT_OVERHANG = 0.53  # share of both overhangs
 SLIM = 0.36  # height over length where nothing tells it
 
@@ -139,8 +138,8 @@ class BodyShell:
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel."""
         x = self.stations()
-        top, half = self.deck(x)
-        low = np.minimum(self.lower_edge(x), top - 0.02)
+        (deck, half), low = self.deck(x), self.lower_edge(x)
+        top = np.maximum(deck, low + 0.02)  # over a wheel that is higher than the bonnet
         rise = top - low
         places, triangles = loft(
             [

@@ -30,6 +30,7 @@ DARK: Paint = {"material": "plastic", "color": "#23262b"}
 PAINT: Paint = {"material": "paint", "color": "#b3202c"}
 ACCENT: Paint = {"material": "paint", "color": "#1f5f9e"}
 CLOTH: Paint = {"material": "plastic", "color": "#3a3f47"}
+SILL = 0.62  # height of the sill over the radius of the front tyres
 SMALL_CAR = 600.0  # kg: parts of a car of this mass are drawn as thick as they are given here
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.shapes.looks import CLOTH, Looks, Paint
+from mbs.vehicle.shapes.looks import CLOTH, SILL, Looks, Paint
 from mbs.vehicle.side import Point
 
 SKIN: Paint = {"material": "plastic", "color": "#c99b7d"}
@@ -45,10 +45,10 @@ def occupant_shapes(looks: Looks) -> None:
 
 def _person(looks: Looks, at: Point, driver: bool) -> None:
     """A person who sits, with the seat; `at` is the centre of mass."""
-    chassis, (x, y, z) = looks.chassis, at
+    chassis, (x, y, z), floor = looks.chassis, at, SILL * looks.car.front.tyre.radius
 
     def limb(radius: float, paint: Paint, *offsets: tuple[float, float, float]) -> None:
-        points = [(chassis, (x + a, y + b, z + c)) for a, b, c in offsets]
+        points = [(chassis, (x + a, y + b, max(z + c, floor + radius))) for a, b, c in offsets]
         looks.m.shape(chassis, "tube", points=points, radius=radius, **paint)
 
     limb(0.135, SHIRT, (-0.04, 0.0, -0.08), (-0.14, 0.0, 0.30))
@@ -58,6 +58,6 @@ def _person(looks: Looks, at: Point, driver: bool) -> None:
         hands = (0.36, 0.16 * side, 0.24) if driver else (0.24, 0.16 * side, 0.0)
         limb(0.045, SHIRT, (-0.13, 0.19 * side, 0.26), (0.08, 0.23 * side, 0.04), hands)
         looks.m.shape(chassis, "sphere", at=(x + hands[0], y + hands[1], z + hands[2]), radius=0.05, **SKIN)
-    looks.m.shape(chassis, "box", at=(x + 0.10, y, z - 0.26), size=(0.50, 0.44, 0.12), **CLOTH)
+    looks.m.shape(chassis, "box", at=(x + 0.10, y, max(z - 0.26, floor + 0.06)), size=(0.50, 0.44, 0.12), **CLOTH)
     tilt = ((COS, 0.0, -SIN), (0.0, 1.0, 0.0), (SIN, 0.0, COS))
     looks.m.shape(chassis, "box", at=(x - 0.28, y, z + 0.10), size=(0.10, 0.46, 0.72), axes=tilt, **CLOTH)

@@ -98,7 +98,7 @@ test("a coarse wire uses points of the fine one, from its first to its last ring
 });
 
 /** A pace whose pictures take times of its own; gives what it chose after so many pictures. */
-function paced(t, driven, quality, timeOf) {
+function paced(t, driven, quality, timeOf, between = 5) {
   let clock = 0;
   let reads = 0;
   t.mock.method(performance, "now", () => clock);
@@ -109,7 +109,7 @@ function paced(t, driven, quality, timeOf) {
       pace.before();
       clock += timeOf(pace);
       pace.after();
-      clock += 5;
+      clock += between;
     }
     return [pace.level, Number(pace.share.toFixed(2)), reads];
   };
@@ -132,6 +132,14 @@ test("a draft that is driven loses pixels where it is too slow and gets them bac
   const [level, share, before] = draw(2000);
   assert.deepEqual([level, share], ["draft", 1]);
   assert.equal(draw(1000)[2] - before, 50); // one of twenty waits for the card
+});
+
+test("a draft whose pictures are quick but seldom loses pixels too, and one that stands still does not", (t) => {
+  assert.deepEqual(paced(t, true, "auto", () => 20, 40)(400).slice(0, 2), ["draft", 0.5]); // 60 ms from one to the next
+  t.mock.restoreAll();
+  assert.deepEqual(paced(t, true, "auto", () => 20, 30)(400).slice(0, 2), ["draft", 1]);
+  t.mock.restoreAll();
+  assert.deepEqual(paced(t, true, "auto", () => 20, 500)(400).slice(0, 2), ["draft", 1]);
 });
 
 test("a quality that was chosen stays, and what stands still is measured once", (t) => {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { apronQuads, borderStations, straightened } from "../src/looks/apron.js";
-import { HeightField, SurfaceRaster, surfaceOf } from "../src/looks/heights.js";
+import { HeightField, SURFACES, SurfaceRaster, surfaceOf } from "../src/looks/heights.js";
 import { arrowStrips, dashes, edges } from "../src/looks/scenery/ribbon.js";
 import { squares } from "../src/looks/scenery/index.js";
 import { shares } from "../src/looks/coverage.js";
@@ -139,9 +139,11 @@ test("a surface has the name of its nearest cell, and its border goes on", () =>
   assert.equal(raster.nameAt(0.6, 0.9), "grass");
   assert.equal(raster.nameAt(-99, 99), "wet");
   // Rows along x: wet is the second of the first row, grass the first of the second; 25 of 36 parts of it stay there.
-  const { pictures } = shares(raster);
-  assert.ok(Math.abs(pictures[0][4 + 1] - (255 * 25) / 36) <= 2 && Math.abs(pictures[0][8] - (255 * 25) / 36) <= 2);
-  assert.ok(Math.abs(pictures[0][4] - 255 / 36) <= 2);
+  const { pixels } = shares(raster);
+  const near = (at, share) => assert.ok(Math.abs(pixels[at] - 128 - (127 * share) / 36) <= 2, `${at}: ${pixels[at]}`);
+  near(4 + 2, 25);
+  near(8 + 1, 25);
+  near(4 + 1, 1);
   assert.equal(surfaceOf({ roads: [{ kind: "flat" }] })(0, 0), "asphalt");
   assert.throws(() => new SurfaceRaster({ ...surface, shape: [3, 2] }), /3 x 2/);
 });
@@ -149,10 +151,21 @@ test("a surface has the name of its nearest cell, and its border goes on", () =>
 test("a large raster is averaged", () => {
   const classes = new Uint8Array(16).fill(1, 0, 8);
   const raster = new SurfaceRaster({ origin: [0, 0], spacing: [1, 1], shape: [4, 4], classes: base64(classes), names: ["asphalt", "grass"] });
-  const { width, height, factor, pictures } = shares(raster, 2);
+  const { width, height, factor, pixels } = shares(raster, 2);
   assert.deepEqual([width, height, factor], [2, 2, 2]);
-  // A sixth of what is beside goes over the edge.
-  assert.deepEqual([0, 1, 2, 3].map((k) => pictures[0][4 * k]), [213, 213, 43, 43]);
+  // A sixth of what is beside goes over the edge: of grass, and of asphalt.
+  assert.deepEqual([0, 1, 2, 3].map((k) => pixels[4 * k + 1]), [234, 234, 149, 149]);
+  assert.deepEqual([0, 1, 2, 3].map((k) => pixels[4 * k]), [149, 149, 234, 234]);
+});
+
+test("of two surfaces that share a channel one is above the middle and the other below it", () => {
+  const classes = Uint8Array.from({ length: 8 }, (_, k) => k);
+  for (const [k, name] of SURFACES.entries()) {
+    const one = { origin: [0, 0], spacing: [1, 1], shape: [1, 1], classes: base64(classes.slice(k, k + 1)), names: SURFACES };
+    const expected = [128, 128, 128, 128];
+    expected[k < 4 ? k : 7 - k] += k < 4 ? 127 : -127;
+    assert.deepEqual([...shares(new SurfaceRaster(one)).pixels], expected, name);
+  }
 });
 
 const length = (stretch) => stretch.slice(1).reduce((sum, b, k) => sum + Math.hypot(b[0] - stretch[k][0], b[1] - stretch[k][1]), 0);

@@ -2,6 +2,7 @@
 import * as THREE from "three";
 import { across, cross, dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
+import { oneLevel } from "./noise.js";
 import { SKYLIGHT } from "./skylight.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
@@ -20,8 +21,9 @@ varying float vWet;
 
 const ASPHALT = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
-float grain = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)}).r;
-float speck = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)}).a;
+vec4 near = texture2D(aNoise, (plane + aOffset[0]) / ${PERIODS[0].toFixed(1)});
+float grain = near.r;
+float speck = near.a;
 float patches = texture2D(aNoise, (plane + aOffset[1]) / ${PERIODS[1].toFixed(1)}).g;
 float tone = texture2D(aNoise, (plane + aOffset[2]) / ${PERIODS[2].toFixed(1)}).b;
 vec3 stone = vec3(0.118, 0.119, 0.12) * (0.3 + 1.05 * grain + 0.45 * (patches - 0.5) + 0.6 * (tone - 0.5)) + 0.09 * speck;
@@ -87,7 +89,7 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
   /** The same pattern, lit at its points only. @param {Data} light of `lightOf` */
   const drafted = (light) =>
     prelit(light, {}, `ground ${grass}`, (shader) => {
-      Object.assign(shader.uniforms, uniforms);
+      Object.assign(shader.uniforms, uniforms, { aNoise: { value: oneLevel(noise) } });
       patterned(shader);
       if (grass) atEachPixel(shader, "#define A_GRASS", {});
     });

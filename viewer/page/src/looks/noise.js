@@ -87,6 +87,14 @@ function sampled(texture, anisotropy) {
   return texture;
 }
 
+/** The same picture, looked up in one of its mipmaps where others blend two. @param {THREE.Texture} texture */
+export function oneLevel(texture) {
+  const made = texture.clone();
+  made.minFilter = THREE.LinearMipmapNearestFilter;
+  made.needsUpdate = true;
+  return made;
+}
+
 /** @param {THREE.DataTexture} texture */
 function repeated(texture) {
   texture.wrapS = texture.wrapT = THREE.RepeatWrapping;

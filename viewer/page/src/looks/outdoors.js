@@ -2,12 +2,13 @@
 import * as THREE from "three";
 import { across, add, cross, scale, unit } from "../scene/math.js";
 import { contactShadows } from "./contact_shadows.js";
+import { discard } from "./discard.js";
 import { makeDraft } from "./draft/index.js";
 import { groundMaterial } from "./ground.js";
 import { mirrorOf } from "./mirror.js";
 import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
-import { HAZE, skyBall } from "./sky.js";
+import { HAZE, seenSky, skyBall } from "./sky.js";
 import { sharpen, sunLight } from "./sun.js";
 import { makeWorld } from "./world.js";
 
@@ -33,11 +34,13 @@ export function outdoors(view, fine) {
     held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
     new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, around);
     held.mirrored = mirrorOf(renderer, around, fine);
-    world.background = held.cube.texture;
+    sky.material.uniforms.cube.value = held.cube.texture;
     world.environment = held.mirrored.texture;
     world.environmentIntensity = 0.75;
     land?.mirror(held.cube.texture);
   };
+  const sky = seenSky();
+  world.add(sky);
   const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
   if (land !== null) world.add(land.group);
   bake();
@@ -82,6 +85,7 @@ export function outdoors(view, fine) {
       for (const twin of twins.values()) twin.dispose();
       for (const { material } of [asphalt, road, grass]) material.dispose();
       noise.dispose();
+      discard(sky);
       sun.dispose();
       held.cube.dispose();
       held.mirrored.dispose();

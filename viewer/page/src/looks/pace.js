@@ -4,12 +4,17 @@
 export const LEVELS = ["draft", "low", "high"];
 /** Milliseconds that a picture may take before it is drawn more coarsely, and below which a draft is drawn more finely. */
 const [SLOW, QUICK] = [40, 12];
+/** Milliseconds between two pictures of what is driven above which drafts have fewer pixels, and above which it stood still. */
+const [SELDOM, STOOD] = [55, 250];
 /** Pictures that are measured; the first ones make programs and textures. */
 const [SKIPPED, MEASURED] = [3, 5];
 /** While something is driven, one of so many pictures is measured: elsewhere in a world there is more to draw. */
 const EVERY = 20;
 /** The least share of the pixels of a draft by side, and by what it changes. */
 const [LEAST_SHARE, COARSER] = [0.5, 0.8];
+
+/** @param {number[]} values */
+const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
 
 /** Chooses between the levels. */
 export class Pace {
@@ -50,11 +55,15 @@ export class Pace {
     this.skipped = wanted ? SKIPPED : Infinity;
     this.every = 1;
     this.times = [];
+    this.gaps = [];
   }
 
   before() {
+    const now = performance.now();
+    if (this.goes && now - this.drawn < STOOD) this.gaps.push(now - this.drawn);
+    this.drawn = now;
     this.looks = this.skipped <= 0;
-    if (this.looks) this.began = performance.now();
+    if (this.looks) this.began = now;
   }
 
   /** Waits for the card where a picture is measured; after several it decides. A finer level is tried once. */
@@ -64,12 +73,16 @@ export class Pace {
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
     this.times.push(performance.now() - this.began);
     this.skipped = this.every - 1;
-    if (this.times.length === MEASURED) this.#decide(this.times.sort((a, b) => a - b)[MEASURED >> 1]);
+    if (this.times.length < MEASURED) return;
+    // What else the machine does for a picture is not in its time.
+    const time = median(this.times);
+    this.#decide(this.level === "draft" && median(this.gaps) > SELDOM ? Math.max(time, SLOW + 1) : time);
   }
 
   /** @param {number} time of a picture, ms */
   #decide(time) {
     this.times = [];
+    this.gaps = [];
     this.every = EVERY;
     if (!this.goes) this.skipped = Infinity;
     const level = nextLevel(this.level, time, this.driven);

@@ -55,3 +55,27 @@ export function skyBall(up, sun, noise) {
   });
   return new THREE.Mesh(new THREE.SphereGeometry(10, 48, 32), material);
 }
+
+const SEEN_VERTEX = /* glsl */ `
+varying vec3 direction;
+void main() {
+  direction = position;
+  gl_Position = (projectionMatrix * vec4(mat3(viewMatrix) * position, 1.0)).xyww;
+}`;
+
+const SEEN = /* glsl */ `
+varying vec3 direction;
+uniform samplerCube cube;
+void main() {
+  gl_FragColor = textureCube(cube, direction);
+  #include <tonemapping_fragment>
+  #include <colorspace_fragment>
+}`;
+
+/** The sky of a cube as it is seen: drawn after all that is solid, so that it is not looked up behind that. */
+export function seenSky() {
+  const uniforms = { cube: { value: null } };
+  const look = { uniforms, vertexShader: SEEN_VERTEX, fragmentShader: SEEN, side: THREE.BackSide, depthWrite: false };
+  const mesh = new THREE.Mesh(new THREE.BoxGeometry(), new THREE.ShaderMaterial(look));
+  return Object.assign(mesh, { renderOrder: Infinity, frustumCulled: false });
+}

@@ -3,9 +3,9 @@ import * as THREE from "three";
 import { dot } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
-import { tonesTexture } from "./noise.js";
-import { COLOURS, CREASE, DRAFT, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
-import { atEachPixel, onTheEarth } from "./vertex_code.js";
+import { oneLevel, tonesTexture } from "./noise.js";
+import { COLOURS, CREASE, DRAFT, DRAFT_HEAD, DRAFT_PLACES, DRAFT_POINT_HEAD, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
+import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
 /** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
 const DRAFTED = 0.01;
@@ -18,7 +18,7 @@ export const LAYERS = [1.3, 8.9, 61, 273];
  * @param {THREE.Texture} options.noise
  * @param {number[][]} options.axes x and y of the world, unit vectors
  * @param {THREE.Vector3} options.sun unit vector to the sun
- * @param {{textures: THREE.DataTexture[], size: number[], start: number[]}} options.cover
+ * @param {{texture: THREE.DataTexture, size: number[], start: number[]}} options.cover
  * @param {number[]} options.corner x and y of the first point of the raster
  * @param {boolean} options.fine with relief and mirrored light; otherwise lit the cheapest way
  */
@@ -30,15 +30,13 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     aTones: { value: new THREE.Vector2() },
     aSpot: { value: new THREE.Vector2() },
     aNoise: { value: noise },
-    aPatches: { value: null },
-    aCoverA: { value: cover.textures[0] },
-    aCoverB: { value: cover.textures[1] ?? null },
+    aShares: { value: cover.texture },
     aCover: { value: new THREE.Vector4(...cover.start, ...cover.size) },
     aSun: { value: sun },
     aSky: { value: null },
   };
   const viewport = { value: new THREE.Vector2(1, 1) };
-  const shared = { uniforms, fine, second: cover.textures.length > 1, viewport };
+  const shared = { uniforms, fine, viewport };
   return {
     /** Of the terrain itself. */
     ground: surfaceMaterial(shared, false),
@@ -46,8 +44,10 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     paint: surfaceMaterial(shared, true),
     /** The same, lit at their points only. @param {Data} light of `lightOf` */
     drafted(light) {
-      uniforms.aPatches.value ??= tonesTexture();
-      return { ground: draftMaterial(shared, light, false), paint: draftMaterial(shared, light, true) };
+      const looked = { aNoise: noise, aShares: cover.texture };
+      const once = Object.fromEntries(Object.entries(looked).map(([name, texture]) => [name, { value: oneLevel(texture) }]));
+      const quick = { ...shared, uniforms: { ...uniforms, ...once, aPatches: { value: tonesTexture() } } };
+      return { ground: draftMaterial(quick, light, false), paint: draftMaterial(quick, light, true) };
     },
     /** @param {THREE.Texture} texture cube of the sky, which wet places mirror */
     mirror(texture) {
@@ -66,13 +66,15 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
 
 const modulo = (a, period) => a - period * Math.floor(a / period);
 
-function surfaceMaterial({ uniforms, fine, second, viewport }, painted) {
+function surfaceMaterial({ uniforms, fine, viewport }, painted) {
   const settings = settingsOf(painted);
   const material = fine ? new THREE.MeshStandardMaterial({ metalness: 0, ...settings }) : new THREE.MeshLambertMaterial(settings);
-  material.defines = { ...material.defines, ...(painted ? { A_PAINTED: 1 } : {}), ...(second ? { A_SECOND: 1 } : {}) };
-  material.customProgramCacheKey = () => `ali3-surface-${painted}-${second}-${fine}`;
+  if (painted) material.defines = { ...material.defines, A_PAINTED: 1 };
+  material.customProgramCacheKey = () => `ali3-surface-${painted}-${fine}`;
   material.onBeforeCompile = (shader) => {
-    onGround(shader, uniforms, painted && viewport);
+    Object.assign(shader.uniforms, uniforms);
+    onTheEarth(shader);
+    if (painted) lay(shader, viewport, PAINT);
     const pieces = { color_fragment: layered(NOISE) + COLOURS, normal_fragment_begin: CREASE, lights_fragment_end: MIRROR };
     if (fine) Object.assign(pieces, { roughnessmap_fragment: GLOSS, normal_fragment_maps: layered(RELIEF) });
     atEachPixel(shader, fine ? HEAD : `#define A_COARSE\n${HEAD}`, pieces);
@@ -85,19 +87,17 @@ const settingsOf = (painted) => (painted ? { vertexColors: true, transparent: tr
 /** Noise at the places of its layers. @param {string} code */
 const layered = (code) => code.replace(/LAYER_(\d)/g, (_, k) => `(plane + aOffset[${k}]) / ${LAYERS[k].toFixed(1)}`);
 
-/** The place on the ground goes along; paint is widened and lifted. @param {Data} shader @param {Data} uniforms @param {{value: Data} | false} viewport of paint @param {number} [nearer] */
-function onGround(shader, uniforms, viewport, nearer = PAINT) {
-  Object.assign(shader.uniforms, uniforms);
-  onTheEarth(shader);
-  if (!viewport) return;
+/** Paint is widened and lifted. @param {Data} shader @param {{value: Data}} viewport @param {number} nearer */
+function lay(shader, viewport, nearer) {
   widen(shader, viewport);
   lift(shader, nearer);
 }
 
-function draftMaterial({ uniforms, second, viewport }, light, painted) {
-  return prelit(light, settingsOf(painted), `surface ${painted} ${second}`, (shader) => {
-    onGround(shader, uniforms, painted && viewport, DRAFTED);
-    const defines = `#define A_COARSE\n${painted ? "#define A_PAINTED\n" : ""}${second ? "#define A_SECOND\n" : ""}`;
-    atEachPixel(shader, defines + HEAD, { color_fragment: layered(DRAFT) });
+function draftMaterial({ uniforms, viewport }, light, painted) {
+  return prelit(light, settingsOf(painted), `surface ${painted}`, (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    atEachPoint(shader, DRAFT_POINT_HEAD, layered(DRAFT_PLACES));
+    if (painted) lay(shader, viewport, DRAFTED);
+    atEachPixel(shader, (painted ? "#define A_PAINTED\n" : "") + DRAFT_HEAD, { color_fragment: DRAFT });
   });
 }

@@ -5,20 +5,11 @@ import looks from "../../../looks.json" with { type: "json" };
 const mean = (name) => `vec3(${looks.surfaces[name].join(", ")})`;
 
 export const HEAD = /* glsl */ `
-// Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
-#ifdef A_COARSE
-#define A_SHARPER -2.0
-#else
-#define A_SHARPER -0.5
-#endif
 uniform vec3 aX, aY, aSun;
 uniform vec2 aOffset[4];
 uniform vec2 aSpot, aTones;
 uniform vec4 aCover;
-uniform sampler2D aNoise, aPatches, aCoverA;
-#ifdef A_SECOND
-uniform sampler2D aCoverB;
-#endif
+uniform sampler2D aNoise, aShares;
 uniform samplerCube aSky;
 varying vec3 vGround;
 `;
@@ -47,6 +38,16 @@ tones -= 0.518;
 float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * over * (1.0 - over)) * mix(0.4, 0.9, smoothstep(0.1, 2.0, reach)) * tones;
 `;
 
+/**
+ * Shares of asphalt, grass, wet, gravel above zero and of dirt, paint, ice, concrete below it, as coverage.js has them.
+ * Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
+ * @param {string} at @param {string} sharper
+ */
+const sharesAt = (at, sharper) => `vec4 code = (texture2D(aShares, ${at}, ${sharper}) * 255.0 - 128.0) / 127.0;`;
+
+/** Place in the picture of the shares. */
+const PLACE = "vec2 at = ((spot - aCover.yx) / aCover.wz).yx;";
+
 /** Noise at four scales, and the shares of the surfaces with edges as sharp as noise lets them be. */
 export const NOISE = /* glsl */ `
 vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
@@ -55,14 +56,15 @@ vec4 some = texture2D(aNoise, LAYER_1);
 vec4 wide = texture2D(aNoise, LAYER_2);
 vec4 far = texture2D(aNoise, LAYER_3);
 vec2 spot = plane + aSpot;
-vec2 at = ((spot - aCover.yx) / aCover.wz).yx;
-vec4 first = texture2D(aCoverA, at, A_SHARPER);
-#ifdef A_SECOND
-vec4 second = texture2D(aCoverB, at, A_SHARPER);
+${PLACE}
+#ifdef A_COARSE
+${sharesAt("at", "-2.0")}
 #else
-vec4 second = vec4(0.0);
+${sharesAt("at", "-0.5")}
 #endif
-float rest = max(0.0, 1.0 - dot(first, vec4(1.0)) - dot(second, vec4(1.0)));
+vec4 first = max(vec4(code.yzw, -code.w), 0.0);
+vec3 second = max(-code.zyx, 0.0);
+float rest = max(code.x, 0.0);
 float ragged = 0.7 * some.g + 0.3 * near.r - 0.5;
 first.x *= 1.0 + 0.9 * ragged;
 first.z *= 1.0 - 0.9 * ragged;
@@ -70,7 +72,8 @@ first *= first; first *= first; first *= first;
 second.z *= 1.0 + 0.7 * ragged;
 second *= second; second *= second; second *= second;
 rest *= rest; rest *= rest; rest *= rest;
-float total = rest + dot(first, vec4(1.0)) + dot(second, vec4(1.0)) + 1e-6;
+rest += 1e-20;
+float total = rest + dot(first, vec4(1.0)) + dot(second, vec3(1.0));
 first /= total; second /= total; rest /= total;
 `;
 
@@ -103,30 +106,36 @@ float wetness = first.y * (0.35 + 0.65 * film);
 float slick = wetness + 0.55 * second.x;
 `;
 
+/** Where a draft looks its ground up; code of each point. */
+export const DRAFT_PLACES = /* glsl */ `
+vec3 earth = (modelMatrix * vec4(position, 1.0)).xyz;
+vec2 plane = vec2(dot(earth, aX), dot(earth, aY));
+vec2 spot = plane + aSpot;
+${PLACE}
+vGrain = LAYER_0;
+vTone = LAYER_2;
+vShares = at;`;
+const DRAFT_VARYING = "varying vec2 vGrain, vTone, vShares;\n";
+export const DRAFT_POINT_HEAD = `${DRAFT_VARYING}uniform vec3 aX, aY;\nuniform vec2 aOffset[4], aSpot;\nuniform vec4 aCover;`;
+export const DRAFT_HEAD = `${DRAFT_VARYING}uniform sampler2D aNoise, aPatches, aShares;\n`;
+
 /** The same from grain and one tone for all, for drafts: the mean colours are those above. */
 export const DRAFT = /* glsl */ `
-vec2 plane = vec2(dot(vGround, aX), dot(vGround, aY));
-float grain = texture2D(aNoise, LAYER_0).r;
-float tone = texture2D(aPatches, LAYER_2).r;
-vec2 at = ((plane + aSpot - aCover.yx) / aCover.wz).yx;
-vec4 first = texture2D(aCoverA, at, A_SHARPER);
-#ifdef A_SECOND
-vec3 second = texture2D(aCoverB, at, A_SHARPER).xyz;
-#else
-vec3 second = vec3(0.0);
-#endif
-float rest = max(0.0, 1.0 - dot(first, vec4(1.0)) - dot(second, vec3(1.0)));
-first *= first; first *= first; first *= first;
-second *= second; second *= second; second *= second;
-rest *= rest; rest *= rest; rest *= rest;
-float total = rest + dot(first, vec4(1.0)) + dot(second, vec3(1.0)) + 1e-6;
+float grain = texture2D(aNoise, vGrain).r;
+float tone = texture2D(aPatches, vTone).r;
+${sharesAt("vShares", "-2.0")}
+vec4 both = code * code;
+both *= both; both *= both;
+both.x += 1e-20;
+vec4 ones = both * step(0.0, code);
+vec4 others = both - ones;
 #ifdef A_PAINTED
 diffuseColor.rgb *= 0.72 + 0.3 * grain;
 #else
-vec3 mean = rest * ${mean("asphalt")} + first.x * ${mean("grass")} * mix(vec3(0.57, 0.785, 0.67), vec3(1.43, 1.215, 1.33), tone);
-mean += first.y * ${mean("wet")} + first.z * ${mean("gravel")} + first.w * ${mean("concrete")};
-mean += second.x * ${mean("ice")} + second.y * ${mean("paint")} + second.z * ${mean("dirt")};
-diffuseColor.rgb *= (0.325 + 0.55 * grain + 0.85 * tone) * mean / total;
+vec3 mean = ones.x * ${mean("asphalt")} + ones.y * ${mean("grass")} * mix(vec3(0.57, 0.785, 0.67), vec3(1.43, 1.215, 1.33), tone);
+mean += ones.z * ${mean("wet")} + ones.w * ${mean("gravel")} + others.w * ${mean("concrete")};
+mean += others.z * ${mean("ice")} + others.y * ${mean("paint")} + others.x * ${mean("dirt")};
+diffuseColor.rgb *= (0.325 + 0.55 * grain + 0.85 * tone) * mean / dot(both, vec4(1.0));
 #endif
 `;
 

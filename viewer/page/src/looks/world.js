@@ -61,7 +61,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     },
     dispose() {
       for (const version of Object.values(made)) version.dispose();
-      for (const texture of cover.textures) texture.dispose();
+      cover.texture.dispose();
     },
   };
 }
@@ -84,7 +84,7 @@ function versionOf(land, scenery, materials) {
 
 /** All is asphalt. */
 function nothing() {
-  const texture = new THREE.DataTexture(new Uint8Array(4), 1, 1);
+  const texture = new THREE.DataTexture(Uint8Array.of(255, 128, 128, 128), 1, 1);
   texture.needsUpdate = true;
-  return { textures: [texture], size: [1, 1], start: [0, 0] };
+  return { texture, size: [1, 1], start: [0, 0] };
 }

@@ -248,6 +248,12 @@ export class SceneView {
     return [((seen.x + 1) / 2) * this.size[0], ((1 - seen.y) / 2) * this.size[1]];
   }
 
+  /** Width and height of what is drawn; the page stretches it to its picture. @returns {number[]} */
+  get pixels() {
+    const { width = 0, height = 0 } = this.renderer?.domElement ?? {};
+    return [width, height];
+  }
+
   /** Fit the picture to the container. */
   resize() {
     if (this.problem) return;

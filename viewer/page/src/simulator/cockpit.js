@@ -59,10 +59,11 @@ export class Cockpit {
     this._asking = setInterval(() => this._poll(), HANDS_MS);
   }
 
-  /** Rates of pictures and frames, pictures a second, and the delay of the picture, s. */
+  /** Rates of pictures and frames, pictures a second, their size, and the delay of the picture, s. */
   flow() {
     const frames = this._frames();
-    return { drawn: this._beat.rate, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
+    const size = this.views.name === "map" ? "" : ` of ${this.view.pixels.join(" × ")}`;
+    return { drawn: this._beat.rate, size, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
   /** A frame has come. @param {Data} frame @param {boolean} restarted - It begins an epoch. */
@@ -149,13 +150,21 @@ export class Cockpit {
     });
     this._picture = el("div.a3-picture");
     this._inset = new WorldMap(this.plan);
-    this.map = new WorldMap(this.plan, { whole: true, go: (place) => this.act.place(place.name) });
+    this.map = new WorldMap(this.plan, { whole: true, go: (place) => this.act.place(place.name), free: () => this._freeOfFigures() });
     this.map.element.hidden = true;
     this._side = el("div.a3-left", {}, this.steps.element, this.tyres.element);
     root.append(this._picture, this.map.element, this._side, this._inset.element, this.cluster.element, this.levers);
     root.append(this.notices.element);
     this._inputs = inputs;
     this._root = root;
+  }
+
+  /** Left, top, right and bottom of the picture between the bar, the instruments and figures beside them. */
+  _freeOfFigures() {
+    const { left, top, width, height } = this._root.getBoundingClientRect();
+    const [bar, side, cluster] = [this.controls.element, this._side, this.cluster.element].map((part) => part.getBoundingClientRect());
+    const beside = side.top - top < height / 2 ? side.right - left : 0; // in a small window it stands at the top
+    return [beside, bar.bottom - top, width, cluster.top - top];
   }
 
   _open(root, scene, world) {

@@ -183,11 +183,16 @@ class Ground {
 export class WorldMap {
   /**
    * @param {WorldPlan} plan
-   * @param {{whole?: boolean, go?: (place: Data) => void}} options - `go`: a place was clicked at.
+   * @param {object} [options]
+   * @param {boolean} [options.whole] - Of the whole world.
+   * @param {(place: Data) => void} [options.go] - A place was clicked at.
+   * @param {() => number[]} [options.free] - Left, top, right and bottom of what nothing stands before, pixels of the
+   *   element; by default all of it. The world is put there.
    */
-  constructor(plan, { whole = false, go } = {}) {
+  constructor(plan, { whole = false, go, free } = {}) {
     this.plan = plan;
     this._whole = whole;
+    this._free = free;
     this.zoom = 1;
     this._ground = new Ground(plan);
     this._canvas = el("canvas", { role: "img", "aria-label": "map" });
@@ -226,9 +231,10 @@ export class WorldMap {
     const car = this._car ?? { x: 0, y: 0 };
     if (!this._whole) return { scale: (this.zoom * Math.min(width, height)) / (2 * AROUND), x: car.x, y: car.y };
     const [x0, y0, x1, y1] = this.plan.bounds;
-    const fit = 0.92 * Math.min(width / Math.max(1, x1 - x0), height / Math.max(1, y1 - y0));
-    if (this.zoom <= 1) return { scale: fit, x: (x0 + x1) / 2, y: (y0 + y1) / 2 };
-    return { scale: this.zoom * fit, x: car.x, y: car.y };
+    const [left, top, right, bottom] = this._free?.() ?? [0, 0, width, height];
+    const scale = this.zoom * 0.95 * Math.min((right - left) / Math.max(1, x1 - x0), (bottom - top) / Math.max(1, y1 - y0));
+    const middle = this.zoom <= 1 ? { x: (x0 + x1) / 2, y: (y0 + y1) / 2 } : car;
+    return { scale, x: middle.x - (left + right - width) / 2 / scale, y: middle.y + (top + bottom - height) / 2 / scale };
   }
 
   _words(context, width, height) {

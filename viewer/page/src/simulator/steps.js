@@ -48,7 +48,7 @@ export class Steps {
   }
 
   /** @returns {string} A warning where the host does not keep up. */
-  show(frame, time, { drawn, longest, received, delay, stalled }) {
+  show(frame, time, { drawn, size, longest, received, delay, stalled }) {
     const { running, speed, cost, worst, deadline, missed, lateness } = frame;
     write(this._time, `${time.toFixed(2)} s`);
     const { text, warn } = paceWords({ running, speed, factor: this.factor, cost: 0, step: this._step });
@@ -61,7 +61,7 @@ export class Steps {
     write(this._missed, `worst ${micro(worst)} · missed ${missed} · late ${micro(Math.max(0, lateness))}`);
     this._missed.classList.toggle("a3-bad", most > 1);
     const wait = stalled ? ` · no frame for ${stalled.toFixed(1)} s` : ` · ${(1e3 * delay).toFixed(0)} ms behind`;
-    write(this._page, `picture ${drawn.toFixed(0)}/s (longest ${(1e3 * longest).toFixed(0)} ms) · frames ${received}/s${wait}`);
+    write(this._page, `picture ${drawn.toFixed(0)}/s${size} (longest ${(1e3 * longest).toFixed(0)} ms) · frames ${received}/s${wait}`);
     return running ? warn || (frame.behind ? `The car's program is behind: ${this.factor === null ? "" : `${short(this.factor)} s of the run a second, `}${short(speed)} asked for.` : "") : "";
   }
 }
