@@ -8,8 +8,12 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
+import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, TypeAlias, get_type_hints
 
 from mbs.common.checks import not_negative, number, positive, vector
@@ -50,6 +54,18 @@ def declared(kind: type) -> dict[str, Real]:
         found = ((name, real) for name, hint in hints for real in getattr(hint, "__metadata__", ()))
         _DECLARED[kind] = {name: real for name, real in found if isinstance(real, Real)}
     return _DECLARED[kind]
+
+
+def texts_of(kind: type) -> dict[str, str]:
+    """What stands under each field of a class, by name."""
+    (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
+    assert isinstance(tree, ast.ClassDef)
+    return {
+        field.target.id: inspect.cleandoc(text.value.value)
+        for field, text in pairwise(tree.body)
+        if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name)
+        if isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant) and isinstance(text.value.value, str)
+    }
 
 
 def reals_of(thing: object, what: str, names: Sequence[str] = ()) -> Reals:

@@ -174,6 +174,6 @@ class Axle(Section):
             return spin
         made = self.tyre.tyre(corner.side.name)
         tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
-        for name, real in self.tyre.parameters.items():
-            b.tie(self.tyre, name, tyre, real)
+        b.tie_numbers(self.tyre, made, tyre)
+        b.tie(self.tyre, "grip", tyre, "friction_factor")
         return spin

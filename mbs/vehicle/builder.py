@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from mbs.elements.reals import declared
 from mbs.model import Model
 from mbs.model.coordinate import Coordinate
 from mbs.model.inputs import new_input
@@ -135,6 +136,21 @@ class CarBuilder:
         path = section.key(name) + (f".{part}" if part else "")
         tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part, late))
         tied.targets.append((owner, real, scale, offset, inverse))
+
+    def tie_numbers(self, section: Section, made: object, owner: Owner) -> None:
+        """`tie` each number that may change and that has the same name in the element and in the file.
+
+        Parameters
+        ----------
+        made : object
+            The element, whose values are in the model.
+        owner : Owner
+            As in `Model.parameter`.
+        """
+        for name in declared(type(made)).keys() & type(section).model_fields.keys():
+            quantity = section.quantity(name)
+            if quantity is not None and quantity.change is not None:
+                self.tie(section, name, owner, name, value=getattr(made, name))
 
     def parameters(
         self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]], *, late: bool = False
