@@ -71,12 +71,8 @@ def texts_of(kind: type) -> dict[str, str]:
 def reals_of(thing: object, what: str, names: Sequence[str] = ()) -> Reals:
     """Checked numbers of an element or a road.
 
-    Parameters
-    ----------
-    what : str
-        The thing, for the message.
-    names : sequence of str
-        Which, in the order of the kernel; by default all in the order of the fields.
+    `what`: the thing, for the message; `names`: which, in the order of the kernel; by default all in the order of the
+    fields.
     """
     known = declared(type(thing))
     reals: Reals = {}

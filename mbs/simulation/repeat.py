@@ -189,10 +189,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     limit with a quarter, and if these differ with an eighth; with less where steps were halved or miss a peak or jump.
     With `Repeats.twin` the first of the shorter ones alone is made.
 
-    Parameters
-    ----------
-    always : bool
-        Whether a run that is plainly smooth is repeated too.
+    `always`: whether a run that is plainly smooth is repeated too.
     """
     system, run, h = repeats.system, repeats.run, repeats.h
     report, known = run[0].report, run[0].accuracy

@@ -80,14 +80,8 @@ class CarBuilder:
     ) -> Input:
         """An input that another program sets, 0 until then.
 
-        Parameters
-        ----------
-        least, largest : float
-            Ends of its range, at which larger values are held, in `unit`.
-        role, near : Role, str
-            What an FMU watches it for, by which sensor.
-        whole : bool
-            Whether it is a whole number.
+        `least`, `largest`: ends of its range, at which larger values are held, in `unit`; `role`, `near`: what an FMU
+        watches it for, by which sensor; `whole`: whether it is a whole number.
         """
         channel = new_input(self.m, name, 0.0, least, largest, unit, description, whole, True, role, near)
         self.port_inputs.append(channel)
@@ -140,12 +134,7 @@ class CarBuilder:
     def tie_numbers(self, section: Section, made: object, owner: Owner) -> None:
         """`tie` each number that may change and that has the same name in the element and in the file.
 
-        Parameters
-        ----------
-        made : object
-            The element, whose values are in the model.
-        owner : Owner
-            As in `Model.parameter`.
+        `made`: the element, whose values are in the model; `owner`: as in `Model.parameter`.
         """
         for name in declared(type(made)).keys() & type(section).model_fields.keys():
             quantity = section.quantity(name)

@@ -14,10 +14,7 @@ LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
 def hub_port(b: CarBuilder, wheel: str, spin: Spin) -> None:
     """Add inputs, their element, and what a tyre needs to know beside place, axis, velocity and speed of the wheel.
 
-    Parameters
-    ----------
-    wheel : str
-        Its name, as "FL".
+    `wheel`: its name, as "FL".
     """
     channels: list[int] = []
     for letter, (unit, largest, what) in LARGEST.items():

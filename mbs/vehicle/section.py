@@ -78,10 +78,7 @@ class Section(BaseModel):
     def numbers(self, field: str) -> dict[str, float]:
         """Numbers of a field by the names of parameters; those of a list have a part behind the field's name.
 
-        Parameters
-        ----------
-        field : str
-            One with a quantity, whose value is not None.
+        `field`: one with a quantity, whose value is not None.
         """
         value, path = getattr(self, field), self.key(field)
         if not isinstance(value, tuple):
@@ -92,10 +89,7 @@ class Section(BaseModel):
     def locate(self, path: str) -> None:
         """Tell this section and those in it where they stand; done once by the reader.
 
-        Parameters
-        ----------
-        path : str
-            Key path of this section.
+        `path`: key path of this section.
         """
         self._path = path
         for name in type(self).model_fields:
@@ -113,13 +107,7 @@ def _without_unit(text: str, annotation: Any) -> str:
 
 
 def sections_of(section: Section) -> Iterator[Section]:
-    """A section and all in it, in the order of their types.
-
-    Parameters
-    ----------
-    section : Section
-        The first.
-    """
+    """A section and all in it, in the order of their types. `section`: the first."""
     yield section
     for name in type(section).model_fields:
         for _, inner in _sections(name, getattr(section, name)):

@@ -170,13 +170,7 @@ class Stops(Section, of=EndStops):
     """chi."""
 
     def around(self, drawn: float) -> EndStops:
-        """Stops of a spring.
-
-        Parameters
-        ----------
-        drawn : float
-            Length as drawn, m.
-        """
+        """Stops of a spring. `drawn`: length as drawn, m."""
         return self.element(
             EndStops,
             bump_length=drawn - self.bump_gap,

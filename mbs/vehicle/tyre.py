@@ -110,23 +110,11 @@ class TMeasy(Section, of=Tyre):
         return longitudinal, lateral
 
     def rolling_radius(self, loaded: float) -> float:
-        """Way of a free wheel per radian, m.
-
-        Parameters
-        ----------
-        loaded : float
-            Loaded radius, m.
-        """
+        """Way of a free wheel per radian, m. `loaded`: loaded radius, m."""
         return (2.0 * self.radius + loaded) / 3.0
 
     def tyre(self, side: str = "left") -> Tyre:
-        """The tyre of the engine, the same on both sides.
-
-        Parameters
-        ----------
-        side : str
-            Not used.
-        """
+        """The tyre of the engine, the same on both sides. `side`: not used."""
         curves = {name: getattr(self, name).element(TyreCurve) for name in ("longitudinal", "lateral")}
         bore = None if self.bore is None else self.bore.element(TyreBore)
         return self.element(Tyre, **curves, friction_factor=self.grip, bore=bore)

@@ -137,13 +137,7 @@ class MagicFormula(Section, of=MagicTyre):
         return largest * (self.lmux if axis == "X" else self.lmuy)
 
     def rolling_radius(self, loaded: float) -> float:
-        """Way of a free wheel per radian, m, at rest with a loaded radius.
-
-        Parameters
-        ----------
-        loaded : float
-            m
-        """
+        """Way of a free wheel per radian, m, at rest with a loaded radius. `loaded`: in m."""
         t, c = self._left, self._left.coefficients
         free = t.radius * c.get("Q_RE0", 1.0)
         depth, unit = free - loaded, t.nominal_load / (t.stiffness * (1.0 + c.get("PFZ1", 0.0) * t.pressure))

@@ -69,13 +69,7 @@ class Automatic(Section, of=AutomaticDrive):
         return self.ratios[0] * self.ratio_factor * self.stall_factor * self.efficiency
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
-        """Add the drive; its reaction is on the chassis.
-
-        Parameters
-        ----------
-        spins : mapping of str to Spin
-            Of the wheels, by their names.
-        """
+        """Add the drive; its reaction is on the chassis. `spins`: of the wheels, by their names."""
         drive = self.element(
             AutomaticDrive,
             ratios=tuple(self.ratio_factor * ratio for ratio in self.ratios),

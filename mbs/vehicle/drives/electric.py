@@ -54,13 +54,7 @@ class Electric(Section, of=ElectricDrive):
         return self.ratio * self.gear_efficiency
 
     def build(self, b: CarBuilder, spins: Mapping[str, Spin], *, neutral: bool) -> None:
-        """Add the drive; its reaction is on the chassis.
-
-        Parameters
-        ----------
-        spins : mapping of str to Spin
-            Of the wheels, by their names.
-        """
+        """Add the drive; its reaction is on the chassis. `spins`: of the wheels, by their names."""
         drive = self.element(ElectricDrive)
         left, right = (spins[self.wheels[0].upper() + side] for side in "LR")
         z, x = b.chassis.drive_axes  # the reaction is about the lateral axis of the chassis (z cross x = y)
