@@ -158,6 +158,13 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+        gc.set_threshold(20_000, 50, 100)  # what lives through a test is little, and looking for it took a twentieth
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """``-n auto``: one process more than there are processors, since many tests wait for programs and sockets."""
+    return (os.cpu_count() or 1) + 1
 
 
 _UNSEEN = "not looked at without a browser"
