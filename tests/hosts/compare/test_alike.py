@@ -8,7 +8,7 @@ from scipy.signal import lfilter
 
 from hosts.compare.correlated import covariance
 
-SIGNALS, SAMPLES, MEMORY, LOGS = 4, 300, 0.8, 150
+SIGNALS, SAMPLES, MEMORY, LOGS = 4, 300, 0.8, 300
 
 
 @pytest.mark.parametrize("share", [0.0, 0.9])
