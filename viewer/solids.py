@@ -170,8 +170,8 @@ def coil(
 def swept(centres: Array, across: Array, other: Array, radius: float, sides: int = 8) -> Solid:
     """A round tube along a curve.
 
-    `centres`: of its rings, shape (n, 3); `across`, `other`: unit vectors of the plane of each ring; their vector
-    product points back along the curve, shape (n, 3).
+    `centres`: of its rings, shape (n, 3); `across`, `other`: unit vectors of the plane of each ring, shape (n, 3);
+    their vector product points back along the curve.
     """
     turn = 2.0 * np.pi * np.arange(sides) / sides
     normals = across[:, None] * np.cos(turn)[:, None] + other[:, None] * np.sin(turn)[:, None]

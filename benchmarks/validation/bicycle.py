@@ -157,7 +157,7 @@ def simulate(
     """Drive a model by the measured angle of the wheels at the measured speed.
 
     `begins`: samples at which windows begin, with the measured lateral velocity and yaw rate, shape (w,); `steps`:
-    samples of a window after its first; `numbers`: sets of numbers; all windows are driven with each, shape (k, p).
+    samples of a window after its first; `numbers`: sets of numbers, shape (k, p); all windows are driven with each.
 
     Returns
     -------

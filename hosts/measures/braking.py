@@ -100,7 +100,7 @@ def time_to_reach(time: NDArray[np.float64], deceleration: NDArray[np.float64], 
 def locked(slip: NDArray[np.float64], speed: NDArray[np.float64], slowest: float = 3.0) -> NDArray[np.bool_]:
     """Where braked wheels stand while the car moves, shape (n, m).
 
-    `slip`: longitudinal slips; -1 of a wheel that stands, shape (n, m); `speed`: in m/s, shape (n,); `slowest`: in m/s;
+    `slip`: longitudinal slips, shape (n, m); -1 of a wheel that stands; `speed`: in m/s, shape (n,); `slowest`: in m/s;
     slower, wheels may lock.
     """
     return np.asarray((slip < -0.9) & (speed > slowest)[:, None])

@@ -31,7 +31,7 @@ NONE = Gradient(math.nan, math.nan, math.nan)
 def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: float) -> Gradient:
     """Least squares over the points whose x lies in a range, all x weighing the same however dense the points are.
 
-    `x`, `y`: points; those that are not finite do not count, shape (n,); `low`, `high`: range of x.
+    `x`, `y`: points, shape (n,); those that are not finite do not count; `low`, `high`: range of x.
 
     Returns
     -------

@@ -19,7 +19,7 @@ def angle_by_regression(
 ) -> float:
     """Angle at a lateral acceleration, from a straight line through a part of the run.
 
-    `steering`, `acceleration`: in rad and m/s², of one turn; both of one sign, or both of the other, shape (n,);
+    `steering`, `acceleration`: in rad and m/s², of one turn, shape (n,); both of one sign, or both of the other;
     `wanted`: m/s²; `lowest`, `highest`: sizes of the lateral acceleration between which the line is fitted, m/s²: from
     the first sample that is reached to the one before the first beyond.
 

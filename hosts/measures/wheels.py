@@ -32,6 +32,6 @@ def lifted_wheels(loads: NDArray[np.float64]) -> NDArray[np.bool_]:
 def duration(time: NDArray[np.float64], state: NDArray[np.bool_]) -> float:
     """How long something is so, s.
 
-    `time`: in s, shape (n,); `state`: at the end of each step; a step counts whole if it ends so, shape (n,).
+    `time`: in s, shape (n,); `state`: at the end of each step, shape (n,); a step counts whole if it ends so.
     """
     return float(np.diff(time)[state[1:]].sum())

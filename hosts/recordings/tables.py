@@ -47,8 +47,8 @@ class Rows(NamedTuple):
 def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[np.bool_]:
     """Which values of rows are recorded.
 
-    `steps`: steps computed up to each row, shape (n,); `begins`: whether an epoch begins with the row; all its values
-    are recorded then, shape (n,); `every`: of each column, every so many steps a value is recorded, shape (m,).
+    `steps`: steps computed up to each row, shape (n,); `begins`: whether an epoch begins with the row, shape (n,); all
+    its values are recorded then; `every`: of each column, every so many steps a value is recorded, shape (m,).
 
     Returns
     -------

@@ -61,8 +61,8 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
 def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
     """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, n_dof), Pa per m and rad.
 
-    `fibres`: points (y, z) of the section, m; by default those of `Section.fibres` (highest and lowest first), shape
-    (n_fibres, 2).
+    `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default those of `Section.fibres` (highest and
+    lowest first).
     """
     section = frame.beams[int(element)].section
     points = np.array(section.fibres if fibres is None else fibres, float).reshape(-1, 2)

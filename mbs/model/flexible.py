@@ -260,7 +260,7 @@ class Interface(Body):
     def point(self, position: ArrayLike | None = None) -> AffineVector:
         """The node, or a point fixed to it by a rigid arm.
 
-        `position`: earth axes in the reference configuration, m; by default the node, shape (3,).
+        `position`: earth axes in the reference configuration, m, shape (3,); by default the node.
         """
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth

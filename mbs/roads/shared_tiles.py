@@ -72,7 +72,7 @@ class SharedWriter:
     def row(self, heights: Float, frictions: Float | None) -> None:
         """Add the next 32 points in x and all in y.
 
-        `heights`, `frictions`: in m; frictions None where the file has one, shape (32 or what is left, ny).
+        `heights`, `frictions`: in m, shape (32 or what is left, ny); frictions None where the file has one.
         """
         check_grid(heights, frictions, self.name)
         z = _whole(heights)

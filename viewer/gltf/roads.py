@@ -17,7 +17,7 @@ _MOST = 200  # points of a grid in each direction
 def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float) -> tuple[Solid, int] | None:
     """Triangles of a road, and of how many points in a row one is drawn; None for one that stands in a file.
 
-    `up`: unit, shape (3,); `centre`: of the motion: roads without an end are drawn about it, shape (3,); `half`: half
+    `up`: unit, shape (3,); `centre`: of the motion, shape (3,): roads without an end are drawn about it; `half`: half
     the side of what is drawn of them, m.
     """
     kind = road["kind"]

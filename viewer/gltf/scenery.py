@@ -63,7 +63,7 @@ def scenery_solids(
 def ribbon(points: Vectors, width: float, up: Vectors, lift: float = _LIFT) -> Solid:
     """A flat band along points.
 
-    `points`: of its middle, m; no two that follow each other are the same, shape (n, 3); `width`, `lift`: in m; lift:
+    `points`: of its middle, m, shape (n, 3); no two that follow each other are the same; `width`, `lift`: in m; lift:
     above the points; `up`: unit, shape (3,).
     """
     way = np.gradient(points, axis=0)

@@ -147,7 +147,7 @@ def study_data(frame: pd.DataFrame) -> StudyData:
 def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.float64]:
     """Values of which those that lie within the round-off of the largest of them, or of the unit, are the same.
 
-    `values`: finite; n is at least 1, shape (n,); `unit`: theirs.
+    `values`: finite, shape (n,); n is at least 1; `unit`: theirs.
 
     Returns
     -------
