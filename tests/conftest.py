@@ -158,7 +158,6 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
-        gc.set_threshold(20_000, 50, 100)  # what lives through a test is little, and looking for it took a twentieth
 
 
 @pytest.hookimpl(optionalhook=True)
