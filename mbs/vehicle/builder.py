@@ -136,8 +136,8 @@ class CarBuilder:
 
         `made`: the element, whose values are in the model; `owner`: as in `Model.parameter`.
         """
-        for name in declared(type(made)).keys() & type(section).model_fields.keys():
-            quantity = section.quantity(name)
+        for name in declared(type(made)):
+            quantity = section.quantity(name) if name in type(section).model_fields else None
             if quantity is not None and quantity.change is not None:
                 self.tie(section, name, owner, name, value=getattr(made, name))
 
