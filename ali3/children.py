@@ -42,12 +42,8 @@ def ignore_stopping() -> None:
 def how_ended(code: int | None, said: str = "") -> str:
     """How a process has ended that was to go on, as the end of a sentence such as ``crashed (SIGSEGV)``.
 
-    Parameters
-    ----------
-    code : int or None
-        As `subprocess` and `multiprocessing` give it.
-    said : str, optional
-        What it wrote to its standard error; the last line is quoted.
+    `code`: as `subprocess` and `multiprocessing` give it; `said`: what it wrote to its standard error; the last line is
+    quoted.
     """
     last = (said.strip().splitlines() or [""])[-1]
     words = f": {last}" if last else ""

@@ -20,12 +20,7 @@ from ali3.words import brief
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     """Run the subcommand that the first argument names.
 
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        By default those of the command line.
-    prog : str
-        How the user typed the command.
+    `arguments`: by default those of the command line; `prog`: how the user typed the command.
 
     Returns
     -------

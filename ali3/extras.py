@@ -18,12 +18,8 @@ _extra: str | None = None
 def missing_package(package: str, extra: str = "") -> str:
     """The sentence for a package that is not installed, with the line that installs it.
 
-    Parameters
-    ----------
-    package : str
-        Its module, as in ``import``.
-    extra : str
-        Named where several extras bring the package and the command that runs needs none of them.
+    `package`: its module, as in ``import``; `extra`: named where several extras bring the package and the command that
+    runs needs none of them.
     """
     return f"The package {package} is not installed; {_install(_extra_of(package, extra))}"
 
@@ -31,12 +27,7 @@ def missing_package(package: str, extra: str = "") -> str:
 def missing_module(error: ModuleNotFoundError, extra: str = "") -> str:
     """The sentence for a module that was not found, also when a library asked for it at run time.
 
-    Parameters
-    ----------
-    error : ModuleNotFoundError
-        As it was caught.
-    extra : str
-        As of `missing_package`.
+    `error`: as it was caught; `extra`: as of `missing_package`.
 
     Raises
     ------

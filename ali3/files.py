@@ -18,12 +18,7 @@ WRITING = ".writing-"
 def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iterator[Path]:
     """A path to write to; when the block ends without an error, the file there replaces `file` at once.
 
-    Parameters
-    ----------
-    file : path
-        A device or pipe is written to directly.
-    make_parents : bool
-        Whether its folder is made if it is not there.
+    `file`: a device or pipe is written to directly; `make_parents`: whether its folder is made if it is not there.
 
     Yields
     ------

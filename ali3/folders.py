@@ -18,10 +18,7 @@ from ali3.files import WRITING, make_folder, reason
 def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """A folder to fill; when the block ends without an error it becomes `folder` at once.
 
-    Parameters
-    ----------
-    folder : path
-        One that does not exist. If another program makes it meanwhile, its folder stays.
+    `folder`: one that does not exist. If another program makes it meanwhile, its folder stays.
 
     Yields
     ------
@@ -54,12 +51,7 @@ def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
 def forget_oldest(room: Path, kept: int, in_use: float = 0.0) -> None:
     """Remove the folders that were not used for the longest time, while another program may do the same.
 
-    Parameters
-    ----------
-    kept : int
-        How many stay.
-    in_use : float
-        Those that were used in so many seconds stay too, s.
+    `kept`: how many stay; `in_use`: those that were used in so many seconds stay too, s.
     """
     used: dict[Path, float] = {}
     for folder in room.iterdir():

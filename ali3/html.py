@@ -78,12 +78,7 @@ def page(
 def report(title: str, body: str, style: str = "") -> str:
     """A `page` in the style of all reports.
 
-    Parameters
-    ----------
-    body : str
-        Markup, in which texts are escaped.
-    style : str, optional
-        CSS beside that of all reports.
+    `body`: markup, in which texts are escaped; `style`: CSS beside that of all reports.
     """
     return page(title, f"<main>{body}</main>", files(__package__).joinpath("report.css").read_text("utf-8") + style)
 

@@ -82,13 +82,7 @@ def picture(png: bytes, what: str) -> HtmlElement:
 
 
 def document(title: str, body: Iterable[HtmlElement], style: str = "") -> str:
-    """One HTML file that needs nothing else, in the style of all reports.
-
-    Parameters
-    ----------
-    style : str
-        CSS beside that of all reports.
-    """
+    """One HTML file that needs nothing else, in the style of all reports. `style`: CSS beside that of all reports."""
     return html.report(clean(title), markup(body), style)
 
 

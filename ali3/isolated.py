@@ -63,12 +63,7 @@ class Isolated(Generic[T, R]):
     def do(self, task: T, tell: Tell = lambda word: None, limit: float | None = None) -> R | Lost:
         """Do a task and wait for it.
 
-        Parameters
-        ----------
-        tell : callable
-            Called with what the work tells meanwhile.
-        limit : float, optional
-            s, after which the process is ended.
+        `tell`: called with what the work tells meanwhile; `limit`: in s, after which the process is ended.
 
         Raises
         ------

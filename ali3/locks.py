@@ -16,10 +16,7 @@ def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
 
     The lock goes with the process that holds it, however it ends.
 
-    Parameters
-    ----------
-    busy : str, optional
-        What is said where another program has locked it; by default its end is waited for.
+    `busy`: what is said where another program has locked it; by default its end is waited for.
 
     Raises
     ------

@@ -16,12 +16,8 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
     Those that are the same but for capitals; else those that are spelt like it; else those with the same last part,
     as ``spring.damping`` for ``car.damping``; else those of which it is a part.
 
-    Parameters
-    ----------
-    name : str
-        Which is not among them.
-    closeness : float
-        Least share of characters that two spellings have in common, see `difflib.get_close_matches`; 0 to 1.
+    `name`: which is not among them; `closeness`: least share of characters that two spellings have in common, see
+    `difflib.get_close_matches`; 0 to 1.
     """
     asked = name[:_LONGEST].lower()
     spelt: dict[str, list[str]] = {}
@@ -37,12 +33,8 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
 def did_you_mean(name: str, known: Iterable[str], otherwise: str = "", most: int = MOST, closeness: float = 0.6) -> str:
     """The end of a sentence on a name that is not known: ``; did you mean 'a' or 'b'?``.
 
-    Parameters
-    ----------
-    name, known, most, closeness
-        See `near_names`.
-    otherwise : str
-        What the sentence ends with where no name is near, without a full stop.
+    `name`, `known`, `most`, `closeness`: see `near_names`; `otherwise`: what the sentence ends with where no name is
+    near, without a full stop.
     """
     near = near_names(name, known, most, closeness)
     if near:

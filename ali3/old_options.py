@@ -12,10 +12,7 @@ from ali3.running import WRONG_USE
 def add_old_names(parser: argparse.ArgumentParser, names: Mapping[str, str]) -> None:
     """Let options of earlier versions end the command with one sentence.
 
-    Parameters
-    ----------
-    names : mapping of str to str
-        What stands in place of the old name, by old name.
+    `names`: what stands in place of the old name, by old name.
     """
     for old, new in names.items():
         parser.add_argument(old, nargs="?", action=_Renamed, const=new, help=argparse.SUPPRESS)

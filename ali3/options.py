@@ -113,14 +113,8 @@ SHARED: dict[str, Option] = {
 def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", **more: Any) -> None:
     """Add an option of `SHARED`.
 
-    Parameters
-    ----------
-    name : str
-        Key of `SHARED`.
-    usual : str
-        What happens without it, for the help.
-    more
-        For ``add_argument``: ``default``, ``action``, ``dest``.
+    `name`: key of `SHARED`; `usual`: what happens without it, for the help; `more`: for ``add_argument``: ``default``,
+    ``action``, ``dest``.
     """
     option = SHARED[name]
     words = option.text + (f"; default: {usual}" if usual else "")
@@ -137,10 +131,7 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
 def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:
     """Those of these arguments that differ from their defaults, as the user writes them.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Of attributes of `options`.
+    `names`: of attributes of `options`.
     """
     given = [name for name in names if getattr(options, name) != parser.get_default(name)]
     actions = {action.dest: action for action in parser._actions}

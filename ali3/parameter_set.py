@@ -49,11 +49,6 @@ class ParameterSet:
 def told(description: str, bounds: str, variability: str) -> str:
     """Description of a parameter for who edits the file: what it is, its range, and when it may change.
 
-    Parameters
-    ----------
-    bounds : str
-        The range in words; empty where it is open.
-    variability : str
-        ``fixed`` or ``tunable``.
+    `bounds`: the range in words; empty where it is open; `variability`: ``fixed`` or ``tunable``.
     """
     return "; ".join(text for text in (description, bounds, variability) if text)

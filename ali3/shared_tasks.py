@@ -21,14 +21,7 @@ def done_by(
 ) -> Generator[tuple[int, R | Lost]]:
     """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
 
-    Parameters
-    ----------
-    work : callable
-        See `Isolated`.
-    jobs : int
-        At a time.
-    told : callable
-        Called with the place of a task and what its work tells.
+    `work`: see `Isolated`; `jobs`: at a time; `told`: called with the place of a task and what its work tells.
 
     Raises
     ------

@@ -119,12 +119,8 @@ class TextTable:
     def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:
         """Cells of a line as numbers.
 
-        Parameters
-        ----------
-        finite : bool
-            Whether ``nan`` and ``inf`` are refused.
-        first : int
-            Column that they begin with; those before it are text.
+        `finite`: whether ``nan`` and ``inf`` are refused; `first`: column that they begin with; those before it are
+        text.
         """
         cells = row.cells[first:]
         if self.decimal:

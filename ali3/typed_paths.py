@@ -62,14 +62,8 @@ def kinds_of(table: Table) -> tuple[str, ...]:
 def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
     """Type of what stands at a key path, None where the types have nothing there.
 
-    Parameters
-    ----------
-    top : type
-        The whole file: a model, or several of which the key ``kind`` chooses one.
-    path : sequence of str
-        Keys from the top.
-    data : mapping
-        The file's content, which says the kinds of templates.
+    `top`: the whole file: a model, or several of which the key ``kind`` chooses one; `path`: keys from the top; `data`:
+    the file's content, which says the kinds of templates.
     """
     annotation: Any = top
     for key in path:
@@ -103,14 +97,8 @@ def chosen(annotation: Any, data: Any) -> Table | None:
 def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
     """Table at a key path, None where there is none.
 
-    Parameters
-    ----------
-    top : type
-        The whole file: a model, or several of which the key ``kind`` chooses one.
-    path : sequence of str
-        Keys from the top.
-    data : mapping
-        The file's content, which says the kinds of templates.
+    `top`: the whole file: a model, or several of which the key ``kind`` chooses one; `path`: keys from the top; `data`:
+    the file's content, which says the kinds of templates.
     """
     here = data
     for key in path:
@@ -119,13 +107,7 @@ def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
 
 
 def all_keys(table: Table, path: str = "") -> Iterator[str]:
-    """Key paths of a table and all in it, of all templates.
-
-    Parameters
-    ----------
-    path : str
-        Where it stands.
-    """
+    """Key paths of a table and all in it, of all templates. `path`: where it stands."""
     for key, field in keys_of(table).items():
         place = f"{path}.{key}" if path else key
         yield place
@@ -200,10 +182,7 @@ def _metadata(annotation: Any) -> tuple[Any, ...]:
 def item_of(data: Any, key: str) -> Any:
     """What stands under a key of a table or at a place of a list; None where nothing does.
 
-    Parameters
-    ----------
-    key : str
-        Key, or place from 0.
+    `key`: key, or place from 0.
     """
     if isinstance(data, Mapping):
         return data.get(key)

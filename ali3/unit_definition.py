@@ -26,10 +26,7 @@ class UnitDefinition:
     def of(cls, attributes: Mapping[str, Any]) -> UnitDefinition:
         """A definition from the attributes of an element ``BaseUnit`` of SSP or FMI.
 
-        Parameters
-        ----------
-        attributes : mapping of str to str or number
-            Exponents by base unit, ``factor`` and ``offset``; what is missing has its default.
+        `attributes`: exponents by base unit, ``factor`` and ``offset``; what is missing has its default.
         """
         exponents = {base: int(attributes.get(base) or 0) for base in BASE_UNITS}
         factor, offset = attributes.get("factor"), attributes.get("offset")

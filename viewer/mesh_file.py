@@ -44,14 +44,9 @@ def read_mesh(
     a file with several are read, each where the file places it; colours and textures are left out. A size below 1 mm or
     above 500 m is warned about.
 
-    Parameters
-    ----------
-    path : path
-        ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``.
-    scale : float
-        Metres per unit of the file: 0.001 for millimetres, 0.0254 for inches.
-    most_triangles : int
-        A finer mesh is thinned by merging points that are close to each other; a warning says by how much they move.
+    `path`: ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``; `scale`: metres per unit of the file: 0.001
+    for millimetres, 0.0254 for inches; `most_triangles`: a finer mesh is thinned by merging points that are close to
+    each other; a warning says by how much they move.
 
     Returns
     -------
@@ -83,12 +78,7 @@ def read_mesh(
 def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = "pictures") -> NDArray[np.float64]:
     """Corners of the triangles of a mesh, as its file has them.
 
-    Parameters
-    ----------
-    path, scale :
-        As of `read_mesh`.
-    extra : str
-        Of the installation, named where the package that reads is missing.
+    `path`, `scale :`: as of `read_mesh`; `extra`: of the installation, named where the package that reads is missing.
 
     Returns
     -------

@@ -37,10 +37,7 @@ def open_secretly(address: str, folder: str | os.PathLike[str]) -> bool:
 
     The command line of a browser is seen by all users of a machine; it names a page that redirects to the address.
 
-    Parameters
-    ----------
-    folder : path
-        That only this user can read; it must stay until the browser has read the page.
+    `folder`: that only this user can read; it must stay until the browser has read the page.
     """
     target = escape(address, quote=True)
     page = html.page(

@@ -58,12 +58,7 @@ OPTIONS: dict[str, Option] = {
 
 
 def check_options(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options that are what they must be.
-
-    Parameters
-    ----------
-    options : mapping
-        By the names of `OPTIONS`.
+    """Options that are what they must be. `options`: by the names of `OPTIONS`.
 
     Raises
     ------

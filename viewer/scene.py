@@ -17,12 +17,7 @@ from viewer.scene_types import Scene
 
 
 def scene_errors(scene: Any) -> list[str]:
-    """What is wrong with a scene.
-
-    Parameters
-    ----------
-    scene : object
-        As `json.loads` gives it.
+    """What is wrong with a scene. `scene`: as `json.loads` gives it.
 
     Returns
     -------
@@ -92,10 +87,7 @@ def read_scene(source: str | bytes | PathLike[str], name: str = "") -> dict[str,
 def plain_scene(scene: Any) -> Any:
     """A scene as JSON gives it, without keys whose value is null: they stand for keys that are left out.
 
-    Parameters
-    ----------
-    scene : mapping
-        With any mappings, lists and tuples in it.
+    `scene`: with any mappings, lists and tuples in it.
     """
     return _plain(scene, False)
 

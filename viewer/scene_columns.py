@@ -9,13 +9,7 @@ from viewer.scene_parts import GROUND, frames_of
 
 
 def columns_of(part: Mapping[str, Any]) -> list[str]:
-    """Columns that a frame, an arrow or a flexible part reads.
-
-    Parameters
-    ----------
-    part : mapping
-        Of a scene that was checked.
-    """
+    """Columns that a frame, an arrow or a flexible part reads. `part`: of a scene that was checked."""
     found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
     found += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
     found += [name for name in part.get("vector", ()) if name is not None]
@@ -40,10 +34,7 @@ def all_columns(scene: Mapping[str, Any]) -> list[str]:
 def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tuple[dict[str, Any], dict[str, str]]:
     """A scene without what cannot be drawn: parts whose columns are faulty, and what stands on them.
 
-    Parameters
-    ----------
-    fault : callable
-        Why a column cannot be used, as the end of a sentence; None if it can.
+    `fault`: why a column cannot be used, as the end of a sentence; None if it can.
 
     Returns
     -------

@@ -18,13 +18,7 @@ _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 
 
 def relation_errors(scene: Mapping[str, Any]) -> list[str]:
-    """Sentences on a scene whose parts have the right types.
-
-    Parameters
-    ----------
-    scene : mapping
-        Checked by the types.
-    """
+    """Sentences on a scene whose parts have the right types. `scene`: checked by the types."""
     found = list(_frames(scene))
     for k, shape in enumerate(scene["shapes"]):
         found += _shape(scene, shape, ("shapes", k))

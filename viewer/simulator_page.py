@@ -12,10 +12,7 @@ def simulator_html(title: str) -> str:
 
     It opens a WebSocket to the address ``/drive`` of the host that it comes from, with the token of its own address.
 
-    Parameters
-    ----------
-    title : str
-        Of the page; any text.
+    `title`: of the page; any text.
 
     Raises
     ------

@@ -170,12 +170,8 @@ def coil(
 def swept(centres: Array, across: Array, other: Array, radius: float, sides: int = 8) -> Solid:
     """A round tube along a curve.
 
-    Parameters
-    ----------
-    centres : array of shape (n, 3)
-        Of its rings.
-    across, other : array of shape (n, 3)
-        Unit vectors of the plane of each ring; their vector product points back along the curve.
+    `centres`: of its rings, shape (n, 3); `across`, `other`: unit vectors of the plane of each ring, shape (n, 3);
+    their vector product points back along the curve.
     """
     turn = 2.0 * np.pi * np.arange(sides) / sides
     normals = across[:, None] * np.cos(turn)[:, None] + other[:, None] * np.sin(turn)[:, None]

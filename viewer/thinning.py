@@ -19,12 +19,7 @@ def chosen_times(t: NDArray[np.float64], most: int) -> NDArray[np.intp]:
     Both sides of a step are kept too, unless steps alone would be more than half of the times: between them nothing
     moves, the values jump.
 
-    Parameters
-    ----------
-    t : array of shape (n,)
-        s, not decreasing; a time that stands twice is a step.
-    most : int
-        2 or more.
+    `t`: in s, not decreasing, shape (n,); a time that stands twice is a step; `most`: 2 or more.
     """
     if len(t) <= most:
         return np.arange(len(t))

@@ -92,14 +92,8 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
 def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
     """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
-    Parameters
-    ----------
-    rows : sequence of dict
-        Of `measure`, or from a JSON file.
-    output : str
-        One of `fidelity_runs.OUTPUTS`.
-    tolerance : float
-        On its error: a fraction of the largest change, for "motion" m.
+    `rows`: of `measure`, or from a JSON file; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: on its error: a
+    fraction of the largest change, for "motion" m.
     """
     if output not in OUTPUTS:
         raise ValueError(f"There is no output {output!r}; there are: {', '.join(OUTPUTS)}.")

@@ -36,12 +36,8 @@ def measure(
 ) -> list[dict[str, str | float | None]]:
     """All figures of one FMU.
 
-    Parameters
-    ----------
-    kind : str
-        ``native`` or ``python``.
-    steps, repeats, instances : int
-        Calls per timed run, timed runs per figure, instances at once.
+    `kind`: ``native`` or ``python``; `steps`, `repeats`, `instances`: calls per timed run, timed runs per figure,
+    instances at once.
 
     Returns
     -------

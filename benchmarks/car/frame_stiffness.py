@@ -31,10 +31,7 @@ class Stiffness:
 def stiffness(car: Car) -> Stiffness:
     """Twist the free frame by opposite couples at the axles, and find its lowest frequencies.
 
-    Parameters
-    ----------
-    car : Car
-        With a flexible frame.
+    `car`: with a flexible frame.
     """
     flexible = car.flexible_frame
     model = flexible.model

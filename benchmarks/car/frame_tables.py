@@ -36,10 +36,7 @@ CONVERGED = 4  # refinement at which moments at rest no longer change in three d
 def mass_errors(kind: str) -> Array:
     """Relative errors of the free frequencies without rotary inertia, against consistent with it.
 
-    Parameters
-    ----------
-    kind : str
-        "consistent" or "lumped".
+    `kind`: "consistent" or "lumped".
     """
     frame = FRAME.frame()[0]
     exact, found = (

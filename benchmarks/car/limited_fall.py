@@ -46,14 +46,7 @@ class Fall:
 def fall(fmu: Path, fidelity: int | None, step: float, limit: int) -> Fall:
     """One run.
 
-    Parameters
-    ----------
-    fidelity : int or None
-        None where the FMU has no choice.
-    step : float
-        s.
-    limit : int
-        Of the iterations of a step; 0: none.
+    `fidelity`: none where the FMU has no choice; `step`: in s; `limit`: of the iterations of a step; 0: none.
     """
     rows = []
     with Fmu(fmu) as car:

@@ -144,7 +144,7 @@ def steady_turn(car: Car, system: System) -> dict[str, float]:
         run.set_input("steering", TURN_STEERING * max(0.0, k * INTERVAL / TURN_TIME - 0.1) / 0.9)
         run.step(STEP, round(INTERVAL / STEP))
         s = run.sensors
-        if s["speed"] < 0.9 * TURN_SPEED:
+        if s["speed"] < 0.9 * TURN_SPEED or s["speed"] * s["chassis.wz"] > 1.1 * TURN_RANGE[1] * GRAVITY:
             break
         ahead = s["chassis.vy"] - s["chassis.wz"] * (car.wheelbase + car.vehicle.reference_point[0])
         rows.append([s["speed"], s["chassis.wz"], s["steering_wheel_angle"], s["chassis.roll"], ahead])

@@ -24,12 +24,7 @@ NEUTRAL = {"drive.creep_torque": 0.0}
 
 
 def kinematics(car: Car) -> dict[str, float]:
-    """What the axles do, by name as ``front.roll_centre_height``.
-
-    Parameters
-    ----------
-    car : Car
-        Its drawing is taken for its equilibrium.
+    """What the axles do, by name as ``front.roll_centre_height``. `car`: its drawing is taken for its equilibrium.
 
     Returns
     -------

@@ -23,12 +23,7 @@ COLUMNS = {"road": "", "own road": ",d", "four answers": ",d", "ratio": ".2f"}
 def measure(car: str, steps: int, folder: Path) -> list[Row]:
     """Instructions a step of 2 ms through FMPy on each of `ROADS`: a loop of outputs, answers, inputs, step.
 
-    Parameters
-    ----------
-    car : str
-        As `hosts.fmu.built_fmu.fmu_of_car` takes it.
-    steps : int
-        Counted, after as many that are not.
+    `car`: as `hosts.fmu.built_fmu.fmu_of_car` takes it; `steps`: counted, after as many that are not.
 
     Raises
     ------

@@ -9,13 +9,7 @@ from benchmarks.shared.command import pyplot
 
 
 def chart(rows: Sequence[Mapping[str, Any]]) -> Any:
-    """A figure of two rows of panels, a column for each fidelity.
-
-    Parameters
-    ----------
-    rows : sequence of mapping
-        Of `benchmarks.real_time`.
-    """
+    """A figure of two rows of panels, a column for each fidelity. `rows`: of `benchmarks.real_time`."""
     plt = pyplot()
     fidelities = sorted({row["fidelity"] for row in rows})
     figure, panels = plt.subplots(

@@ -55,13 +55,7 @@ class Shown:
 
 
 def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]:
-    """Tables of variables by car.
-
-    Parameters
-    ----------
-    cars : sequence of str, optional
-        By default all of the package, the prototype first.
-    """
+    """Tables of variables by car. `cars`: by default all of the package, the prototype first."""
     names = sorted(car_names(), key=lambda n: (n != "prototype", n)) if cars is None else cars
     return {name: _table(name) for name in names}
 

@@ -26,12 +26,7 @@ _CLOCK = "async (job) => (await import('/clock.js')).clock((await import('/fmu.j
 def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Measure], dict[str, str]]:
     """The hosts by name, and their versions; what is not installed is said and left out.
 
-    Parameters
-    ----------
-    fmu : Path
-        With the libraries of this machine and of wasm32.
-    stack : ExitStack
-        Closes what has to be closed.
+    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes what has to be closed.
 
     Returns
     -------

@@ -40,12 +40,7 @@ def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) ->
     """Left: wall time of the kernel and of other engines; right: factorizations of the kernel and of methods in Python.
     Runs that lost the motion are left out.
 
-    Parameters
-    ----------
-    lost : float
-        Error, in the unit of the case, from which a run has no point.
-    file : Path
-        PNG.
+    `lost`: error, in the unit of the case, from which a run has no point; `file`: PNG.
     """
     plt = pyplot()
     from matplotlib.ticker import NullFormatter

@@ -55,12 +55,7 @@ class Animation:
 def film(name: str, path: Path) -> WrittenFilm:
     """Run a scene and write its film.
 
-    Parameters
-    ----------
-    name : str
-        Of `ANIMATIONS`.
-    path : Path
-        ``.webp``, ``.gif`` or ``.mp4``.
+    `name`: of `ANIMATIONS`; `path`: ``.webp``, ``.gif`` or ``.mp4``.
     """
     a = ANIMATIONS[name]
     return write_mp4(

@@ -47,14 +47,7 @@ FEW_STEPS = (0.05, 0.01, 0.002)  # for the long chains
 def measure(system: mbs.System, windows: int, method: str, h: float, compile_s: float) -> dict[str, Any]:
     """One row: accuracy, iterations and a first time, which also warms up; `time_rows` takes the others.
 
-    Parameters
-    ----------
-    method : str
-        One of `METHODS`.
-    h : float
-        s.
-    compile_s : float
-        What compile() took, s.
+    `method`: one of `METHODS`; `h`: in s; `compile_s`: what compile() took, s.
     """
     settings, failed = METHODS[method], None
     try:

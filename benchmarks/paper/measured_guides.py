@@ -80,12 +80,8 @@ def measured(
 ) -> Signals:
     """Signals of accelerometers that see a run.
 
-    Parameters
-    ----------
-    noise, offset, drift : float
-        Standard deviations of each signal: of its samples, m/s2, of its zero, m/s2, and of how that moves, m/s3.
-    seed : int
-        Of the generator of NumPy.
+    `noise`, `offset`, `drift`: standard deviations of each signal: of its samples, m/s2, of its zero, m/s2, and of how
+    that moves, m/s3; `seed`: of the generator of NumPy.
     """
     every = round(RATE / (run.t[1] - run.t[0]))
     axes = "xyz"
@@ -108,11 +104,8 @@ def motion(signals: Signals, way: float) -> Motion:
     of angular velocities are left out. Each is integrated once; where the car stands, means over a second are what the
     rate has drifted by, between them a monotone cubic. The speed is then scaled to the way that is known.
 
-    Parameters
-    ----------
-    way : float
-        From rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch of
-        the braked car puts into the signal.
+    `way`: from rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch
+    of the braked car puts into the signal.
     """
     t = signals.time
     arms = np.vstack([np.hstack([np.eye(3), -_cross(place)]) for place in _AT])
@@ -216,12 +209,7 @@ def cost(run: Trajectory) -> dict[str, float]:
 def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) -> dict[str, Any]:
     """Means over the seeds, and the most iterations of all.
 
-    Parameters
-    ----------
-    name : str
-        Of `CASES`.
-    true, plain : Trajectory
-        The run that is measured, and the test with its own guide and steps.
+    `name`: of `CASES`; `true`, `plain`: the run that is measured, and the test with its own guide and steps.
     """
     given = dict(CASES[name])
     frequency = given.pop("filter", 0.0)

@@ -18,10 +18,7 @@ _SMOOTH, _MEASURED, _SIGNAL = "#0b62c4", "#d55e00", "#b0b0b0"
 def draw(true: Trajectory, plain: Trajectory, file: Path) -> None:
     """One seed with all of its noise; moments after the low-pass.
 
-    Parameters
-    ----------
-    true, plain : Trajectory
-        The run that is measured, and the test with its own guide and steps.
+    `true`, `plain`: the run that is measured, and the test with its own guide and steps.
     """
     plt = pyplot()
     signals = guides.measured(true)

@@ -142,10 +142,7 @@ def drive(
 ) -> tuple[Array, float]:
     """Several cars one after the other, whose springs differ by 1 % from one to the next.
 
-    Parameters
-    ----------
-    mass, speed, h, angles, rates
-        As of `ExudynCar`.
+    `mass`, `speed`, `h`, `angles`, `rates`: as of `ExudynCar`.
 
     Returns
     -------

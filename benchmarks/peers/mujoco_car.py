@@ -30,14 +30,7 @@ STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its ang
 def model(car: Car, mass: float, h: float, stiffer: float = 1.0) -> Any:
     """The compiled model.
 
-    Parameters
-    ----------
-    mass : float
-        Of the whole car, kg; what is not in the wheels is the body.
-    h : float
-        Step, s.
-    stiffer : float
-        Factor of the springs.
+    `mass`: of the whole car, kg; what is not in the wheels is the body; `h`: step, s; `stiffer`: factor of the springs.
     """
     body, axles = car.chassis, (car.front, car.rear)
     unsprung = 2.0 * sum(axle.wheel.mass for axle in axles)
@@ -82,12 +75,8 @@ def start(m: Any, speed: float) -> Array:
 def drive(models: Sequence[Any], speed: float, angles: Array, threads: int) -> tuple[Array, float]:
     """Several cars by `mujoco.rollout`.
 
-    Parameters
-    ----------
-    angles : ndarray, shape (steps, 2)
-        Of the front wheels, left and right, rad.
-    threads : int
-        0: one car after the other in this thread.
+    `angles`: of the front wheels, left and right, rad, shape (steps, 2); `threads`: 0: one car after the other in this
+    thread.
 
     Returns
     -------

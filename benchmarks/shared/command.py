@@ -20,12 +20,7 @@ DPI = 110
 def parser_of(name: str, text: str | None, *, json: bool = True, chart: str | None = None) -> argparse.ArgumentParser:
     """Parser of ``python -m benchmarks.<name>``.
 
-    Parameters
-    ----------
-    json : bool
-        With the option ``--json FILE``.
-    chart : str, optional
-        What the option ``--chart FILE`` draws; without it there is none.
+    `json`: with the option ``--json FILE``; `chart`: what the option ``--chart FILE`` draws; without it there is none.
     """
     parser = argparse.ArgumentParser(
         prog=f"python -m benchmarks.{name}", description=text, formatter_class=argparse.RawDescriptionHelpFormatter

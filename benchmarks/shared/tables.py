@@ -16,12 +16,8 @@ from ali3.files import write_text
 def print_table(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str] | None = None) -> None:
     """Print rows as aligned columns.
 
-    Parameters
-    ----------
-    rows : sequence of mapping
-        All with the same keys; None prints as "-".
-    columns : mapping of str to str, optional
-        Which keys, and how their values are formatted (".3g"); by default all, as ".4g".
+    `rows`: all with the same keys; None prints as "-"; `columns`: which keys, and how their values are formatted
+    (".3g"); by default all, as ".4g".
     """
     if not rows:
         return

@@ -66,12 +66,7 @@ DRIVES = (
 def reached(time: Array, speed: Array, wanted: float) -> float:
     """When a speed is first reached, s.
 
-    Parameters
-    ----------
-    time, speed : ndarray, shape (n,)
-        s and m/s.
-    wanted : float
-        km/h.
+    `time`, `speed`: in s and m/s, shape (n,); `wanted`: in km/h.
     """
     after = int(np.argmax(speed >= wanted / KMH))
     if not speed[after] >= wanted / KMH:

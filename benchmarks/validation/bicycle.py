@@ -156,14 +156,8 @@ def simulate(
 ) -> tuple[Array, Array]:
     """Drive a model by the measured angle of the wheels at the measured speed.
 
-    Parameters
-    ----------
-    begins : ndarray of shape (w,)
-        Samples at which windows begin, with the measured lateral velocity and yaw rate.
-    steps : int
-        Samples of a window after its first.
-    numbers : ndarray of shape (k, p)
-        Sets of numbers; all windows are driven with each.
+    `begins`: samples at which windows begin, with the measured lateral velocity and yaw rate, shape (w,); `steps`:
+    samples of a window after its first; `numbers`: sets of numbers, shape (k, p); all windows are driven with each.
 
     Returns
     -------
@@ -208,12 +202,8 @@ def heun(
 ) -> tuple[Array, Array]:
     """Lateral velocity and yaw rate by Heun's method with a step a sample, from what was measured.
 
-    Parameters
-    ----------
-    change : callable
-        Their rates, m/s2 and rad/s2, at a sample of the windows.
-    begins : ndarray of shape (w,)
-        Samples at which windows begin.
+    `change`: their rates, m/s2 and rad/s2, at a sample of the windows; `begins`: samples at which windows begin, shape
+    (w,).
 
     Returns
     -------

@@ -15,12 +15,8 @@ _MEASURED, _CAR, _BICYCLE = "#8a8a8a", "#0b62c4", "#d55e00"
 def draw(drive: Drive, time: Array, car: Array, bicycle: Array, name: str, file: Path) -> None:
     """Draw the first of `JUDGED`, each model driven without restart from the first second of the drive.
 
-    Parameters
-    ----------
-    time, car : ndarray of shape (m,)
-        Yaw rate of the multibody car, s and rad/s.
-    bicycle : ndarray of shape (n,)
-        Yaw rate of a bicycle at the samples of the drive.
+    `time`, `car`: yaw rate of the multibody car, s and rad/s, shape (m,); `bicycle`: yaw rate of a bicycle at the
+    samples of the drive, shape (n,).
     """
     plt = pyplot()
     begin, end = JUDGED[0]

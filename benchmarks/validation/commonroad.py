@@ -53,13 +53,7 @@ class Compared:
 
 
 def compared(name: str, manoeuvre: str) -> Compared:
-    """Drive a car as its reference was driven.
-
-    Parameters
-    ----------
-    manoeuvre : str
-        Of `MANOEUVRES`.
-    """
+    """Drive a car as its reference was driven. `manoeuvre`: of `MANOEUVRES`."""
     table = np.genfromtxt(FOLDER / f"{name}_{manoeuvre}.csv", delimiter=",", names=True)
     table = table[table["time"] > BEGIN - 0.1]
     reference = {column: np.asarray(table[column]) for column in table.dtype.names}

@@ -51,10 +51,7 @@ def window_rows(drive: Drive) -> Array:
 def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
     """Root mean square deviation of the lateral acceleration in the windows that were not fitted, m/s2.
 
-    Parameters
-    ----------
-    vy, rate : ndarray of shape (w, m)
-        Of a model in these windows.
+    `vy`, `rate`: of a model in these windows, shape (w, m).
 
     Notes
     -----
@@ -69,12 +66,7 @@ def acceleration_error(drive: Drive, vy: Array, rate: Array) -> float:
 def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve]:
     """Understeer angle and sideslip over the measured lateral acceleration at 1 Hz.
 
-    Parameters
-    ----------
-    wheelbase : float
-        m.
-    vy, rate : ndarray of shape (w, m)
-        Of a model in the windows that were not fitted.
+    `wheelbase`: in m; `vy`, `rate`: of a model in the windows that were not fitted, shape (w, m).
 
     Notes
     -----

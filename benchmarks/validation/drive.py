@@ -69,12 +69,8 @@ def text_of(spans: Spans) -> str:
 def read_drive(file: Path, aliases: Path) -> Drive:
     """Read a log; single samples that no neighbour supports are bridged by a straight line.
 
-    Parameters
-    ----------
-    file : Path
-        CSV, perhaps packed (.gz).
-    aliases : Path
-        Its alias file, with the angles of both front wheels, the speeds and the yaw rate.
+    `file`: CSV, perhaps packed (.gz); `aliases`: its alias file, with the angles of both front wheels, the speeds and
+    the yaw rate.
 
     Raises
     ------

@@ -45,12 +45,8 @@ class Judged:
 def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief: bool = False) -> Judged:
     """Drive a car through a log in windows and without restart.
 
-    Parameters
-    ----------
-    car : str
-        What ``ali3 compare`` takes: an FMU, or a car.
-    brief : bool
-        Drive only the windows that were not fitted; `fitted` and `whole` are then NaN.
+    `car`: what ``ali3 compare`` takes: an FMU, or a car; `brief`: drive only the windows that were not fitted; `fitted`
+    and `whole` are then NaN.
     """
     windows = ["--windows", f"{LENGTH:g}", "--window-every", f"{EVERY:g}"]
     with tempfile.TemporaryDirectory() as folder:

@@ -37,12 +37,7 @@ _SLED, _SETTLED, _STEP = 1e9, 1.0, 0.002  # kg: forces do not slow it; s
 def published(coefficients: Sequence[float], lateral: bool, load: float, slip: float) -> float:
     """Force of the published formula, N, with the sign of the slip.
 
-    Parameters
-    ----------
-    load : float
-        N.
-    slip : float
-        deg or %.
+    `load`: in N; `slip`: in deg or %.
     """
     c, a1, a2, a3, a4, a5, a6, a7, a8 = coefficients
     q = 1e-3 * load
@@ -94,14 +89,8 @@ def magic() -> MagicTyre:
 def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: float = 0.0) -> tuple[float, float]:
     """Steady forces of a wheel on a heavy sled.
 
-    Parameters
-    ----------
-    load : float
-        N.
-    angle : float
-        By which the sled goes to the right of the wheel's heading, deg.
-    slip : float
-        Longitudinal, % of the speed along the wheel, positive when driven.
+    `load`: in N; `angle`: by which the sled goes to the right of the wheel's heading, deg; `slip`: longitudinal, % of
+    the speed along the wheel, positive when driven.
 
     Returns
     -------

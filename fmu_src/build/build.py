@@ -208,12 +208,7 @@ class FmuBuilder:
     def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
         """Build the FMU of a kind.
 
-        Parameters
-        ----------
-        kind : str
-            One of `KINDS`.
-        file : Path
-            Replaced at once when all is done.
+        `kind`: one of `KINDS`; `file`: replaced at once when all is done.
         """
         drawn = geometry_file(self._scene) if self._scene is not None else b""
         contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)

@@ -89,10 +89,7 @@ def grip_of(car: Car) -> dict[str, str]:
 def car_words(car: str) -> str:
     """What is going to be built, for a person: a car of the package and a folder here may have one name.
 
-    Parameters
-    ----------
-    car : str
-        As for `build_car`.
+    `car`: as for `build_car`.
     """
     if _is_path(car) or car not in car_names():
         return shortened(car)
@@ -103,10 +100,7 @@ def car_words(car: str) -> str:
 def car_files(car: Car) -> dict[str, bytes]:
     """The file of a car and the tables that it names, by their paths in an FMU.
 
-    Parameters
-    ----------
-    car : Car
-        As `mbs.vehicle.load` gives it.
+    `car`: as `mbs.vehicle.load` gives it.
     """
     folder = car.folder.resolve()
     named = {(folder / text).resolve() for text in _texts(car.model_dump())}

@@ -41,12 +41,7 @@ def scene_names() -> list[str]:
 
 
 def load_scene(scene: str) -> tuple[str, mbs.System]:
-    """Build and compile a scene.
-
-    Parameters
-    ----------
-    scene : str
-        Name of a scene of the package, or ``path/to/file.py:function``.
+    """Build and compile a scene. `scene`: name of a scene of the package, or ``path/to/file.py:function``.
 
     Returns
     -------
@@ -102,13 +97,7 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
 
 
 def car_of_scene(scene: str) -> Car | None:
-    """The car that a scene of the package is; None of another.
-
-    Parameters
-    ----------
-    scene : str
-        As for `load_scene`.
-    """
+    """The car that a scene of the package is; None of another. `scene`: as for `load_scene`."""
     made = None if _is_path(scene) else getattr(_scene_module(scene), "car", None)
     return None if made is None else cast("Car", made())
 

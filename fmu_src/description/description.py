@@ -96,12 +96,7 @@ def number(value: float) -> str:
 def model_description(head: Description, table: Sequence[Variable], reach: Dependencies) -> bytes:
     """Write the document.
 
-    Parameters
-    ----------
-    head : Description
-        Attributes and default experiment.
-    table : sequence of Variable
-        All variables; the place is the value reference.
+    `head`: attributes and default experiment; `table`: all variables; the place is the value reference.
 
     Returns
     -------

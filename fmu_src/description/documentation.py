@@ -30,12 +30,7 @@ def documentation(
 ) -> str:
     """The page.
 
-    Parameters
-    ----------
-    step_size : float
-        Default step, s.
-    paragraphs : sequence of str
-        What is peculiar to the kind of FMU; plain text.
+    `step_size`: default step, s; `paragraphs`: what is peculiar to the kind of FMU; plain text.
 
     Returns
     -------

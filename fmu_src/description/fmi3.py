@@ -31,12 +31,7 @@ def model_description_fmi3(
 ) -> bytes:
     """modelDescription.xml of FMI 3.0.
 
-    Parameters
-    ----------
-    table : sequence of Variable
-        All scalars, for units and types.
-    reach : Dependencies
-        Which variables of the table reach which outputs.
+    `table`: all scalars, for units and types; `reach`: which variables of the table reach which outputs.
     """
     own = {"fmiVersion": "3.0", "modelName": head.model_name, "instantiationToken": head.guid}
     root = ElementTree.Element("fmiModelDescription", own | about(head))

@@ -22,14 +22,8 @@ def parameter_groups(
 ) -> list[list[int]]:
     """Sort the parameters of a System.
 
-    Parameters
-    ----------
-    kernel : Instance
-        Of it; it is reset.
-    value : callable
-        A value in the range of a parameter, by its number; another one at each call.
-    rng : random.Random
-        For the places where forces are compared.
+    `kernel`: of it; it is reset; `value`: a value in the range of a parameter, by its number; another one at each call;
+    `rng`: for the places where forces are compared.
 
     Returns
     -------

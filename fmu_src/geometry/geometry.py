@@ -20,12 +20,7 @@ FRAME_TUBE = "frame tube"
 
 
 def geometry(system: mbs.System, table: Sequence[Variable], name: str, description: str) -> dict[str, Any] | None:
-    """The scene of an FMU: its columns are variables of the FMU.
-
-    Parameters
-    ----------
-    system : mbs.System
-        The default one.
+    """The scene of an FMU: its columns are variables of the FMU. `system`: the default one.
 
     Returns
     -------
@@ -84,10 +79,7 @@ def lost_frames(system: mbs.System) -> list[str]:
 
     What bends is enough as it is drawn where the outputs are those of wheels.
 
-    Parameters
-    ----------
-    system : mbs.System
-        Without a drawing it has none.
+    `system`: without a drawing it has none.
     """
     if system.drawing is None:
         return []

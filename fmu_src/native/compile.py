@@ -35,13 +35,7 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
 
 
 def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: str) -> bytes:
-    """The same from the sources that lie in an FMU.
-
-    Parameters
-    ----------
-    folder, name
-        As for `compile_library`.
-    """
+    """The same from the sources that lie in an FMU. `folder`, `name`: as for `compile_library`."""
     return _library(targets, sorted(sources.rglob("*.c")), (sources,), folder, name)
 
 

@@ -44,10 +44,7 @@ def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tu
 
     An input goes a fifth of the way to the end of its range and back, and is held over each step.
 
-    Parameters
-    ----------
-    follower : mbs.System, optional
-        With ports: computes what the System leaves out (`mbs.compiler.ports`).
+    `follower`: with ports: computes what the System leaves out (`mbs.compiler.ports`).
 
     Raises
     ------
@@ -144,12 +141,7 @@ def with_other_names(run: ReferenceRun, named: Mapping[str, Variable]) -> Refere
 def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float) -> dict[str, bytes]:
     """Manifest, experiments, their inputs and results.
 
-    Parameters
-    ----------
-    runs : sequence of ReferenceRun
-        As `reference_runs` gives them.
-    stop_time, step : float
-        Default experiment, s.
+    `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s.
 
     Returns
     -------

@@ -15,10 +15,7 @@ _OTHER = {"fmi2": "fmi3", "fmi3": "fmi2"}
 def shell_files(face: str) -> list[Path]:
     """C files of the shell for a face, sorted by name.
 
-    Parameters
-    ----------
-    face : str
-        ``fmi2`` or ``fmi3``; or ``python``, FMI 2.0 with the way of its calls through Python.
+    `face`: ``fmi2`` or ``fmi3``; or ``python``, FMI 2.0 with the way of its calls through Python.
     """
     if face == "python":
         return sorted([*(f for f in shell_files("fmi2") if f.name != "fmi2_direct.c"), *DETOUR.glob("*.c")])

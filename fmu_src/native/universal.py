@@ -11,12 +11,7 @@ _ALIGN = 14  # pages of Apple's ARM processors: 2^14 bytes
 
 
 def universal(thin: Sequence[bytes]) -> bytes:
-    """Join files of different processors.
-
-    Parameters
-    ----------
-    thin : sequence of bytes
-        64-bit Mach-O files.
+    """Join files of different processors. `thin`: 64-bit Mach-O files.
 
     Returns
     -------

@@ -13,12 +13,7 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
 def check_texts(description: str, rights: Sequence[str], table: Sequence[Variable]) -> None:
-    """Refuse texts with characters that XML cannot hold.
-
-    Parameters
-    ----------
-    rights : sequence of str
-        Author, copyright, licence.
+    """Refuse texts with characters that XML cannot hold. `rights`: author, copyright, licence.
 
     Raises
     ------

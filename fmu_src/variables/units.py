@@ -101,12 +101,9 @@ class Unit:
 def parse_unit(name: str, foreign: bool = False) -> Unit:
     """Read a unit such as ``m/s2``, ``N.m/rad``, ``kg m2``.
 
-    Parameters
-    ----------
-    name : str
-        Products by ``.``, ``*`` or a space; everything after a ``/`` divides; powers as digits with or without ``^``.
-    foreign : bool
-        Whether ``h`` is an hour and ``g`` standard gravity, as other programs have them; in models they are not known.
+    `name`: products by ``.``, ``*`` or a space; everything after a ``/`` divides; powers as digits with or without
+    ``^``; `foreign`: whether ``h`` is an hour and ``g`` standard gravity, as other programs have them; in models they
+    are not known.
 
     Raises
     ------

@@ -39,14 +39,8 @@ def deceleration_of(result: Result) -> NDArray[np.float64]:
 def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> list[Measure]:
     """Measures of a stop.
 
-    Parameters
-    ----------
-    result : Result
-        From before the onset to rest.
-    onset : float
-        First movement of the pedal, s; NaN if braking did not begin.
-    settings : mapping of str to float
-        ``speed``, km/h, and ``pedal``.
+    `result`: from before the onset to rest; `onset`: first movement of the pedal, s; NaN if braking did not begin;
+    `settings`: ``speed``, km/h, and ``pedal``.
 
     Returns
     -------

@@ -115,12 +115,7 @@ def drive_circle(
 ) -> CircleRun:
     """Drive to one side until the car cannot go faster on the circle.
 
-    Parameters
-    ----------
-    side : float
-        1 to the left, -1 to the right.
-    progress : callable
-        Called with the part that is done.
+    `side`: 1 to the left, -1 to the right; `progress`: called with the part that is done.
     """
     method, radius = settings["method"], settings["radius"]
     steering = SteeringInput.of(car.facts)

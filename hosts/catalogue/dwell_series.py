@@ -41,14 +41,8 @@ class DwellRun:
 def amplitudes(a: float, first: float, increment: float, full_lock: float) -> list[float]:
     """Amplitudes of a series.
 
-    Parameters
-    ----------
-    a : float
-        Angle at 0.3 g, rad.
-    first, increment : float
-        In units of it.
-    full_lock : float
-        Largest angle the car can be steered by, rad.
+    `a`: angle at 0.3 g, rad; `first`, `increment`: in units of it; `full_lock`: largest angle the car can be steered
+    by, rad.
 
     Returns
     -------
@@ -106,14 +100,8 @@ def series(
 ) -> list[DwellRun]:
     """Runs with rising amplitudes, until the car is lost.
 
-    Parameters
-    ----------
-    speed : float
-        At the beginning of the steering, coasting, m/s.
-    side : float
-        1: first to the left, -1: first to the right.
-    wanted : list of float
-        Amplitudes, rad.
+    `speed`: at the beginning of the steering, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
+    `wanted`: amplitudes, rad.
     """
     done: list[DwellRun] = []
     for k, amplitude in enumerate(wanted):

@@ -101,14 +101,8 @@ _LARGEST = (
 def measures_of(name: str, passed: Passage | None, failed: Passage | None, resolution: float) -> list[Measure]:
     """Measures of a course.
 
-    Parameters
-    ----------
-    name : str
-        Before the names of the measures.
-    passed, failed : Passage or None
-        The fastest without and the slowest with a cone.
-    resolution : float
-        Of the limit, km/h.
+    `name`: before the names of the measures; `passed`, `failed`: the fastest without and the slowest with a cone;
+    `resolution`: of the limit, km/h.
     """
     none = "" if passed is not None else "no speed was passed"
     fastest = passed.wanted / 3.6 if passed is not None else math.nan

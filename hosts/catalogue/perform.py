@@ -18,12 +18,7 @@ Reason: TypeAlias = str
 
 
 def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str, float]:
-    """All settings of a test, those that are given and those by default.
-
-    Parameters
-    ----------
-    given : mapping of str to float
-        By the names of `test.settings`.
+    """All settings of a test, those that are given and those by default. `given`: by the names of `test.settings`.
 
     Raises
     ------
@@ -73,12 +68,7 @@ def perform(
 ) -> TestRecord:
     """Do a test.
 
-    Parameters
-    ----------
-    settings : mapping of str to float, optional
-        Those that are not by default.
-    progress : callable
-        Called with the part that is done, 0 to 1.
+    `settings`: those that are not by default; `progress`: called with the part that is done, 0 to 1.
 
     Raises
     ------

@@ -17,14 +17,7 @@ from hosts.fmu.fmu import described
 def with_step_up_to(car: TestedCar, longest: float, why: str) -> tuple[TestedCar, tuple[str, ...]]:
     """The car with a communication step that resolves what is measured.
 
-    Parameters
-    ----------
-    car : TestedCar
-        A step that was asked for is kept.
-    longest : float
-        s.
-    why : str
-        What a longer step would not show, for the note.
+    `car`: a step that was asked for is kept; `longest`: in s; `why`: what a longer step would not show, for the note.
 
     Returns
     -------
@@ -48,12 +41,7 @@ def held(
 ) -> Manoeuvre:
     """A manoeuvre with inputs that do not change.
 
-    Parameters
-    ----------
-    stop_time : float
-        s.
-    inputs : mapping of str to float
-        Those that the car does not have are left out.
+    `stop_time`: in s; `inputs`: those that the car does not have are left out.
     """
     values = {n: np.full(2, x) for n, x in inputs.items() if n in car.facts.inputs}
     return Manoeuvre(name, np.array([0.0, stop_time]), values, stop_time, dict(start))

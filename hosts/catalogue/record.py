@@ -105,12 +105,7 @@ class StandardTest(Protocol):
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """Do the test.
 
-        Parameters
-        ----------
-        settings : mapping of str to float
-            Every one of `settings`.
-        progress : callable
-            Called with the part that is done, 0 to 1.
+        `settings`: every one of `settings`; `progress`: called with the part that is done, 0 to 1.
 
         Raises
         ------

@@ -68,12 +68,7 @@ class SteadyMap:
 def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
     """Drive the ramp to the left; the map is empty if the car does not come to the speed.
 
-    Parameters
-    ----------
-    speed : float
-        m/s.
-    acceleration : float
-        Up to which the map is wanted, m/s².
+    `speed`: in m/s; `acceleration`: up to which the map is wanted, m/s².
 
     Notes
     -----
@@ -118,12 +113,7 @@ def _late(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: f
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
     """The map at a speed or, for a car that does not reach it, at a lower one.
 
-    Parameters
-    ----------
-    speed, lower : float
-        m/s.
-    acceleration : float
-        Up to which the map is wanted, m/s².
+    `speed`, `lower`: in m/s; `acceleration`: up to which the map is wanted, m/s².
 
     Raises
     ------

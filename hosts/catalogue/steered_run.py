@@ -169,14 +169,8 @@ def steer(
 ) -> SteeredRun:
     """Bring the car to its speed on a straight line and steer it.
 
-    Parameters
-    ----------
-    speed : float
-        m/s.
-    time, angle : ndarray of shape (n,)
-        s from the beginning, rad.
-    lateral_limit : float
-        Lateral acceleration at which the run ends, m/s².
+    `speed`: in m/s; `time`, `angle`: in s from the beginning, rad, shape (n,); `lateral_limit`: lateral acceleration at
+    which the run ends, m/s².
     """
     has_start = "initial.speed" in car.facts.parameters
     longest = 30.0 if has_start else 90.0

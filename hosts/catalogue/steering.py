@@ -64,12 +64,7 @@ class SteeringInput:
     def measured(self, result: Result, step: float) -> NDArray[np.float64]:
         """Angle of the steering wheel over a run: that of the car where it tells it, else what was asked for.
 
-        Parameters
-        ----------
-        result : Result
-            With n rows.
-        step : float
-            Communication step of the run, s.
+        `result`: with n rows; `step`: communication step of the run, s.
 
         Returns
         -------

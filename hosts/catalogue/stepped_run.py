@@ -62,14 +62,8 @@ def stepped(run: SteeredRun, steady: tuple[float, float]) -> SteppedRun:
 def measures_of_step(level: str, wanted: float, left: SteppedRun, right: SteppedRun, angle_unit: str) -> list[Measure]:
     """Measures of the runs to both sides, as means.
 
-    Parameters
-    ----------
-    level : str
-        First part of their names.
-    wanted : float
-        Steady lateral acceleration, m/s².
-    angle_unit : str
-        Of the steering wheel: ``rad``, or ``1`` where angles are not known.
+    `level`: first part of their names; `wanted`: steady lateral acceleration, m/s²; `angle_unit`: of the steering
+    wheel: ``rad``, or ``1`` where angles are not known.
     """
     a = f" at {wanted:g} m/s²"
     no_peak = "The yaw rate does not overshoot: it has no peak response time."

@@ -37,10 +37,7 @@ class Task:
 def do(task: Task, progress: Callable[[float], None]) -> Outcome:
     """Do a task; whatever goes wrong in it is its outcome.
 
-    Parameters
-    ----------
-    progress : callable
-        Called with the part that is done, 0 to 1, a few times a second.
+    `progress`: called with the part that is done, 0 to 1, a few times a second.
     """
     last = -1.0
 

@@ -117,12 +117,7 @@ class Stop:
 def measures_of(stops: Sequence[Stop], settings: Mapping[str, float]) -> list[Measure]:
     """Measures over all stops.
 
-    Parameters
-    ----------
-    stops : sequence of Stop
-        With growing pedal.
-    settings : mapping of str to float
-        ``deceleration``, m/s2, at which quantities are compared.
+    `stops`: with growing pedal; `settings`: ``deceleration``, m/s2, at which quantities are compared.
     """
     braked = [s for s in stops if not math.isnan(s.onset)]
     none = "" if braked else "the car did not get onto the circle"

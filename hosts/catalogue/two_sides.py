@@ -23,14 +23,8 @@ def mean_of_sides(
 ) -> Measure:
     """Mean of left and right; the note says so where they differ by more than 5 %, or one is missing.
 
-    Parameters
-    ----------
-    left, right : float
-        NaN where a run does not yield it.
-    why : str
-        Note where both are missing.
-    exists : bool
-        Whether there should be a number where both are.
+    `left`, `right`: NaN where a run does not yield it; `why`: note where both are missing; `exists`: whether there
+    should be a number where both are.
     """
     known = [x for x in (left, right) if math.isfinite(x)]
     if not known:

@@ -31,12 +31,7 @@ class Case:
 
 
 def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
-    """Write the cases as one test suite.
-
-    Parameters
-    ----------
-    file : Path
-        Whole or not at all; its folder is made.
+    """Write the cases as one test suite. `file`: whole or not at all; its folder is made.
 
     Raises
     ------

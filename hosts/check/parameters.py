@@ -21,14 +21,8 @@ if TYPE_CHECKING:
 def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, show: bool = False) -> int:
     """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
 
-    Parameters
-    ----------
-    given : Wishes
-        What is set in it before.
-    diff : Path, optional
-        Parameter set of which only what is other is printed.
-    show : bool
-        Whether the table is printed when a set is written too.
+    `given`: what is set in it before; `diff`: parameter set of which only what is other is printed; `show`: whether the
+    table is printed when a set is written too.
 
     Returns
     -------

@@ -13,12 +13,7 @@ _ERROR = "error: "
 
 
 def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
-    """Run the command of a module to its end.
-
-    Parameters
-    ----------
-    hear : callable
-        Hears each line of its standard error at once.
+    """Run the command of a module to its end. `hear`: hears each line of its standard error at once.
 
     Returns
     -------

@@ -30,13 +30,8 @@ class Shown(NamedTuple):
 def shown_in(unit: str, name: str = "") -> Shown:
     """The unit in which a quantity is shown.
 
-    Parameters
-    ----------
-    unit : str
-        As units of FMI are written.
-    name : str
-        Of the quantity: angular frequencies are shown in Hz, the spin of wheels (``omega``) in rpm, as the FMU declares
-        it, other angular velocities in deg/s.
+    `unit`: as units of FMI are written; `name`: of the quantity: angular frequencies are shown in Hz, the spin of
+    wheels (``omega``) in rpm, as the FMU declares it, other angular velocities in deg/s.
     """
     if unit == "rad/s" and name.endswith("frequency"):
         return Shown("Hz", 1.0 / _RAD_PER_PERIOD)

@@ -17,10 +17,7 @@ MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".ob
 def wishes_with_road(options: argparse.Namespace, out: Path) -> Wishes:
     """What was given by `hosts.common.options.wishes`, behind the road of ``--road``, if there is one.
 
-    Parameters
-    ----------
-    out : Path
-        As of `road_value`.
+    `out`: as of `road_value`.
     """
     given = wishes(options)
     if options.road is None:
@@ -31,12 +28,8 @@ def wishes_with_road(options: argparse.Namespace, out: Path) -> Wishes:
 def road_value(given: str, out: Path) -> str:
     """What the parameter ``road.file`` of an FMU is set to.
 
-    Parameters
-    ----------
-    given : str
-        A road file here; the name of one in the FMU; or what ``ali3 road`` makes one of without further options.
-    out : Path
-        Folder that takes the road file that is made.
+    `given`: a road file here; the name of one in the FMU; or what ``ali3 road`` makes one of without further options;
+    `out`: folder that takes the road file that is made.
 
     Returns
     -------

@@ -98,12 +98,7 @@ _OF_OUR_NAMES = (
 def unit_definition(text: str, where: str) -> UnitDefinition:
     """A unit that a person or a logger has written.
 
-    Parameters
-    ----------
-    text : str
-        Such as ``km/h``, ``°/s`` or ``[m/s^2]``.
-    where : str
-        How messages call where it stands.
+    `text`: such as ``km/h``, ``°/s`` or ``[m/s^2]``; `where`: how messages call where it stands.
 
     Raises
     ------
@@ -162,12 +157,7 @@ def same_quantity(one: UnitDefinition, other: UnitDefinition) -> bool:
 def conversion(unit: str, other: str, where: str = "the unit") -> float:
     """The factor from values in a unit to those in another.
 
-    Parameters
-    ----------
-    unit, other : str
-        As a person writes them.
-    where : str
-        How messages call where `unit` stands.
+    `unit`, `other`: as a person writes them; `where`: how messages call where `unit` stands.
 
     Raises
     ------

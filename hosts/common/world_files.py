@@ -54,14 +54,8 @@ def no_world(roads: list[Any]) -> World:
 def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> World:
     """A world by its name, or from a file.
 
-    Parameters
-    ----------
-    given : str
-        A name of the package, or a file that ``ali3 road --world`` takes.
-    tell : callable
-        Takes lines that say how far it is, where it is made for the first time.
-    thin : bool
-        Few and round numbers, as a page carries it.
+    `given`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it
+    is, where it is made for the first time; `thin`: few and round numbers, as a page carries it.
 
     Raises
     ------

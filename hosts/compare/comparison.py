@@ -40,12 +40,7 @@ def compare(
 ) -> Comparison:
     """Compare measured signals with simulated ones.
 
-    Parameters
-    ----------
-    longest_delay : float
-        The one that is looked for, s.
-    skip : float
-        Seconds at the beginning that are not compared.
+    `longest_delay`: the one that is looked for, s; `skip`: seconds at the beginning that are not compared.
     """
     pairs = {n: (s.between(skip, curves[n].end), curves[n]) for n, s in outputs.items()}
     signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}

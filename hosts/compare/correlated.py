@@ -18,12 +18,7 @@ _MOST_LAGS = 4000
 
 
 def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Autocovariances of an autoregressive process fitted to a signal.
-
-    Parameters
-    ----------
-    residual : ndarray of shape (n,)
-        Equally spaced.
+    """Autocovariances of an autoregressive process fitted to a signal. `residual`: equally spaced, shape (n,).
 
     Returns
     -------

@@ -32,13 +32,7 @@ class Deviations:
 
 
 def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> Deviations:
-    """Deviations of a signal.
-
-    Parameters
-    ----------
-    time, measured, simulated : array_like of shape (n,)
-        s and the unit of the signal.
-    """
+    """Deviations of a signal. `time`, `measured`, `simulated`: in s and the unit of the signal, shape (n,)."""
     t, y, x = (np.asarray(a, float) for a in (time, measured, simulated))
     error = x - y
     k = int(np.argmax(np.abs(error)))

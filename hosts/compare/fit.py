@@ -237,12 +237,8 @@ def overlapping(
 ) -> dict[str, Signal]:
     """The samples that are compared, wherever a delay near its first guess puts them.
 
-    Parameters
-    ----------
-    end, skip : float
-        Of the simulation; seconds that are left out at the beginning.
-    delays : mapping of str to float
-        First guesses that are used, s.
+    `end`, `skip`: of the simulation; seconds that are left out at the beginning; `delays`: first guesses that are used,
+    s.
     """
     made = {}
     for name, signal in outputs.items():

@@ -14,12 +14,7 @@ from hosts.compare.log import Signal
 def demanded(signal: Signal, frequency: float, time: NDArray[np.float64]) -> NDArray[np.float64]:
     """The demand of a critically damped follower that moves as measured.
 
-    Parameters
-    ----------
-    frequency : float
-        Of the follower, Hz.
-    time : ndarray of shape (n,)
-        s.
+    `frequency`: of the follower, Hz; `time`: in s, shape (n,).
 
     Returns
     -------

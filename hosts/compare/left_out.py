@@ -42,10 +42,7 @@ class Parts:
 def parts_of(outputs: Mapping[str, Signal], stretches: Sequence[Stretch]) -> Parts:
     """The windows, or equal parts of a run without restart.
 
-    Parameters
-    ----------
-    outputs : mapping of str to Signal
-        Samples that are compared, in the order of the residuals.
+    `outputs`: samples that are compared, in the order of the residuals.
     """
     if len(stretches) > 1:
         places = np.array([s.place for s in stretches])
@@ -136,10 +133,7 @@ def _changes(jacobian: Array, residual: Array, parts: Parts, groups: Sequence[Se
 def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence[float]) -> list[float]:
     """Root mean square of `left_out` where one parameter is moved back by its step and not fitted, to first order.
 
-    Parameters
-    ----------
-    steps : sequence of float
-        From the found value of each parameter to that it has without being fitted.
+    `steps`: from the found value of each parameter to that it has without being fitted.
     """
     found = []
     for k, step in enumerate(steps):

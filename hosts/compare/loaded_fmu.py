@@ -81,13 +81,7 @@ class LoadedFmu:
             self._fmu = None
 
     def drive(self, stretch: Stretch, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive one stretch.
-
-        Parameters
-        ----------
-        values : mapping of str to float, int, bool or str, optional
-            Start values by our names, in place of those of the stretch.
-        """
+        """Drive one stretch. `values`: start values by our names, in place of those of the stretch."""
         if self._fmu is not None and self.can_reset is False:
             self.close()
         if self._fmu is None:

@@ -71,11 +71,8 @@ class LogAliases:
 def read_log_aliases(file: Path) -> LogAliases:
     """Read the alias file of a log.
 
-    Parameters
-    ----------
-    file : Path
-        TOML with tables ``[file]``, ``[time]`` and ``[signals]``; in the last ``"our name" = "column"`` or
-        ``"our name" = { name = "column", unit = "deg/s", factor = -1.0, offset = 0.0, time = "column of times" }``.
+    `file`: TOML with tables ``[file]``, ``[time]`` and ``[signals]``; in the last ``"our name" = "column"`` or ``"our
+    name" = { name = "column", unit = "deg/s", factor = -1.0, offset = 0.0, time = "column of times" }``.
 
     Raises
     ------

@@ -83,12 +83,7 @@ class RawLog:
 def read_log(path: Path, form: Form) -> RawLog:
     """Read a log.
 
-    Parameters
-    ----------
-    path : Path
-        A file that ends in ``.parquet``, or CSV.
-    form : Form
-        What is known of a CSV file.
+    `path`: a file that ends in ``.parquet``, or CSV; `form`: what is known of a CSV file.
 
     Raises
     ------

@@ -32,12 +32,7 @@ _POINTS = 4000
 def comparison_figure(before: Comparison, after: Comparison | None, title: str, inputs: Mapping[str, Signal]) -> Figure:
     """A page: a row of two plots for each signal, and the inputs below.
 
-    Parameters
-    ----------
-    before : Comparison
-        With the parameters of the FMU.
-    after : Comparison, optional
-        With fitted ones.
+    `before`: with the parameters of the FMU; `after`: with fitted ones.
     """
     names = list(before.signals)[:_MOST]
     rows = len(names) + bool(inputs)

@@ -35,12 +35,7 @@ _ALIKE = 0.8  # correlation
 def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:
     """Refuse inputs with gaps and values that the FMU cannot take.
 
-    Parameters
-    ----------
-    longest : float
-        Gap that is bridged by a straight line, s.
-    notes : list of str
-        Gains a sentence for each gap that is bridged.
+    `longest`: gap that is bridged by a straight line, s; `notes`: gains a sentence for each gap that is bridged.
 
     Raises
     ------
@@ -120,10 +115,7 @@ def odd_speed(signals: Mapping[str, Signal]) -> str:
 def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     """A sentence if a measured signal looks like one in another unit, or with the other sign; else empty.
 
-    Parameters
-    ----------
-    delay : float
-        Of the signal, s.
+    `delay`: of the signal, s.
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     found = deviations(signal.time, y, x)

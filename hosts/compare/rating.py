@@ -45,10 +45,7 @@ class Rating:
 def rating(measured: ArrayLike, simulated: ArrayLike) -> Rating:
     """Rate a simulated signal.
 
-    Parameters
-    ----------
-    measured, simulated : array_like of shape (n,)
-        At the same, equally spaced times; n at least 10.
+    `measured`, `simulated`: at the same, equally spaced times, shape (n,); n at least 10.
     """
     y, x = np.asarray(measured, float), np.asarray(simulated, float)
     if is_constant(y):

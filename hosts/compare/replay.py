@@ -127,12 +127,7 @@ class Replay(Closing):
             self._crew.close()
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive all stretches with other start values than those of their manoeuvres.
-
-        Parameters
-        ----------
-        values : mapping of str to float, int, bool or str, optional
-            By our names.
+        """Drive all stretches with other start values than those of their manoeuvres. `values`: by our names.
 
         Returns
         -------

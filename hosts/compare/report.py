@@ -39,12 +39,8 @@ def write_report(
 ) -> None:
     """Write the page.
 
-    Parameters
-    ----------
-    told : sequence of Bin
-        Deviations by measured speed and lateral acceleration.
-    paths : mapping of str to Path
-        ``.html`` is written; ``.png`` is there and goes into it.
+    `told`: deviations by measured speed and lateral acceleration; `paths`: ``.html`` is written; ``.png`` is there and
+    goes into it.
     """
     parts = [element("h1", title), *(element("p", line, class_="problem") for line in problems)]
     parts.append(element("h2", "Deviations" if after is None else "Deviations before the fit"))

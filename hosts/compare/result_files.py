@@ -20,13 +20,8 @@ from hosts.measures.measure import Measure
 def write_signals(before: Comparison, after: Comparison | None, file: Path) -> None:
     """Signals at all times at which one of them is measured; a cell is empty where this one is not.
 
-    Parameters
-    ----------
-    after : Comparison, optional
-        With fitted parameters.
-    file : Path
-        CSV: ``time [s]``, then of each signal ``NAME.measured``, ``NAME.simulated`` and, where parameters were fitted,
-        ``NAME.fitted``, with the unit.
+    `after`: with fitted parameters; `file`: CSV: ``time [s]``, then of each signal ``NAME.measured``,
+    ``NAME.simulated`` and, where parameters were fitted, ``NAME.fitted``, with the unit.
     """
     times = np.unique(np.concatenate([s.measured.time for s in before.signals.values()]))
     names, columns = ["time [s]"], [times]

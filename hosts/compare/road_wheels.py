@@ -35,10 +35,7 @@ def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
 def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle: Signal) -> Signal:
     """The input ``steering`` at which the standing car turns its front wheels by the measured angle on the mean.
 
-    Parameters
-    ----------
-    angle : Signal
-        Of `mean_angle`.
+    `angle`: of `mean_angle`.
 
     Raises
     ------

@@ -50,12 +50,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
 def spike_words(what: str, unit: str, time: NDArray[np.float64], values: NDArray[np.float64]) -> str:
     """A sentence on the samples that are left out.
 
-    Parameters
-    ----------
-    what : str
-        The signal, as a user knows it.
-    time, values : ndarray of shape (k,)
-        Of the spikes, k > 0; s.
+    `what`: the signal, as a user knows it; `time`, `values`: of the spikes, s, shape (k,), k > 0.
     """
     each = (f"{v:.4g} {unit} at {t:.6g} s".replace(" 1 at", " at") for t, v in zip(time, values, strict=True))
     samples = "sample" if len(time) == 1 else "samples"

@@ -97,10 +97,7 @@ def measured_start(
 def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]) -> tuple[float, float]:
     """Where the reference point of the car at rest lies from the origin of its drawing, forward and to the left, m.
 
-    Parameters
-    ----------
-    start : mapping of str to float, int, bool or str
-        Start values; those of pose and speed are not used.
+    `start`: start values; those of pose and speed are not used.
 
     Returns
     -------

@@ -21,10 +21,7 @@ _CLOSE = 0.005  # of the pedal
 def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float) -> list[Stretch]:
     """The stretches with the constant pedals at which the FMU has the measured speed half a second after the start.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
+    `step`: communication step, s.
 
     Returns
     -------

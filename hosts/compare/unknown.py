@@ -35,14 +35,7 @@ def nuisances(
 ) -> list[Unknown]:
     """The unknowns of sensors and clocks.
 
-    Parameters
-    ----------
-    wanted : sequence of str
-        Of `NUISANCES`.
-    delays : mapping of str to float
-        First guesses, s; "" for that in common.
-    longest : float
-        Largest delay, s.
+    `wanted`: of `NUISANCES`; `delays`: first guesses, s; "" for that in common; `longest`: largest delay, s.
     """
     for name in wanted:
         if name not in NUISANCES:

@@ -21,12 +21,7 @@ def wanted_parameters(
 ) -> list[Unknown]:
     """Parameters to be fitted.
 
-    Parameters
-    ----------
-    texts : sequence of str
-        ``NAME`` or ``NAME=LOW:HIGH``.
-    given : mapping of str to float, int, bool or str
-        Values that the user sets: there the search begins.
+    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `given`: values that the user sets: there the search begins.
 
     Raises
     ------
@@ -58,10 +53,7 @@ def wanted_parameters(
 def fit_step(step: float | None, variables: Mapping[str, Variable]) -> dict[str, Value]:
     """The parameter that sets the inner step of the FMU while it is fitted; empty where none was asked for.
 
-    Parameters
-    ----------
-    step : float, optional
-        s.
+    `step`: in s.
     """
     if step is None:
         return {}

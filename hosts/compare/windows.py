@@ -87,13 +87,7 @@ def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
 
 
 def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
-    """Deviations by speed and by lateral acceleration.
-
-    Parameters
-    ----------
-    scales : mapping of str to Signal
-        Of `scales_of`, at the places of what is compared.
-    """
+    """Deviations by speed and by lateral acceleration. `scales`: of `scales_of`, at the places of what is compared."""
     found = []
     for name, s in comparison.signals.items():
         error = s.simulated(s.measured.time) - s.measured.values

@@ -23,12 +23,7 @@ class Course:
     gates: tuple[Gate, ...]
 
     def path(self, x: float) -> tuple[float, float, float]:
-        """The path at x: lane centres, joined by quintics that begin and end within the lanes.
-
-        Parameters
-        ----------
-        x : float
-            m.
+        """The path at x: lane centres, joined by quintics that begin and end within the lanes. `x`: in m.
 
         Returns
         -------
@@ -61,12 +56,7 @@ class Course:
     ) -> float:
         """How far a rectangle driven along a path leaves the gates at most.
 
-        Parameters
-        ----------
-        x, y, yaw : ndarray of shape (n,)
-            Centre of the rectangle and heading, m and rad.
-        length, width : float
-            m.
+        `x`, `y`, `yaw`: centre of the rectangle and heading, m and rad, shape (n,); `length`, `width`: in m.
 
         Returns
         -------

@@ -25,12 +25,7 @@ _FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
     """A scene with the cones of a course that a driver follows, on its roads.
 
-    Parameters
-    ----------
-    scene : mapping
-        Roads with the values that were set.
-    course : Course
-        In earth axes.
+    `scene`: roads with the values that were set; `course`: in earth axes.
 
     Returns
     -------

@@ -13,14 +13,7 @@ TRACKS: dict[str, Track] = {"iso_3888_1": "ISO 3888-1", "iso_3888_2": "ISO 3888-
 def course_of(name: str, vehicle_width: float, x_start: float = 15.0) -> Course:
     """The course of a name.
 
-    Parameters
-    ----------
-    name : str
-        One of `TRACKS`.
-    vehicle_width : float
-        Without mirrors, m.
-    x_start : float
-        Where the first lane begins, m.
+    `name`: one of `TRACKS`; `vehicle_width`: without mirrors, m; `x_start`: where the first lane begins, m.
 
     Raises
     ------

@@ -15,14 +15,8 @@ from hosts.fmu.aliases.derivation import Derivation
 def derive_columns(result: Result, aliases: Aliases, thinned: bool = False) -> None:
     """Compute the derived columns of a run again, from the inputs that ended each step; its values change.
 
-    Parameters
-    ----------
-    result : Result
-        Under our names.
-    aliases : Aliases
-        By which the FMU was driven.
-    thinned : bool
-        Whether steps are left out; then rates of the run are better, and only those that are NaN are written.
+    `result`: under our names; `aliases`: by which the FMU was driven; `thinned`: whether steps are left out; then rates
+    of the run are better, and only those that are NaN are written.
     """
     derived = [result.names.index(d.ours) for d in aliases.derived if d.ours in result.names]
     if not derived:

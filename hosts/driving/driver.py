@@ -29,12 +29,8 @@ CONSTANTS = {
 def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> Driver:
     """Driver from the ``[driver]`` section of a manoeuvre and the constants of the FMU.
 
-    Parameters
-    ----------
-    settings : mapping of str to str
-        ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU.
-    constants : mapping of str to float
-        Constants of the FMU by name; see `CONSTANTS`.
+    `settings`: ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU;
+    `constants`: constants of the FMU by name; see `CONSTANTS`.
 
     Raises
     ------

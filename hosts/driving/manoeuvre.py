@@ -83,10 +83,7 @@ def _between(one: float, other: float, part: float) -> float:
 def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
     """The manoeuvre with one name for each start value, where its file gives several.
 
-    Parameters
-    ----------
-    manoeuvre : Manoeuvre
-        A key of its start values may be ``a | b``: the first of these names that there is.
+    `manoeuvre`: a key of its start values may be ``a | b``: the first of these names that there is.
 
     Returns
     -------

@@ -25,13 +25,10 @@ _KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
 def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
     """Read a manoeuvre by name or path.
 
-    Parameters
-    ----------
-    manoeuvre : str
-        Name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has ``stop_time`` in s,
-        ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time`` and each input,
-        ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to begin with:
-        ``file`` beside it, ``time``.
+    `manoeuvre`: name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has
+    ``stop_time`` in s, ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time``
+    and each input, ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to
+    begin with: ``file`` beside it, ``time``.
 
     Raises
     ------

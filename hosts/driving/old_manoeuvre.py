@@ -18,10 +18,7 @@ from hosts.driving.manoeuvre_table import number_of, read_table, value_of
 def read_old_manoeuvre(path: Path) -> Manoeuvre:
     """Read both files, or that which there is.
 
-    Parameters
-    ----------
-    path : Path
-        One of them. The settings have ``[start]`` values, a ``[driver]`` and ``stop_time`` in ``[run]``.
+    `path`: one of them. The settings have ``[start]`` values, a ``[driver]`` and ``stop_time`` in ``[run]``.
 
     Raises
     ------

@@ -41,12 +41,8 @@ class PlannedCourse(Course):
 def planned(course: Course, begin: float, length: float, width: float) -> PlannedCourse:
     """The course with the line of least curvature.
 
-    Parameters
-    ----------
-    begin : float
-        Up to which the line is straight, in the middle of the first lane, m.
-    length, width : float
-        Outline of the car, centred on what follows the line, m.
+    `begin`: up to which the line is straight, in the middle of the first lane, m; `length`, `width`: outline of the
+    car, centred on what follows the line, m.
 
     Raises
     ------

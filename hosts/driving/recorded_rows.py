@@ -98,13 +98,7 @@ class RecordedRows:
         return [*self._held, *self._senses.whole()]
 
     def close(self, last: bool) -> tuple[list[int], NDArray[np.float64]]:
-        """The steps that have a row, and the rows.
-
-        Parameters
-        ----------
-        last : bool
-            Whether the last step has one in any case.
-        """
+        """The steps that have a row, and the rows. `last`: whether the last step has one in any case."""
         rows = [*range(0, self.done + 1, self._every)]
         if last and self.done % self._every:
             if self.refused:

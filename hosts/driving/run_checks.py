@@ -16,12 +16,7 @@ _LARGEST_RECORD = 4e9
 
 
 def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
-    """The step of a run: the one that was asked for, else that of the FMU.
-
-    Parameters
-    ----------
-    step : float, optional
-        s.
+    """The step of a run: the one that was asked for, else that of the FMU. `step`: in s.
 
     Raises
     ------
@@ -54,12 +49,7 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
 def steps_of(interval: float, step: float, what: str) -> int:
     """How many communication steps an interval has.
 
-    Parameters
-    ----------
-    interval, step : float
-        s.
-    what : str
-        How messages call the interval.
+    `interval`, `step`: in s; `what`: how messages call the interval.
 
     Raises
     ------

@@ -10,12 +10,7 @@ from hosts.common.errors import HostError
 
 
 def read_state(file: Path, where: str) -> bytes:
-    """The saved state of an FMU.
-
-    Parameters
-    ----------
-    where : str
-        The place that names it, for messages.
+    """The saved state of an FMU. `where`: the place that names it, for messages.
 
     Raises
     ------

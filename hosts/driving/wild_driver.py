@@ -72,12 +72,7 @@ class WildDriver:
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the step that begins at `time`.
 
-        Parameters
-        ----------
-        time : float
-            s.
-        senses : mapping of str to float
-            Of `SENSES` those that the FMU has.
+        `time`: in s; `senses`: of `SENSES` those that the FMU has.
 
         Returns
         -------
@@ -177,10 +172,7 @@ class WildDriver:
 def wild_start(seed: int, targets: Sequence[Target] = ()) -> dict[str, Value]:
     """Start values of a car for a wild drive: mostly fast before a target, often in the air, sometimes far away.
 
-    Parameters
-    ----------
-    targets : sequence of Target
-        Half of the starts are 30 to 60 m before one of them, in its direction.
+    `targets`: half of the starts are 30 to 60 m before one of them, in its direction.
 
     Returns
     -------

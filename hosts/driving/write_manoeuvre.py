@@ -24,10 +24,7 @@ _WIDTH = 116
 def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None:
     """Write a manoeuvre as a TOML file, as `read_manoeuvre` reads it.
 
-    Parameters
-    ----------
-    file : Path
-        The state goes beside it, with the suffix ``.state``.
+    `file`: the state goes beside it, with the suffix ``.state``.
     """
     lines = [f"# {comment}"] if comment else []
     lines.append(f"stop_time = {manoeuvre.stop_time!r}")
@@ -79,10 +76,7 @@ def _list(values: NDArray[np.float64]) -> str:
 def write_table(manoeuvre: Manoeuvre, file: Path) -> list[Path]:
     """Write inputs, start values and state as `read_table` reads them.
 
-    Parameters
-    ----------
-    file : Path
-        The state goes beside it, with the suffix ``.state``.
+    `file`: the state goes beside it, with the suffix ``.state``.
     """
     files = [file]
     lines = [f"# start: {name}={text_of(value)}" for name, value in manoeuvre.start.items()]

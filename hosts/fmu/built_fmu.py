@@ -101,11 +101,8 @@ def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
 def car_digest(car: str) -> str:
     """A name that changes with the files of a car and with the program that builds it.
 
-    Parameters
-    ----------
-    car : str
-        A folder with a file ``car.toml``, or such a file: all files of its folder count, and those it names elsewhere.
-        Else a name, which the program knows.
+    `car`: a folder with a file ``car.toml``, or such a file: all files of its folder count, and those it names
+    elsewhere. Else a name, which the program knows.
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)

@@ -26,14 +26,8 @@ class FoundFmu:
 def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None = None) -> FoundFmu:
     """The FMU that a command takes.
 
-    Parameters
-    ----------
-    given : Path, optional
-        Of the command line: an FMU; or a car by its name, its folder or its file.
-    tell : callable
-        Takes the sentences that are said while a car is built.
-    poses : str, optional
-        Of a car, as ``ali3 build --poses`` takes them.
+    `given`: of the command line: an FMU; or a car by its name, its folder or its file; `tell`: takes the sentences that
+    are said while a car is built; `poses`: of a car, as ``ali3 build --poses`` takes them.
 
     Raises
     ------

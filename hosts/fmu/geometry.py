@@ -27,13 +27,9 @@ def scene_of(
 ) -> dict[str, Any] | None:
     """The scene of an FMU.
 
-    Parameters
-    ----------
-    settings : mapping of str to float, int, bool or str, optional
-        What was set in it: a road of a file is drawn from the file that its parameter names, that of a world with the
-        scenery that its record beside the file has.
-    world : str, optional
-        The world that the road of a file was of; where its record is gone, `missing` says so.
+    `settings`: what was set in it: a road of a file is drawn from the file that its parameter names, that of a world
+    with the scenery that its record beside the file has; `world`: the world that the road of a file was of; where its
+    record is gone, `missing` says so.
 
     Returns
     -------

@@ -12,13 +12,7 @@ _WRITTEN = ("Real", "Integer", "Boolean", "String", "Enumeration")
 
 
 def parameter_set_of(variables: Variables, name: str, values: Mapping[str, Value]) -> ParameterSet:
-    """All parameters as a set.
-
-    Parameters
-    ----------
-    values : mapping of str to float, int, bool or str
-        Other values than those of the FMU.
-    """
+    """All parameters as a set. `values`: other values than those of the FMU."""
     entries, units = [], {}
     for v in variables.parameters:
         value = values.get(v.name, v.start)

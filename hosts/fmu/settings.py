@@ -38,12 +38,7 @@ class Settings:
         return sorted((s for s in self._settings.values() if s.changes), key=lambda s: order.index(s.variable.name))
 
     def add_numbers(self, values: Mapping[str, Value], source: str) -> None:
-        """Values in the units of the FMU.
-
-        Parameters
-        ----------
-        source : str
-            How messages call where they come from.
+        """Values in the units of the FMU. `source`: how messages call where they come from.
 
         Raises
         ------
@@ -83,13 +78,7 @@ class Settings:
             self._notes.append((source, f"{len(found)} values, {len(found) - len(own)} of them other than in the FMU"))
 
     def add_wishes(self, wishes: Wishes, fidelity: float | None = None) -> None:
-        """What the command line sets; see `add_numbers`.
-
-        Parameters
-        ----------
-        fidelity : float, optional
-            Of the option ``--fidelity``.
-        """
+        """What the command line sets; see `add_numbers`. `fidelity`: of the option ``--fidelity``."""
         for file in wishes.sets:
             self.add_set(file)
         self.add_texts(wishes.values, "--set")

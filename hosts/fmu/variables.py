@@ -70,12 +70,7 @@ class Variable:
         return range_words(self.low, self.high, self.unit if self.kind == "Real" else "1")
 
     def read(self, text: str, source: str) -> Value:
-        """The value that a person has written, checked.
-
-        Parameters
-        ----------
-        source : str
-            How messages call where it stands.
+        """The value that a person has written, checked. `source`: how messages call where it stands.
 
         Raises
         ------
@@ -157,12 +152,7 @@ class Variables:
         return [v for v in self._variables.values() if v.causality == "parameter"]
 
     def settable(self, name: str, source: str) -> Variable:
-        """A variable that may be set before the start.
-
-        Parameters
-        ----------
-        source : str
-            How messages call where it is asked for.
+        """A variable that may be set before the start. `source`: how messages call where it is asked for.
 
         Raises
         ------

@@ -32,10 +32,7 @@ class Bandwidth:
 def bandwidth(response: FrequencyResponse) -> Bandwidth:
     """Read the numbers off a response.
 
-    Parameters
-    ----------
-    response : FrequencyResponse
-        Over a range that begins where the response is still that of the steady state.
+    `response`: over a range that begins where the response is still that of the steady state.
 
     Notes
     -----

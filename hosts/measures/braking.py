@@ -20,14 +20,7 @@ def travelled(time: NDArray[np.float64], speed: NDArray[np.float64]) -> NDArray[
 def time_below(time: NDArray[np.float64], speed: NDArray[np.float64], value: float, after: float) -> float:
     """When a speed first falls to a value.
 
-    Parameters
-    ----------
-    time, speed : ndarray of shape (n,)
-        s, m/s.
-    value : float
-        m/s.
-    after : float
-        s; what was before does not count.
+    `time`, `speed`: in s, m/s, shape (n,); `value`: in m/s; `after`: in s; what was before does not count.
 
     Returns
     -------
@@ -57,14 +50,7 @@ def mean_fully_developed_deceleration(
 ) -> float:
     """Deceleration averaged over the way from 80 % to 10 % of the initial speed.
 
-    Parameters
-    ----------
-    time, speed : ndarray of shape (n,)
-        s, m/s.
-    onset : float
-        When the pedal is first moved, s.
-    initial : float
-        Speed then, m/s.
+    `time`, `speed`: in s, m/s, shape (n,); `onset`: when the pedal is first moved, s; `initial`: speed then, m/s.
 
     Returns
     -------
@@ -86,14 +72,8 @@ def stopping_distance(
 ) -> float:
     """Way from the onset of braking to rest.
 
-    Parameters
-    ----------
-    time, speed : ndarray of shape (n,)
-        s, m/s.
-    onset : float
-        s.
-    deceleration : float
-        With which the rest of the way below `STANDING` is covered, m/s2.
+    `time`, `speed`: in s, m/s, shape (n,); `onset`: in s; `deceleration`: with which the rest of the way below
+    `STANDING` is covered, m/s2.
 
     Returns
     -------
@@ -112,14 +92,7 @@ def corrected_to(nominal: float, distance: float, initial: float) -> float:
 def time_to_reach(time: NDArray[np.float64], deceleration: NDArray[np.float64], value: float, onset: float) -> float:
     """Time from the onset until the deceleration first reaches a value, s; NaN if it does not.
 
-    Parameters
-    ----------
-    time, deceleration : ndarray of shape (n,)
-        s, m/s2.
-    value : float
-        m/s2.
-    onset : float
-        s.
+    `time`, `deceleration`: in s, m/s2, shape (n,); `value`: in m/s2; `onset`: in s.
     """
     return time_below(time, -deceleration, -value, onset) - onset
 
@@ -127,13 +100,7 @@ def time_to_reach(time: NDArray[np.float64], deceleration: NDArray[np.float64], 
 def locked(slip: NDArray[np.float64], speed: NDArray[np.float64], slowest: float = 3.0) -> NDArray[np.bool_]:
     """Where braked wheels stand while the car moves, shape (n, m).
 
-    Parameters
-    ----------
-    slip : ndarray of shape (n, m)
-        Longitudinal slips; -1 of a wheel that stands.
-    speed : ndarray of shape (n,)
-        m/s.
-    slowest : float
-        m/s; slower, wheels may lock.
+    `slip`: longitudinal slips, shape (n, m); -1 of a wheel that stands; `speed`: in m/s, shape (n,); `slowest`: in m/s;
+    slower, wheels may lock.
     """
     return np.asarray((slip < -0.9) & (speed > slowest)[:, None])

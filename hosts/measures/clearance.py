@@ -13,12 +13,7 @@ def outline(
 ) -> NDArray[np.float64]:
     """Corners of a rectangle, shape (n, 4, 2), earth, m: front left, rear left, rear right, front right.
 
-    Parameters
-    ----------
-    x, y, yaw : ndarray of shape (n,)
-        Its centre and heading, m and rad.
-    length, width : float
-        m.
+    `x`, `y`, `yaw`: its centre and heading, m and rad, shape (n,); `length`, `width`: in m.
     """
     ahead, aside = np.stack([np.cos(yaw), np.sin(yaw)], -1), np.stack([-np.sin(yaw), np.cos(yaw)], -1)
     signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]) * 0.5 * np.array([length, width])
@@ -38,12 +33,8 @@ def clearance(
 ) -> NDArray[np.float64]:
     """Distance of a car's outline from the edges of the lanes, along which cones stand.
 
-    Parameters
-    ----------
-    x, y, yaw : ndarray of shape (n,)
-        Centre of the outline and heading, m and rad, in the axes of the course.
-    length, width : float
-        m.
+    `x`, `y`, `yaw`: centre of the outline and heading, m and rad, in the axes of the course, shape (n,); `length`,
+    `width`: in m.
 
     Returns
     -------

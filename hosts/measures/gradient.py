@@ -31,12 +31,7 @@ NONE = Gradient(math.nan, math.nan, math.nan)
 def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: float) -> Gradient:
     """Least squares over the points whose x lies in a range, all x weighing the same however dense the points are.
 
-    Parameters
-    ----------
-    x, y : ndarray of shape (n,)
-        Points; those that are not finite do not count.
-    low, high : float
-        Range of x.
+    `x`, `y`: points, shape (n,); those that are not finite do not count; `low`, `high`: range of x.
 
     Returns
     -------

@@ -13,10 +13,7 @@ from hosts.measures.wheels import LIFTED
 def weight_from_momentum(time: NDArray[np.float64], load: NDArray[np.float64]) -> float:
     """Weight of a car that rests vertically at the first and at the last sample.
 
-    Parameters
-    ----------
-    time, load : ndarray of shape (n,)
-        s, sum of the normal forces of a level road in N.
+    `time`, `load`: in s, sum of the normal forces of a level road in N, shape (n,).
 
     Returns
     -------
@@ -59,12 +56,7 @@ def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final:
 
 
 def rebound(height: NDArray[np.float64]) -> tuple[int, int]:
-    """Where a body that has touched the ground is lowest first and, after that, highest.
-
-    Parameters
-    ----------
-    height : ndarray of shape (n,)
-        m.
+    """Where a body that has touched the ground is lowest first and, after that, highest. `height`: in m, shape (n,).
 
     Returns
     -------

@@ -45,12 +45,8 @@ def read_limits(file: Path) -> dict[str, LimitEntry]:
 def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Limit]:
     """Limits by the columns of measures, in the units of these.
 
-    Parameters
-    ----------
-    entries : mapping of str to LimitEntry
-        As the file has them; a name may leave out the test before it where only one measure ends so.
-    columns : mapping of str to str
-        Units of all measures.
+    `entries`: as the file has them; a name may leave out the test before it where only one measure ends so; `columns`:
+    units of all measures.
 
     Raises
     ------

@@ -40,14 +40,8 @@ def correlation_lag(
 ) -> tuple[float, float]:
     """Shift at which two signals correlate best.
 
-    Parameters
-    ----------
-    given, answer : ndarray of shape (n,)
-        At even times; they are taken as zero outside.
-    interval : float
-        Between samples, s.
-    longest : float
-        Largest shift that is looked at, s.
+    `given`, `answer`: at even times, shape (n,); they are taken as zero outside; `interval`: between samples, s;
+    `longest`: largest shift that is looked at, s.
 
     Returns
     -------
@@ -65,14 +59,8 @@ def one_period(
 ) -> OnePeriod:
     """Measures of the response of one quantity to one period; all NaN where a signal is zero or not finite.
 
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        Even, s.
-    steering, values : ndarray of shape (n,)
-        Less their values before the period; `values` has the sign of the steering in a steady state.
-    longest : float
-        Largest lag that is looked for, s; less than half of the period.
+    `time`: even, s, shape (n,); `steering`, `values`: less their values before the period, shape (n,); `values` has the
+    sign of the steering in a steady state; `longest`: largest lag that is looked for, s; less than half of the period.
     """
     if len(time) < 5 or not np.isfinite(values).all() or not values.any() or not steering.any():
         return NOTHING

@@ -42,13 +42,8 @@ NOTHING = SecondOrder(*3 * (math.nan,), (math.nan, math.nan), math.nan)
 def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int]) -> list[SecondOrder]:
     """Fit one natural frequency and damping ratio to several responses, each with its own gain and numerator.
 
-    Parameters
-    ----------
-    responses : sequence of FrequencyResponse
-        Of one system, at four frequencies or more each.
-    zeros : sequence of int
-        Degrees of the numerators: 1 for the yaw rate and the sideslip angle of a bicycle model, 2 for its lateral
-        acceleration, 0 for a mass on a spring.
+    `responses`: of one system, at four frequencies or more each; `zeros`: degrees of the numerators: 1 for the yaw rate
+    and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring.
 
     Returns
     -------

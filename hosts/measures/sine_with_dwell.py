@@ -46,15 +46,9 @@ def sine_with_dwell(
 ) -> SineWithDwell:
     """Measures of one run.
 
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        s.
-    steering, yaw_rate, acceleration : ndarray of shape (n,)
-        rad, rad/s, m/s²: filtered, and zero in the mean before the steering; the acceleration is that of the centre of
-        mass, lateral and in the plane of the road.
-    sideslip : ndarray of shape (n,), optional
-        rad.
+    `time`: in s, shape (n,); `steering`, `yaw_rate`, `acceleration`: in rad, rad/s, m/s², shape (n,): filtered, and
+    zero in the mean before the steering; the acceleration is that of the centre of mass, lateral and in the plane of
+    the road; `sideslip`: in rad, shape (n,).
 
     Notes
     -----

@@ -19,15 +19,9 @@ def angle_by_regression(
 ) -> float:
     """Angle at a lateral acceleration, from a straight line through a part of the run.
 
-    Parameters
-    ----------
-    steering, acceleration : ndarray of shape (n,)
-        rad and m/s², of one turn; both of one sign, or both of the other.
-    wanted : float
-        m/s².
-    lowest, highest : float
-        Sizes of the lateral acceleration between which the line is fitted, m/s²: from the first sample that is
-        reached to the one before the first beyond.
+    `steering`, `acceleration`: in rad and m/s², of one turn, shape (n,); both of one sign, or both of the other;
+    `wanted`: m/s²; `lowest`, `highest`: sizes of the lateral acceleration between which the line is fitted, m/s²: from
+    the first sample that is reached to the one before the first beyond.
 
     Returns
     -------

@@ -7,12 +7,7 @@ from numpy.typing import NDArray
 
 
 def circle_through(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float, float]:
-    """Circle of least squares through points (of their squared distances, after Kåsa).
-
-    Parameters
-    ----------
-    x, y : ndarray of shape (n,)
-        m.
+    """Circle of least squares through points (of their squared distances, after Kåsa). `x`, `y`: in m, shape (n,).
 
     Returns
     -------
@@ -36,11 +31,6 @@ def off_circle(
 def yaw_rate_on_circle(speed: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
     """Yaw rate with which a car of a speed stays on the circle, rad/s.
 
-    Parameters
-    ----------
-    speed : ndarray of shape (n,)
-        m/s.
-    radius : float
-        m; negative: to the right.
+    `speed`: in m/s, shape (n,); `radius`: in m; negative: to the right.
     """
     return np.asarray(speed / radius)

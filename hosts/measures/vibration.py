@@ -47,12 +47,7 @@ def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.float64]:
     """Vertical acceleration weighted with Wk.
 
-    Parameters
-    ----------
-    acceleration : ndarray of shape (n,)
-        m/s2, zero at rest.
-    interval : float
-        Between samples, s.
+    `acceleration`: in m/s2, zero at rest, shape (n,); `interval`: between samples, s.
 
     Returns
     -------
@@ -67,12 +62,7 @@ def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.f
 def largest_running_rms(values: NDArray[np.float64], interval: float, window: float = 1.0) -> float:
     """Largest root mean square within a window that runs along (MTVV of ISO 2631-1), in the unit of `values`.
 
-    Parameters
-    ----------
-    values : ndarray of shape (n,)
-        Zero before the first sample.
-    interval, window : float
-        s.
+    `values`: zero before the first sample, shape (n,); `interval`, `window`: in s.
     """
     samples = max(1, round(window / interval))
     squares = np.cumsum(np.concatenate([np.zeros(samples), np.square(values)]))

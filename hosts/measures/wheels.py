@@ -13,12 +13,7 @@ LIFTED = 1.0
 
 
 def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
-    """One quantity of the four wheels.
-
-    Parameters
-    ----------
-    quantity : str
-        Such as ``Fz`` of ``wheel_FL.Fz``.
+    """One quantity of the four wheels. `quantity`: such as ``Fz`` of ``wheel_FL.Fz``.
 
     Returns
     -------
@@ -30,24 +25,13 @@ def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
 
 
 def lifted_wheels(loads: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Where wheels are off the road, shape (n, 4).
-
-    Parameters
-    ----------
-    loads : ndarray of shape (n, 4)
-        Normal forces, N.
-    """
+    """Where wheels are off the road, shape (n, 4). `loads`: normal forces, N, shape (n, 4)."""
     return np.asarray(loads <= LIFTED)
 
 
 def duration(time: NDArray[np.float64], state: NDArray[np.bool_]) -> float:
     """How long something is so, s.
 
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        s.
-    state : ndarray of shape (n,)
-        At the end of each step; a step counts whole if it ends so.
+    `time`: in s, shape (n,); `state`: at the end of each step, shape (n,); a step counts whole if it ends so.
     """
     return float(np.diff(time)[state[1:]].sum())

@@ -56,13 +56,7 @@ class Lane:
 
     @classmethod
     def of_course(cls, course: Course, length: float, width: float = 3.5) -> Lane:
-        """The lane along the path of a course of cones.
-
-        Parameters
-        ----------
-        length : float
-            Along x, m.
-        """
+        """The lane along the path of a course of cones. `length`: along x, m."""
         length = positive(length, "The length of a lane", "m")
         x = np.linspace(0.0, length, max(4, round(length)) + 1)
         return cls(np.column_stack([x, [course.path(float(each))[0] for each in x]]), width)

@@ -13,12 +13,8 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
     """What an FMU is run through.
 
-    Parameters
-    ----------
-    given : str, optional
-        See `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values.
-    stop_time : float, optional
-        s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
+    `given`: see `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values;
+    `stop_time`: in s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
     """
     if given is not None:
         from hosts.recordings.load_manoeuvre import load_manoeuvre

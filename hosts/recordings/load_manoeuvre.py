@@ -12,10 +12,7 @@ from hosts.recordings.format import is_recording
 def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
     """Read a manoeuvre by name or path; a folder that holds a recording of the simulator is its last drive.
 
-    Parameters
-    ----------
-    manoeuvre : str
-        See `hosts.driving.manoeuvre_file.read_manoeuvre`.
+    `manoeuvre`: see `hosts.driving.manoeuvre_file.read_manoeuvre`.
 
     Raises
     ------

@@ -22,12 +22,8 @@ def recorded_columns(
     every 25 ms, others at every fourth of these rows. The amplitudes of flexible parts are left out, some
     dozens of columns that only the colours of stresses need.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
-    interval : float, optional
-        Of all outputs, s, a whole multiple of the step; amplitudes are then recorded too.
+    `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step; amplitudes are then
+    recorded too.
 
     Raises
     ------

@@ -77,12 +77,7 @@ class RecordedDrive:
         return list(self.meta["left_out"])
 
     def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
-        """Which values of rows are recorded.
-
-        Parameters
-        ----------
-        epoch_before : int, optional
-            Of the row before the first of these; None: there is none.
+        """Which values of rows are recorded. `epoch_before`: of the row before the first of these; None: there is none.
 
         Returns
         -------
@@ -179,12 +174,7 @@ class RecordedDrive:
 
 
 def read_recording(folder: Path) -> RecordedDrive:
-    """Read a recording; its rows are read when they are asked for.
-
-    Parameters
-    ----------
-    folder : Path
-        Or its file `recording.json`.
+    """Read a recording; its rows are read when they are asked for. `folder`: or its file `recording.json`.
 
     Raises
     ------

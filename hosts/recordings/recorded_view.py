@@ -21,10 +21,7 @@ _MOST_VALUES = 8_000_000  # that are read: 64 MB
 def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tuple[Recording, list[str]]:
     """A recording for the viewer, in the time of the driver: what was rewound is shown too.
 
-    Parameters
-    ----------
-    geometry : Path, optional
-        FMU or scene that is drawn in place of the FMU that was recorded.
+    `geometry`: FMU or scene that is drawn in place of the FMU that was recorded.
 
     Returns
     -------

@@ -208,13 +208,8 @@ class Recorder(Closing):
     def state(self, content: bytes, count: int | None = None, epoch: int = 0) -> None:
         """Record a state.
 
-        Parameters
-        ----------
-        content : bytes
-            Of `Fmu.state_bytes`.
-        count, epoch : int, optional
-            Of the row after which it was saved; without `count` it is what the first row begins with in place of a
-            start.
+        `content`: of `Fmu.state_bytes`; `count`, `epoch`: of the row after which it was saved; without `count` it is
+        what the first row begins with in place of a start.
         """
         file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
         with whole_file(file) as made:

@@ -173,12 +173,7 @@ def replay(
 ) -> Replayed:
     """Repeat a recording and compare all outputs bit for bit.
 
-    Parameters
-    ----------
-    fmu : Path, optional
-        By default the one that was recorded.
-    progress : callable
-        Hears the number of rows that are done.
+    `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done.
 
     Raises
     ------

@@ -47,14 +47,8 @@ class Rows(NamedTuple):
 def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[np.bool_]:
     """Which values of rows are recorded.
 
-    Parameters
-    ----------
-    steps : array of shape (n,)
-        Steps computed up to each row.
-    begins : array of shape (n,)
-        Whether an epoch begins with the row; all its values are recorded then.
-    every : array of shape (m,)
-        Of each column, every so many steps a value is recorded.
+    `steps`: steps computed up to each row, shape (n,); `begins`: whether an epoch begins with the row, shape (n,); all
+    its values are recorded then; `every`: of each column, every so many steps a value is recorded, shape (m,).
 
     Returns
     -------

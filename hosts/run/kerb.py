@@ -29,14 +29,8 @@ FREQUENCY = 10.0  # Hz
 def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, given: Wishes) -> int:
     """Do the test, print its moments and write its files.
 
-    Parameters
-    ----------
-    file : Path, optional
-        FMU of the scene; by default `DIST`, else one that is built and kept.
-    fidelity : float, optional
-        1 to 3; by default that of the FMU.
-    step : float, optional
-        Communication step, s; by default `STEP`.
+    `file`: FMU of the scene; by default `DIST`, else one that is built and kept; `fidelity`: 1 to 3; by default that of
+    the FMU; `step`: communication step, s; by default `STEP`.
 
     Returns
     -------

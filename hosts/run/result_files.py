@@ -20,10 +20,7 @@ from hosts.fmu.settings import Settings
 def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
     """Table, picture and record of a run; `FileError` at once, before the run, if they cannot be written.
 
-    Parameters
-    ----------
-    stem : str
-        Name of the files without suffix.
+    `stem`: name of the files without suffix.
     """
     table, picture, record = (out / f"{stem}{suffix}" for suffix in (".csv", ".png", ".json"))
     for file in (table, picture, record):
@@ -32,13 +29,7 @@ def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
 
 
 def write_csv(result: Result, file: Path) -> None:
-    """Time, inputs and outputs as a table in FMPy's format.
-
-    Parameters
-    ----------
-    file : Path
-        Its folder is made if it is not there.
-    """
+    """Time, inputs and outputs as a table in FMPy's format. `file`: its folder is made if it is not there."""
     with whole_file(file) as made, made.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC)
         writer.writerow(["time", *result.names])

@@ -146,11 +146,8 @@ class Car(Closing):
     def command(self, name: str, value: float = 0.0) -> None:
         """Ask for something.
 
-        Parameters
-        ----------
-        name : str
-            ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
-            simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``.
+        `name`: ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
+        simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``.
 
         Raises
         ------
@@ -174,10 +171,7 @@ class Car(Closing):
     def restart(self, changes: Mapping[str, Value]) -> None:
         """A new start at time 0 with other start values, which stay for later resets.
 
-        Parameters
-        ----------
-        changes : mapping of str to float, int, bool or str
-            Parameters and start values over those so far.
+        `changes`: parameters and start values over those so far.
 
         Raises
         ------

@@ -23,10 +23,7 @@ def lacking(inputs: Collection[str], outputs: Collection[str]) -> tuple[list[str
 def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], drawn: bool) -> str:
     """What an FMU lacks to be driven, what would help, and what works without; empty where nothing is lacking.
 
-    Parameters
-    ----------
-    inputs, outputs : sequence of str
-        Names, after aliases.
+    `inputs`, `outputs`: names, after aliases.
     """
     no_inputs, no_outputs = lacking(inputs, outputs)
     parts = [f"no input {', '.join(no_inputs)}"] if no_inputs else []

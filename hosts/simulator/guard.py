@@ -34,12 +34,8 @@ class Guard:
     def refusal(self, path: str, headers: Mapping[str, str]) -> str:
         """Why a request is refused, one sentence; empty where it is not.
 
-        Parameters
-        ----------
-        path : str
-            With its query.
-        headers : mapping of str to str
-            ``Host`` and, of browsers, ``Origin``; where one stands several times it must be left out before.
+        `path`: with its query; `headers`: ``Host`` and, of browsers, ``Origin``; where one stands several times it must
+        be left out before.
         """
         host = headers.get("Host", "")
         if not self._is_ours(host):

@@ -80,13 +80,7 @@ def with_start_of(asked: Asked, manoeuvre: Manoeuvre | None) -> Asked:
 
 
 def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:
-    """Who moves the inputs of a car.
-
-    Parameters
-    ----------
-    wild : int, optional
-        Seed of a driver without sense.
-    """
+    """Who moves the inputs of a car. `wild`: seed of a driver without sense."""
     if manoeuvre is not None:
         return OfManoeuvre(manoeuvre, car)
     return Held() if wild is None else WildDriver(wild, car.inputs)

@@ -34,11 +34,8 @@ class Inputs:
     def want(self, wants: NDArray[np.float64]) -> None:
         """Take over what is wanted.
 
-        Parameters
-        ----------
-        wants : ndarray of shape (3 n,)
-            For each input its value, largest change per second (infinite: at once) and the number of the wish; wishes
-            from before the last `restart` do not count.
+        `wants`: for each input its value, largest change per second (infinite: at once) and the number of the wish,
+        shape (3 n,); wishes from before the last `restart` do not count.
         """
         for k in range(len(self._rates)):
             value, rate, wish = wants[3 * k : 3 * k + 3].tolist()

@@ -32,14 +32,8 @@ class LateCauses:
     def of_step(self, elapsed: float, period: float, late: bool) -> str:
         """Take a step into account.
 
-        Parameters
-        ----------
-        elapsed : float
-            From its scheduled begin, or from the end of the step before where that was later, to its end, s.
-        period : float
-            What it had been given, s.
-        late : bool
-            Whether it missed its deadline.
+        `elapsed`: from its scheduled begin, or from the end of the step before where that was later, to its end, s;
+        `period`: what it had been given, s; `late`: whether it missed its deadline.
 
         Returns
         -------

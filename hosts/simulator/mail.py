@@ -59,10 +59,7 @@ class Mail:
     def close(self, progress: Callable[[float], object]) -> None:
         """Bring what still waits, once the process writes no more, and finish the recording.
 
-        Parameters
-        ----------
-        progress : callable
-            Hears the share of its table that is done.
+        `progress`: hears the share of its table that is done.
         """
         with self._lock:
             self._collect()

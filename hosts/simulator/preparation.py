@@ -88,12 +88,7 @@ class Prepared:
 
 
 def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
-    """Find, check and read everything.
-
-    Parameters
-    ----------
-    tell : callable
-        Takes sentences.
+    """Find, check and read everything. `tell`: takes sentences.
 
     Raises
     ------

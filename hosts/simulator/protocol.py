@@ -34,10 +34,7 @@ _LARGEST = 1e9
 def frame(moment: Moment, step: float) -> bytes:
     """A moment as a page reads it: a header of 96 bytes and the values as float64, little endian.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
+    `step`: communication step, s.
     """
     flags = RUNNING * moment.running + REFUSED * moment.refused + BEHIND * moment.behind
     values = np.asarray(moment.values, "<f8")

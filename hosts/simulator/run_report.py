@@ -82,12 +82,7 @@ class RunReport:
         self.tell(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
 
     def finish(self, times: StepTimes, file: Path | None) -> None:
-        """Show the report, and write it.
-
-        Parameters
-        ----------
-        file : Path, optional
-            JSON.
+        """Show the report, and write it. `file`: JSON.
 
         Raises
         ------

@@ -108,10 +108,7 @@ class SavedStates:
     def back(self, steps: int) -> tuple[Mark, NDArray[np.float64], NDArray[np.float64]]:
         """Restore the last saved state that is not after the step that lies `steps` back.
 
-        Parameters
-        ----------
-        steps : int
-            Not more than `steps`.
+        `steps`: not more than `steps`.
 
         Returns
         -------

@@ -30,12 +30,7 @@ _TAKEN = (errno.EADDRINUSE, errno.EACCES)
 
 
 def listening_socket(address: str, port: int | None) -> socket.socket:
-    """A socket that listens.
-
-    Parameters
-    ----------
-    port : int, optional
-        By default the first free one from `DEFAULT_PORT` on.
+    """A socket that listens. `port`: by default the first free one from `DEFAULT_PORT` on.
 
     Raises
     ------
@@ -88,13 +83,7 @@ class Web:
         self._strangers: dict[ServerConnection, None] = {}  # the oldest first
 
     def answer(self, connection: ServerConnection, request: Request, pages: int) -> Response | None:
-        """What a request gets; None: it becomes a WebSocket.
-
-        Parameters
-        ----------
-        pages : int
-            How many are connected.
-        """
+        """What a request gets; None: it becomes a WebSocket. `pages`: how many are connected."""
         headers = request.headers
         found = {name: headers.get_all(name) for name in ("Host", "Origin")}
         doubled = next((name for name, values in found.items() if len(values) > 1), None)

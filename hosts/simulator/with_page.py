@@ -57,12 +57,7 @@ def drive_with_pages(
     opened: Opened,
     report: RunReport,
 ) -> None:
-    """Serve pages until Ctrl-C.
-
-    Parameters
-    ----------
-    car : AliasedCar
-        Paused; it runs from the first frame of the first page on.
+    """Serve pages until Ctrl-C. `car`: paused; it runs from the first frame of the first page on.
 
     Raises
     ------

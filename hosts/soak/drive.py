@@ -209,12 +209,7 @@ class _Drive:
 
 
 def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> Outcome:
-    """Drive a task.
-
-    Parameters
-    ----------
-    tell : callable
-        Hears the simulated seconds that are done.
+    """Drive a task. `tell`: hears the simulated seconds that are done.
 
     Raises
     ------

@@ -35,12 +35,7 @@ _FIDELITIES = (0, 2)
 
 
 def soak(options: argparse.Namespace, prog: str) -> int:
-    """Do the drives that the options of the command say.
-
-    Parameters
-    ----------
-    prog : str
-        How the user typed the command.
+    """Do the drives that the options of the command say. `prog`: how the user typed the command.
 
     Returns
     -------

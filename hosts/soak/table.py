@@ -23,12 +23,7 @@ def is_good(outcome: Outcome) -> bool:
 def print_outcomes(tasks: Sequence[Task], outcomes: Sequence[Outcome], prog: str) -> None:
     """Print a row for each drive, the failures with the commands that repeat them, and the sum.
 
-    Parameters
-    ----------
-    outcomes : sequence of Outcome
-        One for each task.
-    prog : str
-        How the user typed the command.
+    `outcomes`: one for each task; `prog`: how the user typed the command.
     """
     print("\n".join(in_columns([_HEADINGS, *map(_row, outcomes)], range(len(_HEADINGS)))))
     for task, outcome in zip(tasks, outcomes, strict=True):

@@ -48,14 +48,7 @@ def run_study(
 ) -> Ended | None:
     """Check a study, make the runs that are missing, and write their rows; None after a dry run.
 
-    Parameters
-    ----------
-    scheduler : str, optional
-        Address.
-    dry : bool
-        Only print the plan.
-    again : bool
-        Make failed runs again.
+    `scheduler`: address; `dry`: only print the plan; `again`: make failed runs again.
 
     Raises
     ------

@@ -20,12 +20,7 @@ from hosts.study.job import Job
 def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where: str) -> tuple[str, dict[str, float]]:
     """Name and settings of a test, if it can be done with an FMU.
 
-    Parameters
-    ----------
-    given : mapping of str to float
-        Settings that are not by default.
-    where : str
-        How messages call where it is asked for.
+    `given`: settings that are not by default; `where`: how messages call where it is asked for.
 
     Raises
     ------
@@ -46,13 +41,7 @@ def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where
 
 
 def performed(job: Job, path: Path, name: str, aliases: Aliases | None, values: Mapping[str, Value]) -> TestRecord:
-    """What the test of a job has yielded.
-
-    Parameters
-    ----------
-    name : str
-        Of the FMU in messages.
-    """
+    """What the test of a job has yielded. `name`: of the FMU in messages."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, path, aliases or Aliases(), {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)

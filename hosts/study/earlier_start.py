@@ -75,10 +75,7 @@ def _difference(key: str, before: Any, now: Any) -> str:
 def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:
     """The record of an earlier start with the limits of now, on which runs do not depend.
 
-    Parameters
-    ----------
-    content : bytes
-        Of the study file.
+    `content`: of the study file.
     """
     if before.get("limits", {}) == limits:
         return before

@@ -20,12 +20,7 @@ from hosts.study.study_file import ManoeuvreEntry, StudyFile
 
 
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:
-    """What is done at each point.
-
-    Parameters
-    ----------
-    parameters : sequence of str
-        Those that the study varies.
+    """What is done at each point. `parameters`: those that the study varies.
 
     Raises
     ------

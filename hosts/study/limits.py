@@ -63,10 +63,7 @@ class Share:
 def shares(frame: pd.DataFrame) -> list[Share]:
     """Shares of the runs that are there, each limit of each manoeuvre, and then all limits together.
 
-    Parameters
-    ----------
-    frame : DataFrame
-        With its attrs, as `hosts.study.store.read_study` gives it.
+    `frame`: with its attrs, as `hosts.study.store.read_study` gives it.
 
     Notes
     -----

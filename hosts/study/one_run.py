@@ -52,13 +52,7 @@ class Bench:
         return self.run(*task)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        """Make a run; whatever goes wrong in it is its outcome.
-
-        Parameters
-        ----------
-        seed : int
-            For functions of the user's.
-        """
+        """Make a run; whatever goes wrong in it is its outcome. `seed`: for functions of the user's."""
         begin = clock.perf_counter()
         try:
             with warnings.catch_warnings():

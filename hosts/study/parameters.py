@@ -84,12 +84,7 @@ class Parameter:
 
 
 def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str) -> Parameter:
-    """A parameter, checked against its variable.
-
-    Parameters
-    ----------
-    file : str
-        How messages call the study file.
+    """A parameter, checked against its variable. `file`: how messages call the study file.
 
     Raises
     ------
@@ -123,12 +118,7 @@ def _value(given: Value, entry: ParameterEntry, variable: Variable, where: str) 
 def in_unit(given: Value, unit: str | None, variable: Variable, where: str) -> Value:
     """A value in the unit of the FMU, checked.
 
-    Parameters
-    ----------
-    unit : str or None
-        That it is given in; None: that of the FMU.
-    where : str
-        How messages call its place.
+    `unit`: that it is given in; None: that of the FMU; `where`: how messages call its place.
     """
     if unit is None or unit == variable.unit or isinstance(given, (str, bool)):
         return variable.check(given, where)

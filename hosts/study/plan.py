@@ -62,13 +62,7 @@ class Plan:
         return hashlib.sha256(json.dumps(self.record, sort_keys=True).encode()).hexdigest()[:16]
 
     def chunk(self, indices: Sequence[int]) -> Chunk:
-        """Runs with their values.
-
-        Parameters
-        ----------
-        indices : sequence of int
-            Rising.
-        """
+        """Runs with their values. `indices`: rising."""
         each = len(self.work.jobs)
         first, last = indices[0] // each, indices[-1] // each
         block = self.points.block(first, last - first + 1)
@@ -77,12 +71,7 @@ class Plan:
 
 
 def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
-    """Check a study against its FMU.
-
-    Parameters
-    ----------
-    file : Path
-        Where it was read from; files it names are looked for beside it.
+    """Check a study against its FMU. `file`: where it was read from; files it names are looked for beside it.
 
     Raises
     ------

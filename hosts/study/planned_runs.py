@@ -35,12 +35,7 @@ class PlannedRuns:
 
 
 def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
-    """The runs of a study file.
-
-    Parameters
-    ----------
-    file : Path
-        Where it was read from; files it names are looked for beside it.
+    """The runs of a study file. `file`: where it was read from; files it names are looked for beside it.
 
     Raises
     ------

@@ -43,12 +43,7 @@ class SampledPoints:
 
 
 def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> SampledPoints:
-    """Points of a grid, or random ones.
-
-    Parameters
-    ----------
-    file : str
-        How messages call the study file.
+    """Points of a grid, or random ones. `file`: how messages call the study file.
 
     Raises
     ------

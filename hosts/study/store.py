@@ -62,12 +62,7 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
 
 
 def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -> xr.Dataset:
-    """Signals of a manoeuvre, read from the disk as they are used.
-
-    Parameters
-    ----------
-    manoeuvre : str, optional
-        May be left out where there is one.
+    """Signals of a manoeuvre, read from the disk as they are used. `manoeuvre`: may be left out where there is one.
 
     Returns
     -------

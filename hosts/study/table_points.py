@@ -33,12 +33,8 @@ def table_points(
 ) -> TablePoints:
     """Points of a CSV file whose heading names parameters.
 
-    Parameters
-    ----------
-    variable_of : callable
-        Of a name and of words for messages; raises `HostError` where there is no such variable that can be set.
-    entries : mapping of str to ParameterEntry
-        Units of columns whose heading has none.
+    `variable_of`: of a name and of words for messages; raises `HostError` where there is no such variable that can be
+    set; `entries`: units of columns whose heading has none.
 
     Raises
     ------

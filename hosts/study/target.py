@@ -54,12 +54,7 @@ class Target:
 def target_of(text: str, by: str, limits: str | None) -> Target:
     """What the options ask for.
 
-    Parameters
-    ----------
-    text : str
-        ``MEASURE=VALUE``, the value with a unit or without.
-    limits : str, optional
-        ``LOW:HIGH``.
+    `text`: ``MEASURE=VALUE``, the value with a unit or without; `limits`: ``LOW:HIGH``.
 
     Raises
     ------
@@ -84,12 +79,8 @@ def target_of(text: str, by: str, limits: str | None) -> Target:
 def find_target(file: Path, target: Target, out: Path | None) -> bool:
     """Seek the value, print and write what was found; whether the measure can be what is wanted.
 
-    Parameters
-    ----------
-    file : Path
-        A study file: its FMU or car, its manoeuvres and ``[start]``; its other parameters stay as the FMU has them.
-    out : Path, optional
-        Folder of the files.
+    `file`: a study file: its FMU or car, its manoeuvres and ``[start]``; its other parameters stay as the FMU has them;
+    `out`: folder of the files.
 
     Raises
     ------

@@ -187,14 +187,8 @@ class CoupledFmus(Closing):
     def run(self, duration: float, names: Sequence[str], act: Callable[[CoupledFmus], None] | None = None) -> Array:
         """Steps over a time.
 
-        Parameters
-        ----------
-        duration : float
-            A whole number of communication steps, s.
-        names : sequence of str
-            What is read at each communication point.
-        act : callable, optional
-            Called before each step, to set inputs of parts.
+        `duration`: a whole number of communication steps, s; `names`: what is read at each communication point; `act`:
+        called before each step, to set inputs of parts.
 
         Returns
         -------

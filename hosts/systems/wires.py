@@ -49,10 +49,7 @@ def fmus_of(parts: Mapping[str, Path], stack: ExitStack) -> dict[str, Fmu]:
 def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[Wire, ...]:
     """Connections of a system, held against its parts.
 
-    Parameters
-    ----------
-    connections : mapping of str to str
-        Outputs by the inputs that take them, each as ``part.variable``.
+    `connections`: outputs by the inputs that take them, each as ``part.variable``.
 
     Raises
     ------
@@ -76,12 +73,7 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
 
 
 def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str, dict[str, Value]]:
-    """Start values by part and variable.
-
-    Parameters
-    ----------
-    start : mapping of str to float, int, bool or str
-        Parameters and inputs, as ``part.variable``.
+    """Start values by part and variable. `start`: parameters and inputs, as ``part.variable``.
 
     Raises
     ------

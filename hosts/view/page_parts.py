@@ -81,10 +81,7 @@ class FmuParts:
 def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     """Read an FMU for a page.
 
-    Parameters
-    ----------
-    road : str
-        Of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
+    `road`: of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
 
     Raises
     ------

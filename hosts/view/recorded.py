@@ -33,11 +33,8 @@ class Table:
 def read_table(path: Path) -> Table:
     """Read a table whose first column is the time.
 
-    Parameters
-    ----------
-    path : Path
-        CSV: headings ``time`` and names, or ``time [s]`` and ``name [unit]``; lines that begin with ``#`` are left out.
-        Of a table that would fill the memory every so many rows are read.
+    `path`: CSV: headings ``time`` and names, or ``time [s]`` and ``name [unit]``; lines that begin with ``#`` are left
+    out. Of a table that would fill the memory every so many rows are read.
 
     Raises
     ------

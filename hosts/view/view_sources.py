@@ -43,10 +43,7 @@ class RunWishes:
 def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) -> tuple[list[Recording], list[str]]:
     """Recordings of all that the user named.
 
-    Parameters
-    ----------
-    geometry : Path, optional
-        FMU or scene that results are drawn with, in place of that of their record.
+    `geometry`: FMU or scene that results are drawn with, in place of that of their record.
 
     Returns
     -------

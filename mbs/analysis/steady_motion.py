@@ -57,10 +57,7 @@ class _Candidate:
 def steady_frame(evaluator: Evaluator, V: Array) -> SteadyFrame:
     """Frame in which the present motion stands still, as nearly as there is one.
 
-    Parameters
-    ----------
-    V : array of shape (nq, n)
-        Admissible displacements.
+    `V`: admissible displacements, shape (nq, n).
 
     Raises
     ------

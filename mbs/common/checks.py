@@ -201,10 +201,7 @@ def array(
 ) -> NDArray[np.float64]:
     """Finite numbers in an array of a shape; None stands for any length.
 
-    Parameters
-    ----------
-    wanted : str
-        What it must be, in words; by default from the shape.
+    `wanted`: what it must be, in words; by default from the shape.
     """
     few: Any = value.tolist() if type(value) is np.ndarray and value.size < _FEW else value
     if type(few) in (list, tuple) and shape == (len(few),) and all(map(_is_plain, few)):

@@ -10,10 +10,7 @@ from typing import Any
 def lazy_modules(package: str, names: Iterable[str], homes: Mapping[str, str] | None = None) -> Callable[[str], Any]:
     """What a package takes as its ``__getattr__``.
 
-    Parameters
-    ----------
-    homes : mapping of str to str, optional
-        Functions, classes and others by name, with the full name of the module that each is in.
+    `homes`: functions, classes and others by name, with the full name of the module that each is in.
     """
     modules, places = frozenset(names), dict(homes or {})
 

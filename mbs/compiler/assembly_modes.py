@@ -49,14 +49,7 @@ def mode_arrays(
 ) -> tuple[dict[str, Any], Callable[[], dict[str, Any]]]:
     """The `mode_` arrays of the triads, and what traces their loops for those of the modes: only steps need these.
 
-    Parameters
-    ----------
-    rows : sequence of RowTerms
-        Over z.
-    full : sequence of Affine
-        Full coordinates over z.
-    q : ndarray
-        Position of z, assembled.
+    `rows`: over z; `full`: full coordinates over z; `q`: position of z, assembled.
     """
     numbers, loops, names = [], [], []
     with_columns = [(row, set(row.columns())) for row in rows]

@@ -30,14 +30,8 @@ def model_length(model: Model) -> float:
 def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> list[float]:
     """Metres that one unit of each coordinate moves something by.
 
-    Parameters
-    ----------
-    kinds : list of str
-        point, vector, mode, angle or spin.
-    units : list of bool
-        Whether a vector is a unit vector; others are in m.
-    length : float
-        Of the model, m.
+    `kinds`: point, vector, mode, angle or spin; `units`: whether a vector is a unit vector; others are in m; `length`:
+    of the model, m.
     """
     of_kind = {"angle": length, "spin": SPIN * length}
     return [length if unit else of_kind.get(kind, 1.0) for kind, unit in zip(kinds, units, strict=True)]

@@ -23,12 +23,8 @@ def reduce_coordinates(
 ) -> tuple[list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
-    Parameters
-    ----------
-    grounded : bool
-        Whether a joint ties the scene to the ground.
-    stay : set of int
-        Coordinates of flexible bodies, which are never eliminated.
+    `grounded`: whether a joint ties the scene to the ground; `stay`: coordinates of flexible bodies, which are never
+    eliminated.
 
     Returns
     -------

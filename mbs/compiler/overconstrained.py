@@ -78,10 +78,8 @@ class Corrected:
 def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Corrected]:
     """The joints of overconstrained loops that move only if their drawing is corrected, with what they should be.
 
-    Parameters
-    ----------
-    tolerance : float
-        Largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it is.
+    `tolerance`: largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it
+    is.
 
     Raises
     ------
@@ -98,10 +96,7 @@ def closed_loops(
 ) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
     """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `to_system`.
 
-    Parameters
-    ----------
-    tolerance : float
-        See `corrected_joints`.
+    `tolerance`: see `corrected_joints`.
 
     Raises
     ------

@@ -23,12 +23,7 @@ def with_ports_of(ported: System, without: System) -> System | None:
     Its rows of ports are linear, and all other full coordinates are the same in both, so its coordinates are affine
     functions of those of the other.
 
-    Parameters
-    ----------
-    ported : System
-        With quasi-static outputs, whose rows are those of the ports.
-    without : System
-        Of the same model without ports.
+    `ported`: with quasi-static outputs, whose rows are those of the ports; `without`: of the same model without ports.
 
     Returns
     -------
@@ -66,10 +61,7 @@ def with_ports_of(ported: System, without: System) -> System | None:
 def following(systems: list[System]) -> tuple[list[System], list[int]]:
     """Systems of an FMU, each with ports where another needs it for its outputs.
 
-    Parameters
-    ----------
-    systems : list of System
-        By fidelity, with the same sensors.
+    `systems`: by fidelity, with the same sensors.
 
     Returns
     -------

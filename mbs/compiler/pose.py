@@ -27,10 +27,7 @@ def pose_arrays(
     A coordinate is a component of a point or of a vector of a body, so that moving and turning the scene as a whole
     is linear in cos, sin and the shift.
 
-    Parameters
-    ----------
-    q : ndarray
-        Position of z to be moved, in the order of `remaining`.
+    `q`: position of z to be moved, in the order of `remaining`.
     """
     if not model.floating:
         return {name: np.zeros(0) for name in NAMES}

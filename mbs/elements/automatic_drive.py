@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -18,53 +18,78 @@ from mbs.kernel.header.enumerations import ElementType
 
 @dataclass(frozen=True)
 class AutomaticDrive:
-    """Drive of two wheels by an engine with a torque converter and gears that shift automatically."""
+    """Drive of two wheels by an engine with a torque converter and gears that shift automatically.
+
+    The speed of the turbine is the ratio times the mean speed of the wheels. Ratio of reverse, speed and time to engage
+    are used where there is a selector.
+    """
 
     max_torque: NotNegative
-    """Of the engine, N m; full torque is the lesser of max_torque and max_power/speed."""
+    """Torque of the engine, N m; full torque is the lesser of it and of the power over the speed."""
     max_power: NotNegative
-    """Of the engine, W."""
+    """Power of the engine, W."""
     efficiency: NotNegative = 0.85
-    """Fraction of the power that the driveline hands on."""
+    """Efficiency of the driveline under power."""
     stall_factor: NotNegative = 1.9
     """Torque ratio of the converter at stall."""
     coupling_ratio: Positive = 0.9
     """Speed ratio of the converter from which on its torque ratio is 1."""
     idle_speed: NotNegative = 90.0
-    """Of the engine at rest with closed throttle, rad/s."""
+    """Engine speed at rest with closed throttle, rad/s."""
     stall_speed: NotNegative = 230.0
-    """Of the engine at rest with open throttle, rad/s."""
+    """Engine speed at rest with open throttle, rad/s."""
     limit_speed: NotNegative = 600.0
-    """Of the engine where the limiter sets in, rad/s."""
+    """Engine speed where the limiter sets in, rad/s."""
     creep_torque: NotNegative = 60.0
-    """Per wheel with closed throttle at rest, N m."""
+    """Torque per driven wheel at rest with closed throttle, the selector in drive, N m; 0: neutral."""
     creep_speed: Positive = 10.0
-    """Of the wheel where the creep torque has faded, rad/s."""
+    """Wheel speed where the creep torque has faded, rad/s."""
     drag_torque: NotNegative = 20.0
-    """Of the engine at its limit speed with closed throttle, N m."""
+    """Torque of the engine at its limit speed with closed throttle, N m."""
     up_closed: NotNegative = 230.0
-    """Speed of the turbine (ratio times mean wheel speed) to shift up with closed throttle, rad/s."""
+    """Speed of the turbine at which it shifts up with closed throttle, rad/s."""
     up_open: NotNegative = 540.0
-    """The same with open throttle, rad/s."""
+    """Speed of the turbine at which it shifts up with open throttle, rad/s."""
     down_closed: NotNegative = 110.0
-    """Speed of the turbine to shift down with closed throttle, rad/s."""
+    """Speed of the turbine at which it shifts down with closed throttle, rad/s."""
     down_open: NotNegative = 270.0
-    """The same with open throttle, rad/s."""
+    """Speed of the turbine at which it shifts down with open throttle, rad/s."""
     dwell: NotNegative = 0.6
     """Least time between shifts, s."""
     ramp: NotNegative = 0.2
     """Duration of a shift, s."""
     locking: NotNegative = 0.0
-    """Part of the torque, 0 to 1, by which the slower wheel can have more than the faster one; 0: open."""
+    """Share of the torque by which the slower driven wheel can have more than the faster; 0: open differential."""
     ratios: Sequence[float] = (10.5, 5.9, 4.0)
     """Total ratio of each gear, first gear first."""
     reverse_ratio: Positive = 10.0
-    """Total ratio of reverse; used where there is a selector, as the two next."""
+    """Total ratio of reverse."""
     engage_speed: NotNegative = 8.0
-    """Mean wheel speed, rad/s; while the wheels turn faster against a direction it does not engage, and the drive stays
-    in neutral."""
+    """Mean speed of the wheels up to which a direction against their motion engages, rad/s; beyond, the drive stays in
+    neutral."""
     engage_time: Positive = 0.3
-    """In which the torque fades out of one direction, and into the other, s."""
+    """Time in which the torque fades out of one direction, and into the other, s."""
+
+    def faults(self) -> Iterator[tuple[str, str]]:
+        """A field and what is wrong with it, where gears or speeds are not in order, without a full stop."""
+        ratios = list(self.ratios)
+        if not ratios or any(b >= a for a, b in pairwise(ratios)):
+            yield "ratios", f"are {ratios}; they must fall from first gear on, with at least one"
+            return
+        if not 0.0 < self.idle_speed <= self.stall_speed < self.limit_speed:
+            others = f"stall_speed {self.stall_speed:g} and limit_speed {self.limit_speed:g}"
+            yield "idle_speed", f"is {self.idle_speed:g} rad/s, {others}; they must rise in this order, from above 0"
+        if self.dwell < self.ramp:
+            yield "dwell", f"is {self.dwell:g} s; it must not be less than ramp, {self.ramp:g} s"
+        for throttle in ("closed", "open"):
+            up, down = getattr(self, f"up_{throttle}"), getattr(self, f"down_{throttle}")
+            least = max((low / high for low, high in pairwise(ratios)), default=0.0) * down
+            if up <= least and len(ratios) > 1:
+                yield (
+                    f"up_{throttle}",
+                    f"is {up:g} rad/s; it must be more than {least:.4g} rad/s, or the drive shifts down again at once, "
+                    f"below down_{throttle} of {down:g} rad/s",
+                )
 
     def record(
         self,
@@ -108,18 +133,10 @@ class AutomaticDrive:
         own = reals_of(self, what)
         of_selector: Reals = {n: own.pop(n) for n in ("reverse_ratio", "engage_speed", "engage_time")}
         ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
-        if not ratios or any(b >= a for a, b in pairwise(ratios)):
-            raise ModelError(f"The ratios of {what} are {ratios}; they must fall, with at least one.")
+        for field, wrong in self.faults():
+            raise ModelError(f"The {field.replace('_', ' ')} of {what} {wrong}.")
         if not 1 <= gear <= len(ratios):
             raise ModelError(f"The gear of {what} is {gear}; it must be one of 1 to {len(ratios)}.")
-        if not 0.0 < self.idle_speed <= self.stall_speed < self.limit_speed:
-            raise ModelError(
-                f"The speeds {self.idle_speed:g}, {self.stall_speed:g}, {self.limit_speed:g} rad/s of {what} "
-                "must rise from idle over stall to limit."
-            )
-        if self.dwell < self.ramp:
-            raise ModelError(f"The dwell {self.dwell:g} s of {what} must not be shorter than its ramp {self.ramp:g} s.")
-        self._check_hysteresis(what, ratios)
         of_gears: Reals = {f"ratio_{i + 1}": (ratio, positive) for i, ratio in enumerate(ratios)}
         inputs = [index(throttle, f"The input of {what}"), len(ratios)]
         if selector is None:
@@ -151,13 +168,3 @@ class AutomaticDrive:
                 *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),
             ),
         )
-
-    def _check_hysteresis(self, what: str, ratios: Sequence[float]) -> None:
-        """A gear just engaged must not be left at once at the same speed."""
-        for up, down in ((self.up_closed, self.down_closed), (self.up_open, self.down_open)):
-            for low, high in pairwise(ratios):
-                if up * high / low <= down:
-                    raise ModelError(
-                        f"T{what[1:]} shifts up at {up:g} rad/s to {up * high / low:.0f} rad/s in the next gear, "
-                        f"where it shifts down again (below {down:g}); lower the down-shift speed."
-                    )

@@ -18,37 +18,38 @@ class ElectricDrive:
 
     Speeds and torques are those of the motor where nothing else is said. The throttle sets its part of the largest
     torque at the speed, less the other part of the torque of regeneration. Where a torque works against the motion the
-    motor gives electric power. The rotor's inertia belongs to the spins of the wheels, see `Model.armature`.
+    motor gives electric power: that of the battery is that of the shaft over the efficiency under drive, times it in
+    regeneration. The loss of the gears fades below 5 rad/s. The rotor's inertia belongs to the spins of the wheels, see
+    `Model.armature`.
     """
 
     max_torque: NotNegative
-    """N m."""
+    """Largest torque of the motor, N m."""
     max_power: NotNegative
-    """Mechanical power, W, above which the torque falls as one over the speed, in both directions of the power."""
+    """Largest power of the motor at its shaft, W."""
     ratio: Positive
-    """Turns of the motor for one of the wheels in the mean."""
+    """Speed of the motor over the mean speed of the wheels, a ratio."""
     limit_speed: Positive = 1200.0
-    """rad/s, from which on the torque fades to zero within 5 %."""
+    """Speed of the motor beyond which its torque fades to zero within 5 %, rad/s."""
     efficiency: Share = 0.9
-    """Fraction of motor and inverter, above 0, at most 1; battery power is shaft power divided by it under drive, times
-    it in regeneration."""
+    """Efficiency between battery and shaft of the motor, both ways."""
     gear_efficiency: Share = 0.97
-    """Fraction of the gears, above 0, at most 1, in both directions; their loss fades below 5 rad/s."""
+    """Efficiency between shaft and wheels, both ways."""
     regeneration_torque: NotNegative = 0.0
-    """With closed throttle, N m."""
+    """Torque of the motor that brakes with closed throttle, N m."""
     regeneration_power: NotNegative = 50e3
-    """Its limit, mechanical, W."""
+    """Largest power of it, W."""
     regeneration_speed: Positive = 60.0
-    """rad/s, below which it fades to zero, so that the car rests at standstill."""
+    """Speed of the motor below which it fades, so that the car rests, rad/s."""
     reverse_torque: NotNegative = 0.5
-    """Factor on max_torque in reverse."""
+    """Share of the largest torque in reverse."""
     reverse_speed: Positive = 250.0
-    """Limit speed in reverse, rad/s."""
+    """Speed of the motor beyond which its torque fades in reverse, rad/s."""
     engage_speed: NotNegative = 8.0
-    """Mean wheel speed, rad/s; while the wheels turn faster against a direction it does not engage, and the drive stays
-    in neutral."""
+    """Mean speed of the wheels up to which a direction against their motion engages, rad/s; beyond, the drive stays in
+    neutral."""
     engage_time: Positive = 0.3
-    """In which the torque fades out of one direction, and into the other, s."""
+    """Time in which the torque fades out and in when the selector moves, s."""
 
     def record(
         self,

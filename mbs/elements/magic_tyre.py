@@ -64,13 +64,13 @@ class MagicTyre:
     friction_factor: NotNegative = 1.0
     """Multiplies the friction of the road."""
     lmux: Positive = 1.0
-    """Multiplies LMUX."""
+    """Factor on LMUX of the file, the largest longitudinal force."""
     lmuy: Positive = 1.0
-    """Multiplies LMUY."""
+    """Factor on LMUY of the file, the largest lateral force."""
     lkx: Positive = 1.0
-    """Multiplies LKX."""
+    """Factor on LKX of the file, the longitudinal slip stiffness."""
     lky: Positive = 1.0
-    """Multiplies LKY."""
+    """Factor on LKY of the file, the cornering stiffness."""
     pressure: Number = 0.0
     """Inflation pressure over the nominal one, less 1, a ratio."""
     settling: Positive = 0.006

@@ -8,8 +8,12 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
+import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, TypeAlias, get_type_hints
 
 from mbs.common.checks import not_negative, number, positive, vector
@@ -52,15 +56,23 @@ def declared(kind: type) -> dict[str, Real]:
     return _DECLARED[kind]
 
 
+def texts_of(kind: type) -> dict[str, str]:
+    """What stands under each field of a class, by name."""
+    (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
+    assert isinstance(tree, ast.ClassDef)
+    return {
+        field.target.id: inspect.cleandoc(text.value.value)
+        for field, text in pairwise(tree.body)
+        if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name)
+        if isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant) and isinstance(text.value.value, str)
+    }
+
+
 def reals_of(thing: object, what: str, names: Sequence[str] = ()) -> Reals:
     """Checked numbers of an element or a road.
 
-    Parameters
-    ----------
-    what : str
-        The thing, for the message.
-    names : sequence of str
-        Which, in the order of the kernel; by default all in the order of the fields.
+    `what`: the thing, for the message; `names`: which, in the order of the kernel; by default all in the order of the
+    fields.
     """
     known = declared(type(thing))
     reals: Reals = {}

@@ -27,7 +27,8 @@ class EndStops:
     Over the compression x beyond its length a stop has the force ``k x (1 + (x/L)^2)``, and beyond its travel that of
     metal on metal too, which sets in as a parabola. Times ``1 + chi x'`` while it is compressed and
     ``1/(1 - chi x')`` while it is let go (K. H. Hunt, F. R. E. Crossley, Journal of Applied Mechanics 42, 1975,
-    440-445, without their pull), it takes energy and never pulls. Without the last eight numbers it is linear.
+    440-445, without their pull), it takes energy and never pulls. At the compression L the stiffness is four times k.
+    With L = 0 a stop is linear, with a stiffness of 0 there is no metal; so it is without the last eight numbers.
     """
 
     bump_length: NotNegative = 0.0
@@ -39,17 +40,17 @@ class EndStops:
     rebound_stiffness: NotNegative = 0.0
     """k of the rebound stop, N/m."""
     bump_progression: NotNegative = 0.0
-    """L of the bump stop, m, the compression at which the stiffness is four times k; 0 for a linear stop."""
+    """L of the bump stop, m."""
     rebound_progression: NotNegative = 0.0
-    """L of the rebound stop, m; 0 for a linear stop."""
+    """L of the rebound stop, m."""
     bump_travel: NotNegative = 0.0
     """Compression of the bump stop at which metal meets metal, m."""
     rebound_travel: NotNegative = 0.0
     """Compression of the rebound stop at which metal meets metal, m."""
     metal_stiffness: NotNegative = 0.0
-    """N/m; 0 for no metal end."""
+    """Stiffness of metal on metal, N/m."""
     metal_onset: NotNegative = 0.001
-    """Depth over which the metal end sets in, m."""
+    """Depth over which it sets in, m."""
     bump_loss: NotNegative = 0.0
     """chi of the bump stop, s/m."""
     rebound_loss: NotNegative = 0.0

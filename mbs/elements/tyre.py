@@ -60,15 +60,15 @@ class TyreCurve:
     """
 
     slope: AtTwoLoads
-    """Initial slope dF/ds, N."""
+    """Initial slope, force per slip, N."""
     max_force: AtTwoLoads
-    """Largest force, N, on a road of the tyre's `reference_friction`; on another road times its friction over that."""
+    """Largest force on a road of the reference friction, N; on another it goes with the friction."""
     max_slip: AtTwoLoads
     """Slip where it is reached, a ratio."""
     slide_force: AtTwoLoads
-    """Force of full sliding, N, scaled alike."""
+    """Force of full sliding, N; it goes with the friction too."""
     slide_slip: AtTwoLoads
-    """Slip where it is reached, a ratio."""
+    """Slip from which on it slides, a ratio."""
 
 
 @dataclass(frozen=True)
@@ -83,37 +83,38 @@ class Tyre:
     bottoming_radius: Positive
     """Loaded radius below which the rim bears, m."""
     stiffness: Positive
-    """Vertical, N/m."""
+    """Radial stiffness, N/m."""
     damping: NotNegative
-    """Vertical, N s/m; it sets in over the first 5 mm."""
+    """Radial damping, N s/m; it sets in over the first 5 mm."""
     longitudinal: TyreCurve
-    """Steady force along the heading."""
+    """Longitudinal force over longitudinal slip."""
     lateral: TyreCurve
-    """Steady force to the left."""
+    """Lateral force over lateral slip."""
     trail: SignedAtTwoLoads
-    """Ratio of dynamic trail to contact length at zero slip."""
+    """Dynamic trail over contact length at zero slip, a ratio."""
     trail_zero: AtTwoLoads
     """Lateral slip where the trail first vanishes, a ratio."""
     trail_end: AtTwoLoads
-    """Lateral slip where the trail ends, a ratio."""
+    """Lateral slip where it ends, a ratio."""
     carcass_stiffness: AlongAxes
-    """Longitudinal and lateral, N/m."""
+    """Longitudinal and lateral stiffness of the carcass, N/m."""
     carcass_damping: AlongAxes
-    """Longitudinal and lateral, N s/m."""
+    """Longitudinal and lateral damping of the carcass, N s/m."""
     nominal_load: Positive
-    """N."""
+    """Load at which the first number of each pair holds, N."""
     reference_friction: Positive
     """Coefficient of friction of the road on which the curves hold."""
     bottoming_stiffness: NotNegative = 0.0
-    """Of the rim, N/m."""
+    """Stiffness of the rim on the road, N/m."""
     max_load_factor: Positive = 3.5
-    """The curves are clamped at this multiple of the nominal load."""
+    """Multiple of the nominal load at which the curves are clamped."""
     rolling_resistance: NotNegative = 0.0
     """Coefficient of rolling resistance."""
     friction_factor: NotNegative = 1.0
     """Multiplies the friction of the road."""
     camber_slip: Number = 0.0
-    """Lateral slip that acts like a camber whose sine is 1: camber thrust over cornering stiffness, a ratio."""
+    """Camber thrust over cornering stiffness, a ratio: the lateral slip that has the force of a camber whose sine is
+    1."""
     bore: TyreBore | None = None
     """Torque against turning about the normal of the road."""
 

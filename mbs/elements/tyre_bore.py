@@ -18,11 +18,11 @@ class TyreBore:
     """
 
     width: Positive
-    """Of the patch, m."""
+    """Width of the patch, m."""
     stiffness: Positive
-    """Torsional, of the carcass about the road's normal, N m/rad."""
+    """Torsional stiffness of the carcass about the normal of the road, N m/rad."""
     damping: Positive
-    """Likewise, N m s/rad."""
+    """Torsional damping of the carcass, N m s/rad."""
 
     def reals(self, what: str) -> Reals:
         """In the order of `mbs/kernel/src/elements/tyre_bore.h`."""

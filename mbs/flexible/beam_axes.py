@@ -12,10 +12,7 @@ VERTICAL = 0.95  # beams steeper than this cosine take x instead of z as their u
 def beam_axes(start: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
     """Length and axes of a beam: x from start to end, z as far up as it can be, y = z cross x to the left.
 
-    Parameters
-    ----------
-    start, end : ndarray, shape (3,)
-        Ends, m. A beam that stands upright has local z along the global x as far as it can.
+    `start`, `end`: ends, m, shape (3,). A beam that stands upright has local z along the global x as far as it can.
 
     Returns
     -------

@@ -17,10 +17,7 @@ _COLUMNS = 72
 def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
     """Places and systems of displacement of all grid points.
 
-    Parameters
-    ----------
-    path : Path
-        Bulk data, or a whole deck; what it includes is read.
+    `path`: bulk data, or a whole deck; what it includes is read.
 
     Returns
     -------

@@ -116,12 +116,7 @@ def _named(model: FiniteElementModel, nodes: np.ndarray) -> str:
 def check_turning_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
     """Refuse a body whose mass lies on a line: nothing resists its turning about that line.
 
-    Parameters
-    ----------
-    positions : ndarray, shape (n, 3)
-        Mass points, m.
-    masses : ndarray, shape (n,)
-        kg.
+    `positions`: mass points, m, shape (n, 3); `masses`: in kg, shape (n,).
     """
     x = positions - masses @ positions / masses.sum()
     moments, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", masses, x, x))

@@ -20,10 +20,7 @@ _BIG = 65536
 def read_output4(path: Path) -> dict[str, sp.csc_array]:
     """All matrices of a file by their names in capital letters; complex ones are complex.
 
-    Parameters
-    ----------
-    path : Path
-        Text, or binary with integers of 4 or 8 bytes in either order.
+    `path`: text, or binary with integers of 4 or 8 bytes in either order.
 
     Raises
     ------

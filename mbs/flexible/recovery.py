@@ -61,10 +61,8 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
 def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
     """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, n_dof), Pa per m and rad.
 
-    Parameters
-    ----------
-    fibres : ndarray, shape (n_fibres, 2), optional
-        Points (y, z) of the section, m; by default those of `Section.fibres` (highest and lowest first).
+    `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default those of `Section.fibres` (highest and
+    lowest first).
     """
     section = frame.beams[int(element)].section
     points = np.array(section.fibres if fibres is None else fibres, float).reshape(-1, 2)
@@ -214,10 +212,7 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
     """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
-    Parameters
-    ----------
-    forces : ndarray, shape (12 n_elements,)
-        Of `section_force_field`.
+    `forces`: of `section_force_field`, shape (12 n_elements,).
 
     Returns
     -------

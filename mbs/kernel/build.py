@@ -107,12 +107,8 @@ def compiler() -> str:
 def compile_library(target: str | None = None, out: str | Path | None = None) -> Path:
     """Compile the kernel, once for all folders that hold the same sources.
 
-    Parameters
-    ----------
-    target : str, optional
-        Triple as `zig cc -target` takes it; by default the platform this runs on.
-    out : path, optional
-        The library to write; by default `lib/` beside this file, under the platform's usual name.
+    `target`: triple as `zig cc -target` takes it; by default the platform this runs on; `out`: the library to write; by
+    default `lib/` beside this file, under the platform's usual name.
     """
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)

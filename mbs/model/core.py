@@ -78,13 +78,7 @@ class ModelCore(Register):
         return tuple(len(part) for part in parts)
 
     def add(self, element: ElementRecord) -> ElementRecord:
-        """Add a force element by its record.
-
-        Parameters
-        ----------
-        element : ElementRecord
-            From the ``record`` method of an element of `mbs.elements`.
-        """
+        """Add a force element by its record. `element`: from the ``record`` method of an element of `mbs.elements`."""
         instance_of(ElementRecord, element, "The element of Model.add", "an ElementRecord")
         for signal in element.signals:
             self.expression(signal, f"The element '{element.name}'")

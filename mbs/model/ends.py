@@ -49,10 +49,7 @@ def body_and_point(
 def on_one_body(body_1: Body, body_2: Body) -> bool:
     """Whether two bodies are the same rigid body, or both the ground, so that nothing can move between them.
 
-    Parameters
-    ----------
-    body_1, body_2 : Body
-        A body with ports is the body that has them; two nodes of a flexible body are two.
+    `body_1`, `body_2`: a body with ports is the body that has them; two nodes of a flexible body are two.
     """
     if body_1.model is not body_2.model:
         return False

@@ -106,10 +106,7 @@ class FlexibleBody(Body):
     def combination(self, weights: ArrayLike) -> Affine:
         """A sum of amplitudes, each times a weight.
 
-        Parameters
-        ----------
-        weights : array_like, shape (n_modes,)
-            What `ReducedBody.recovery` gives per unit amplitude, such as a bending moment.
+        `weights`: what `ReducedBody.recovery` gives per unit amplitude, such as a bending moment, shape (n_modes,).
 
         Returns
         -------
@@ -134,12 +131,7 @@ class FlexibleBody(Body):
         return self._interfaces[number]
 
     def interface_at(self, position: ArrayLike, what: str) -> Interface:
-        """The node at a place.
-
-        Parameters
-        ----------
-        position : array_like, shape (3,)
-            Earth axes in the reference configuration, m.
+        """The node at a place. `position`: earth axes in the reference configuration, m, shape (3,).
 
         Raises
         ------
@@ -160,10 +152,7 @@ class FlexibleBody(Body):
     def point(self, position: ArrayLike) -> AffineVector:
         """The node at a place, or the origin of the frame.
 
-        Parameters
-        ----------
-        position : array_like, shape (3,)
-            Earth axes in the reference configuration, m.
+        `position`: earth axes in the reference configuration, m, shape (3,).
 
         Raises
         ------
@@ -220,14 +209,7 @@ class FlexibleBody(Body):
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
         """Refused: masses belong to the nodes of the finite-element model.
 
-        Parameters
-        ----------
-        mass : float
-            kg.
-        centre : ndarray, shape (3,)
-            m.
-        second_moment : ndarray, shape (3, 3)
-            kg m2.
+        `mass`: in kg; `centre`: in m, shape (3,); `second_moment`: in kg m2, shape (3, 3).
 
         Raises
         ------
@@ -285,10 +267,7 @@ class Interface(Body):
     def point(self, position: ArrayLike | None = None) -> AffineVector:
         """The node, or a point fixed to it by a rigid arm.
 
-        Parameters
-        ----------
-        position : array_like, shape (3,), optional
-            Earth axes in the reference configuration, m; by default the node.
+        `position`: earth axes in the reference configuration, m, shape (3,); by default the node.
         """
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth
@@ -310,10 +289,7 @@ class Interface(Body):
         The node turns against the frame by ``theta = Theta eta`` (equation (9) for unit vectors). With t = A theta, the
         vector V is A v turned by Cayley's rotation, ``V - A v = t x (A v + V) / 2``: bilinear, and V keeps its length.
 
-        Parameters
-        ----------
-        components : array_like, shape (3,)
-            Earth axes in the reference configuration.
+        `components`: earth axes in the reference configuration, shape (3,).
         """
         v = vector(components, 3, f"a vector of interface '{self.name}'")
         carried = self.owner.vector(v)

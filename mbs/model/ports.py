@@ -48,10 +48,7 @@ class PortedBody(Body):
     def point(self, position: ArrayLike) -> AffineVector:
         """The port at a place, else the point of the body.
 
-        Parameters
-        ----------
-        position : array_like, shape (3,)
-            Earth axes in the reference configuration, m.
+        `position`: earth axes in the reference configuration, m, shape (3,).
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:

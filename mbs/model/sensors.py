@@ -20,13 +20,7 @@ RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
 
 def component_number(component: str, dimension: int, what: str) -> int:
-    """Number of a component.
-
-    Parameters
-    ----------
-    dimension : int
-        2 or 3.
-    """
+    """Number of a component. `dimension`: 2 or 3."""
     k = COMPONENTS.get(component, -1) if isinstance(component, str) else -1
     if not 0 <= k < dimension:
         names = "'x' or 'y'" if dimension == 2 else "'x', 'y' or 'z'"

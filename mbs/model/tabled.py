@@ -146,12 +146,7 @@ class TabledNumber(Coordinate):
 def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
     """Functions of a tabled body, shape (..., 12), from places of its centre of mass and rotations on the base.
 
-    Parameters
-    ----------
-    places : ndarray, shape (..., 3)
-        m.
-    rotations : ndarray, shape (..., 3, 3)
-        From the axes as drawn.
+    `places`: in m, shape (..., 3); `rotations`: from the axes as drawn, shape (..., 3, 3).
     """
     axes = np.swapaxes(rotations, -1, -2).reshape(*rotations.shape[:-2], 9)
     return np.concatenate([places - base.com, axes], axis=-1)

@@ -16,10 +16,7 @@ def missed_load(one: Array, other: Array) -> float:
     Compared are means of `WIDTH` samples: a landing that comes a sample later, or whose peak lies between two samples,
     has the same mean. Shorter runs have none.
 
-    Parameters
-    ----------
-    one, other : array of shape (n,)
-        The load at the same samples.
+    `one`, `other`: the load at the same samples, shape (n,).
     """
     if len(one) < 2 * WIDTH:
         return 0.0

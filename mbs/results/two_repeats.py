@@ -17,12 +17,8 @@ EVENT_ORDER = 1.75  # behind abrupt events: between that of the event's time, on
 def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
     """Whether the repeat that gave the error may itself be off by so much that the verdict changes.
 
-    Parameters
-    ----------
-    known : Accuracy
-        By the finer of two repeats.
-    apart : mapping of str to float
-        What both differ by over the range, per unit: by order one the error of the finer one.
+    `known`: by the finer of two repeats; `apart`: what both differ by over the range, per unit: by order one the error
+    of the finer one.
     """
     above = {unit: error - WARNED_ERROR for unit, error in known.units.items()}
     surely_wrong = any(more >= apart[unit] for unit, more in above.items())

@@ -18,10 +18,7 @@ MOST = 2000
 def draw_road(road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str) -> None:
     """Draw heights and frictions from above, x to the right and y up, and the heights along the middle.
 
-    Parameters
-    ----------
-    file : Path
-        A PNG, or what Matplotlib writes by the suffix.
+    `file`: a PNG, or what Matplotlib writes by the suffix.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

@@ -30,14 +30,7 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     coherence of two tracks b apart follows from the density: (x K1(x))^2 with x = 2 pi n b and the modified Bessel
     function K1.
 
-    Parameters
-    ----------
-    spacing : float
-        m.
-    density : float
-        Gd(n0), m3.
-    seed : int
-        Of the phases.
+    `spacing`: in m; `density`: gd(n0), m3; `seed`: of the phases.
 
     Returns
     -------

@@ -115,12 +115,7 @@ def tell(road: SampledRoad) -> None:
 def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:
     """Heights of the surface of a grid, as the kernel computes them.
 
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny)
-        Of the road, contiguous.
-    places : ndarray, shape (n, 2)
-        x and y, m.
+    `heights`: of the road, contiguous, shape (nx, ny); `places`: x and y, m, shape (n, 2).
 
     Returns
     -------

@@ -26,12 +26,7 @@ EDGE = 1e-3  # m, along which the step of a kerb is drawn
 
 
 def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
-    """A road as what draws reads it.
-
-    Parameters
-    ----------
-    road : PlaneRoad, KerbRoad or GridRoad
-        As `mbs.roads.read_road` reads it, or of a model.
+    """A road as what draws reads it. `road`: as `mbs.roads.read_road` reads it, or of a model.
 
     Returns
     -------
@@ -66,10 +61,7 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
 def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Roads of a scene with those of files read.
 
-    Parameters
-    ----------
-    roads : sequence of mapping
-        Of a scene; the path of an entry of the kind "file" is one of this machine.
+    `roads`: of a scene; the path of an entry of the kind "file" is one of this machine.
 
     Returns
     -------

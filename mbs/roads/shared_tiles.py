@@ -72,10 +72,7 @@ class SharedWriter:
     def row(self, heights: Float, frictions: Float | None) -> None:
         """Add the next 32 points in x and all in y.
 
-        Parameters
-        ----------
-        heights, frictions : ndarray, shape (32 or what is left, ny)
-            m; frictions None where the file has one.
+        `heights`, `frictions`: in m, shape (32 or what is left, ny); frictions None where the file has one.
         """
         check_grid(heights, frictions, self.name)
         z = _whole(heights)
@@ -148,14 +145,8 @@ def polynomial_values(c: Float) -> Float:
 def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | None]:
     """Of each tile the fewest coefficients that give its heights within the tolerance; None where none do.
 
-    Parameters
-    ----------
-    blocks : ndarray, shape (tiles, n, n)
-        Heights, m.
-    places : ndarray, shape (n,)
-        Where in a tile they are, -1 to 1.
-    tolerance : float
-        m; 0: only level tiles are polynomials.
+    `blocks`: heights, m, shape (tiles, n, n); `places`: where in a tile they are, -1 to 1, shape (n,); `tolerance`: in
+    m; 0: only level tiles are polynomials.
     """
     found: list[Float | None] = [None] * len(blocks)
     first = blocks[:, :1, :1]
@@ -211,12 +202,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Numbers and values of tiles.
 
-    Parameters
-    ----------
-    file : file
-        Open.
-    name : object
-        What errors call it.
+    `file`: open; `name`: what errors call it.
 
     Yields
     ------

@@ -24,12 +24,7 @@ def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> st
     surface. A face that rises by more than the radius over half of it, or from one point to the next, can be run into
     so deeply that the centre gets below the surface.
 
-    Parameters
-    ----------
-    name : object
-        How the sentence calls it.
-    radius : float
-        Of the wheel, m.
+    `name`: how the sentence calls it; `radius`: of the wheel, m.
     """
     heights = np.asarray(road.heights, float)
     highest, place, run = radius, None, 0.0

@@ -17,10 +17,7 @@ def pose_outputs(model: Model) -> None:
     z = 0 and turn about z, particles do not turn. A flexible body adds its amplitudes, `body.NAME.mode_1` and on,
     unless the model names others (`Model.more_poses`).
 
-    Parameters
-    ----------
-    model : Model
-        Not compiled yet.
+    `model`: not compiled yet.
     """
     sensed = {sensor.name for sensor in model.sensors}
     for body in model.bodies:

@@ -33,12 +33,7 @@ Scene = dict[str, Any]
 def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
     """The scene of a model and the places of its frames.
 
-    Parameters
-    ----------
-    places : Places
-        Of its bodies among the coordinates.
-    q : ndarray, shape (nq,)
-        Coordinates at the start.
+    `places`: of its bodies among the coordinates; `q`: coordinates at the start, shape (nq,).
     """
     found = touched(model, names)
     meshes: dict[str, Any] = {}

@@ -34,10 +34,7 @@ def left_out_of_run(
 ) -> Callable[[int], LeftOut | None]:
     """What makes of the number of samples the sensors that a run leaves out; made at its start.
 
-    Parameters
-    ----------
-    every : int
-        Steps from one sample to the next.
+    `every`: steps from one sample to the next.
     """
     names = names_left_out(simulation.system)
     if not names:

@@ -20,14 +20,8 @@ def refusal(
 ) -> SimulationError:
     """An error of the kernel as a SimulationError.
 
-    Parameters
-    ----------
-    simulation : SteppedSystem
-        In the last good state.
-    what : str
-        The beginning of the sentence: what was tried.
-    trajectory : Trajectory, optional
-        What was recorded until then.
+    `simulation`: in the last good state; `what`: the beginning of the sentence: what was tried; `trajectory`: what was
+    recorded until then.
 
     Returns
     -------

@@ -185,10 +185,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     the step. Where they differ it is repeated with half the step, near the limit with a quarter, and if these differ
     with an eighth, then a 16th; with less where steps were halved. With `Repeats.twin` only the first of these is made.
 
-    Parameters
-    ----------
-    always : bool
-        Whether a run that is plainly smooth is repeated too.
+    `always`: whether a run that is plainly smooth is repeated too.
     """
     system, run, h = repeats.system, repeats.run, repeats.h
     report, known = run[0].report, run[0].accuracy

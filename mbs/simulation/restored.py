@@ -12,12 +12,7 @@ from mbs.system.system import System
 
 
 def restored(system: System, settings: Settings, road_paths: Mapping[int, str], state: bytes) -> SteppedSystem:
-    """A System at a state of another instance of it.
-
-    Parameters
-    ----------
-    state : bytes
-        By `Instance.save`.
+    """A System at a state of another instance of it. `state`: by `Instance.save`.
 
     Raises
     ------

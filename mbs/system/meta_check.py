@@ -27,12 +27,7 @@ _COUNTED = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type",
 def problem_of(meta: Any, lengths: Mapping[str, int]) -> str:
     """What is wrong with it, as the end of a sentence; empty if nothing is.
 
-    Parameters
-    ----------
-    meta : any
-        As read.
-    lengths : mapping of str to int
-        Lengths of the arrays of the System.
+    `meta`: as read; `lengths`: lengths of the arrays of the System.
     """
     if not isinstance(meta, dict):
         return "they are no table"

@@ -25,12 +25,7 @@ _PLAIN = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
 
 
 def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
-    """Refuse what no tyre has; 0 counts as not given.
-
-    Parameters
-    ----------
-    numbers : mapping of str to float
-        By their keys, in SI units.
+    """Refuse what no tyre has; 0 counts as not given. `numbers`: by their keys, in SI units.
 
     Raises
     ------

@@ -35,10 +35,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
     Slips together follow the friction ellipse, of which TMeasy has a form of its own; camber thrust and bore torque are
     left out.
 
-    Parameters
-    ----------
-    tyre : Tyre
-        On the road of its reference friction.
+    `tyre`: on the road of its reference friction.
 
     Returns
     -------
@@ -127,10 +124,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     Its nominal load is that of the tyre, or half of the largest load of the coefficients where that is less. Shifts,
     camber, moments beside the trail's and the speed's influence are left out.
 
-    Parameters
-    ----------
-    tyre : MagicTyre
-        At its nominal pressure.
+    `tyre`: at its nominal pressure.
 
     Returns
     -------

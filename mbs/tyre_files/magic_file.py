@@ -145,12 +145,7 @@ class TyreFile:
 
 
 def read_tyre(file: str | Path) -> TyreFile:
-    """A tyre from a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2.
-
-    Parameters
-    ----------
-    file : path
-        Usually with the extension .tir.
+    """A tyre from a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
 
     Raises
     ------

@@ -72,12 +72,7 @@ class PropertyText:
 
 
 def read_properties(file: str | Path) -> PropertyText:
-    """Sections of a tyre property file.
-
-    Parameters
-    ----------
-    file : path
-        Text in UTF-8 or Latin-1; what counts is ASCII.
+    """Sections of a tyre property file. `file`: text in UTF-8 or Latin-1; what counts is ASCII.
 
     Raises
     ------

@@ -15,10 +15,7 @@ Array = NDArray[np.float64]
 def at_load(pair: Sequence[float], q: float) -> float:
     """A force of TMeasy at q nominal loads from those at one and two: a parabola through 0.
 
-    Parameters
-    ----------
-    q : float
-        Load over the nominal load.
+    `q`: load over the nominal load.
     """
     first, second = pair
     return q * (2.0 * first - 0.5 * second - (first - 0.5 * second) * q)
@@ -27,14 +24,8 @@ def at_load(pair: Sequence[float], q: float) -> float:
 def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slides_at: float, slip: ArrayLike) -> Array:
     """Force of TMeasy over a slip, odd in it (Hirschberg, Rill and Weinfurter, 2007).
 
-    Parameters
-    ----------
-    slope, most, slides : float
-        Initial slope, largest and sliding force, N.
-    most_at, slides_at : float
-        Slips where the force is largest and from which on it slides.
-    slip : array_like
-        Refers to the speed of the rolling wheel.
+    `slope`, `most`, `slides`: initial slope, largest and sliding force, N; `most_at`, `slides_at`: slips where the
+    force is largest and from which on it slides; `slip`: refers to the speed of the rolling wheel.
 
     Returns
     -------
@@ -52,10 +43,7 @@ def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slide
 def tmeasy_trail(first: float, zero: float, end: float, slip: ArrayLike) -> Array:
     """Trail of TMeasy over the length of the patch, at a lateral slip.
 
-    Parameters
-    ----------
-    first, zero, end : float
-        At no slip; slips where it first vanishes and where it ends.
+    `first`, `zero`, `end`: at no slip; slips where it first vanishes and where it ends.
     """
     s = np.abs(np.asarray(slip, float))
     w, x = zero / end, s / zero
@@ -72,12 +60,7 @@ def _sine(B: float, C: float, D: float, E: float, x: Array) -> Array:
 def magic_longitudinal(given: Mapping[str, float], nominal: float, load: float, kappa: ArrayLike) -> Array:
     """Longitudinal force of the Magic Formula at pure slip (4.E9 to 4.E18), N.
 
-    Parameters
-    ----------
-    given : mapping
-        Coefficients; others are the usual ones.
-    nominal, load : float
-        N.
+    `given`: coefficients; others are the usual ones; `nominal`, `load`: in N.
     """
     c = {**MAGIC_COEFFICIENTS, **given}
     nominal *= c["LFZO"]
@@ -99,10 +82,7 @@ def cornering_stiffness(given: Mapping[str, float], nominal: float, load: float)
 def magic_lateral(given: Mapping[str, float], nominal: float, load: float, alpha: ArrayLike) -> Array:
     """Lateral force against the slip at pure slip (4.E19 to 4.E30), N.
 
-    Parameters
-    ----------
-    alpha : array_like
-        The slip angle, rad, up to 5.2; its tangent from 6.1 on.
+    `alpha`: the slip angle, rad, up to 5.2; its tangent from 6.1 on.
     """
     c = {**MAGIC_COEFFICIENTS, **given}
     dfz = load / (nominal * c["LFZO"]) - 1.0

@@ -47,12 +47,7 @@ PRESSURES = ("INFLPRES", "NOMPRES")
 
 
 def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
-    """Numbers of a file in SI units.
-
-    Parameters
-    ----------
-    numbers : dict of str to float
-        As the file gives them.
+    """Numbers of a file in SI units. `numbers`: as the file gives them.
 
     Raises
     ------

@@ -130,14 +130,8 @@ class Axle(Section):
     ) -> dict[str, Spin]:
         """Add the axle and return the spins of its wheels by the wheels' names.
 
-        Parameters
-        ----------
-        axle : str
-            "front" or "rear".
-        tie_rod : TieRodEnd
-            Gives what the inner ends of the tie rods hang on.
-        brake : callable
-            Adds the brake of a wheel, of which it is given the spin inertia, kg.m2.
+        `axle`: "front" or "rear"; `tie_rod`: gives what the inner ends of the tie rods hang on; `brake`: adds the brake
+        of a wheel, of which it is given the spin inertia, kg.m2.
         """
         spins, corners = {}, []
         springs = AxleSprings(self.spring, self.damper, self.stops)
@@ -174,6 +168,6 @@ class Axle(Section):
             return spin
         made = self.tyre.tyre(corner.side.name)
         tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
-        for name, real in self.tyre.parameters.items():
-            b.tie(self.tyre, name, tyre, real)
+        b.tie_numbers(self.tyre, made, tyre)
+        b.tie(self.tyre, "grip", tyre, "friction_factor")
         return spin

@@ -52,13 +52,7 @@ class Brakes(Section):
         return b.port(f"wheel_{wheel}.brake_pressure", 0.0, LARGEST_PRESSURE, "Pa", text)
 
     def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
-        """Add the brake of a wheel.
-
-        Parameters
-        ----------
-        spin_inertia : float
-            Of the wheel, kg.m2.
-        """
+        """Add the brake of a wheel. `spin_inertia`: of the wheel, kg.m2."""
         behind = corner.side.axle == "rear"
         stiffness = (self.rear if behind else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)

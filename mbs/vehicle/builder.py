@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from mbs.elements.reals import declared
 from mbs.model import Model
 from mbs.model.coordinate import Coordinate
 from mbs.model.inputs import new_input
@@ -80,14 +81,8 @@ class CarBuilder:
     ) -> Input:
         """An input that another program sets, 0 until then.
 
-        Parameters
-        ----------
-        least, largest : float
-            Ends of its range, at which larger values are held, in `unit`.
-        role, near, figures : Role, str, tuple of float
-            What an FMU watches it for, by which sensor, and what it must know.
-        whole : bool
-            Whether it is a whole number.
+        `least`, `largest`: ends of its range, at which larger values are held, in `unit`; `role`, `near`, `figures`: what
+        an FMU watches it for, by which sensor, and what it must know; `whole`: whether it is a whole number.
         """
         limits = 0.0, least, largest, unit, description
         channel = new_input(self.m, name, *limits, whole, True, role, near, figures=figures)
@@ -137,6 +132,16 @@ class CarBuilder:
         path = section.key(name) + (f".{part}" if part else "")
         tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part, late))
         tied.targets.append((owner, real, scale, offset, inverse))
+
+    def tie_numbers(self, section: Section, made: object, owner: Owner) -> None:
+        """`tie` each number that may change and that has the same name in the element and in the file.
+
+        `made`: the element, whose values are in the model; `owner`: as in `Model.parameter`.
+        """
+        for name in declared(type(made)):
+            quantity = section.quantity(name) if name in type(section).model_fields else None
+            if quantity is not None and quantity.change is not None:
+                self.tie(section, name, owner, name, value=getattr(made, name))
 
     def parameters(
         self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]], *, late: bool = False

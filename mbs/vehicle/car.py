@@ -326,14 +326,8 @@ class Car(CarContent):
 def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False) -> Car:
     """The car that the content of a file describes.
 
-    Parameters
-    ----------
-    folder : Path
-        Where its tables lie.
-    at_rest : bool
-        Whether the car must be seen to come to rest.
-    warn : bool
-        Whether to warn of what is odd.
+    `folder`: where its tables lie; `at_rest`: whether the car must be seen to come to rest; `warn`: whether to warn of
+    what is odd.
 
     Raises
     ------

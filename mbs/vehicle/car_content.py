@@ -182,13 +182,7 @@ class CarContent(Section):
         return found
 
     def order(self, path: str) -> int:
-        """Place of a key path in the file's type.
-
-        Parameters
-        ----------
-        path : str
-            Of a number.
-        """
+        """Place of a key path in the file's type. `path`: of a number."""
         return self._paths.index(path)
 
     @cached_property

@@ -19,12 +19,7 @@ PARTS = {part: str(k) for parts in (AXES, PRODUCTS) for k, part in enumerate(par
 def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: str) -> dict[str, Any]:
     """A copy with other values.
 
-    Parameters
-    ----------
-    data : mapping
-        Tables of the file.
-    values : mapping of str to object
-        By key path; keys that are not there yet are added.
+    `data`: tables of the file; `values`: by key path; keys that are not there yet are added.
 
     Raises
     ------

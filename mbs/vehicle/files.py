@@ -11,12 +11,7 @@ from mbs.vehicle.errors import CarFileError
 def beside(folder: Path, name: str, key: str) -> Path:
     """A file of the car's folder.
 
-    Parameters
-    ----------
-    name : str
-        As the car file gives it.
-    key : str
-        Key path that gives it.
+    `name`: as the car file gives it; `key`: key path that gives it.
 
     Raises
     ------

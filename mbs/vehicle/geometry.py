@@ -15,12 +15,7 @@ LEAST = 0.02  # m: shorter links, arms and levers are refused
 def apart(points: Section, first: str, second: str, what: str, least: float = LEAST) -> Iterator[str]:
     """Two points must not be at one place.
 
-    Parameters
-    ----------
-    what : str
-        Stands between them, as in "the tie rod".
-    least : float
-        Distance, m.
+    `what`: stands between them, as in "the tie rod"; `least`: distance, m.
     """
     far = math.dist(getattr(points, first), getattr(points, second))
     if far < least:
@@ -32,14 +27,8 @@ def off_line(
 ) -> Iterator[str]:
     """A point must not lie on the line through two others.
 
-    Parameters
-    ----------
-    what : str
-        What is between point and line, as in "the steering arm".
-    line : str
-        What the line is, as in "the steering axis".
-    least : float
-        Distance, m.
+    `what`: what is between point and line, as in "the steering arm"; `line`: what the line is, as in "the steering
+    axis"; `least`: distance, m.
     """
     point, a, b = (np.array(getattr(points, n)) for n in (name, *ends))
     length = float(np.linalg.norm(b - a))
@@ -93,15 +82,8 @@ def steering_axis(points: Section, lower: str, upper: str) -> Iterator[str]:
 def arm(points: Section, part: str, what: str) -> Iterator[str]:
     """An arm with two pivots and a ball joint has an axis and a length, and its ends are where their names say.
 
-    Parameters
-    ----------
-    points : Section
-        Table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
-        ``{part}_ball_joint``.
-    part : str
-        "lower" or "upper".
-    what : str
-        What it is, as in "wishbone".
+    `points`: table of the points, with those of the arm as ``{part}_pivot_front``, ``{part}_pivot_rear`` and
+    ``{part}_ball_joint``; `part`: "lower" or "upper"; `what`: what it is, as in "wishbone".
     """
     pivots, ball = (f"{part}_pivot_front", f"{part}_pivot_rear"), f"{part}_ball_joint"
     yield from apart(points, *pivots, f"the axis of the {part} {what}")

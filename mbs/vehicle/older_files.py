@@ -13,10 +13,7 @@ def from_first(data: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     tyres held on a road whose friction was the largest longitudinal force over the load, at the nominal load;
     schema 2 has that number.
 
-    Parameters
-    ----------
-    data : mapping
-        Content of the file, of which nothing is checked yet.
+    `data`: content of the file, of which nothing is checked yet.
 
     Returns
     -------

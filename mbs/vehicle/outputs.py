@@ -198,10 +198,7 @@ def work_outputs(m: Model) -> None:
 def steering_work(m: Model, ports: Ports) -> None:
     """Work of a steering without a column since the start, behind all other outputs.
 
-    Parameters
-    ----------
-    ports : Ports
-        One for the travel of the rack has its work in `energy.ports`.
+    `ports`: one for the travel of the rack has its work in `energy.ports`.
     """
     friction = [e for e in m.elements if e.name == "steering friction"]
     of_port = ports.steering == "rack_position"
@@ -217,13 +214,7 @@ def steering_work(m: Model, ports: Ports) -> None:
 
 
 def health_outputs(m: Model) -> None:
-    """Energies and the work of the solver.
-
-    Parameters
-    ----------
-    m : Model
-        The whole car.
-    """
+    """Energies and the work of the solver. `m`: the whole car."""
     for kind in ("kinetic", "gravity", "elastic", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
     for kind in ("iterations", "violation", "residual", "halvings", "status"):

@@ -22,10 +22,7 @@ class Payload(Section):
     def build(self, b: CarBuilder, name: str, fidelity: Fidelity) -> None:
         """Add the payload.
 
-        Parameters
-        ----------
-        fidelity : Fidelity
-            Of the chassis: a frame that may bend takes the force of the payload at several joints.
+        `fidelity`: of the chassis: a frame that may bend takes the force of the payload at several joints.
         """
         body, share = b.chassis.frame, None
         if not fidelity.rigid:

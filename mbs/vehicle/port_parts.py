@@ -115,10 +115,7 @@ def wind_port(b: CarBuilder) -> Wind | None:
 def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
     """Answers of another program on the road under each wheel, and the mean of them under the chassis.
 
-    Parameters
-    ----------
-    road : RoadSection
-        Friction until there are answers.
+    `road`: friction until there are answers.
 
     Returns
     -------
@@ -134,13 +131,7 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
 
 
 def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
-    """Radius and moments of the tyre of a wheel.
-
-    Parameters
-    ----------
-    w : str
-        The wheel, as "FL".
-    """
+    """Radius and moments of the tyre of a wheel. `w`: the wheel, as "FL"."""
     m.sense_element(f"wheel_{w}.loaded_radius", tyre, "loaded_radius")
     if "overturning_moment" in {output.name for output in tyre.outputs}:
         m.sense_element(f"wheel_{w}.Mx", tyre, "overturning_moment")
@@ -151,13 +142,7 @@ def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
 
 
 def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
-    """What loops through ports need beside the outputs that every car has.
-
-    Parameters
-    ----------
-    spins : mapping of str to Spin
-        Of the wheels, by their names.
-    """
+    """What loops through ports need beside the outputs that every car has. `spins`: of the wheels, by their names."""
     m = b.m
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")

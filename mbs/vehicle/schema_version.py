@@ -14,12 +14,7 @@ SCHEMA = 2
 
 
 def of_this_version(data: Mapping[str, Any], what: str) -> tuple[Mapping[str, Any], list[str]]:
-    """Content in the form of this release, before its keys are looked at.
-
-    Parameters
-    ----------
-    data : mapping
-        Content of the file.
+    """Content in the form of this release, before its keys are looked at. `data`: content of the file.
 
     Returns
     -------

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
-from typing import Any, get_args
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from pydantic import BaseModel, ConfigDict, PrivateAttr
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
 
-from mbs.vehicle.quantities import Quantity
+from mbs.elements.reals import texts_of
+from mbs.vehicle.quantities import Quantity, quantities_in
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Element = TypeVar("Element", bound="DataclassInstance")
 
 AXES, PRODUCTS = ("x", "y", "z"), ("xy", "xz", "yz")
 """Names of the numbers of a point or of moments of inertia, and of products of inertia."""
@@ -16,12 +24,33 @@ AXES, PRODUCTS = ("x", "y", "z"), ("xy", "xz", "yz")
 class Section(BaseModel):
     """Base of all tables of a car file: no other keys than its own, and it cannot be changed.
 
-    The strings under the attributes are the descriptions of the file's reference and of the FMU's parameters.
+    The strings under the attributes are the descriptions of the file's reference and of the FMU's parameters. An
+    attribute without one has that of the same name in the element `of`, less the unit.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, allow_inf_nan=False)
 
     _path: str = PrivateAttr("")
+
+    def __init_subclass__(cls, of: type | None = None, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        texts, known = {} if of is None else texts_of(of), vars(sys.modules[cls.__module__])
+        for name in texts.keys() & cls.__annotations__.keys() - (texts_of(cls).keys() if texts else set()):
+            text = _without_unit(texts[name], eval(cls.__annotations__[name], known))
+            setattr(cls, name, Field(cls.__dict__.get(name, ...), description=text))
+
+    def element(self, kind: type[Element], **more: Any) -> Element:
+        """An element that has the numbers of this table in its fields of the same names.
+
+        Parameters
+        ----------
+        kind : type
+            Its class.
+        **more
+            Its other fields, and those that are not as in the file.
+        """
+        own = {f.name: getattr(self, f.name) for f in fields(kind) if f.name in type(self).model_fields}
+        return kind(**(own | more))
 
     @property
     def path(self) -> str:
@@ -49,10 +78,7 @@ class Section(BaseModel):
     def numbers(self, field: str) -> dict[str, float]:
         """Numbers of a field by the names of parameters; those of a list have a part behind the field's name.
 
-        Parameters
-        ----------
-        field : str
-            One with a quantity, whose value is not None.
+        `field`: one with a quantity, whose value is not None.
         """
         value, path = getattr(self, field), self.key(field)
         if not isinstance(value, tuple):
@@ -63,10 +89,7 @@ class Section(BaseModel):
     def locate(self, path: str) -> None:
         """Tell this section and those in it where they stand; done once by the reader.
 
-        Parameters
-        ----------
-        path : str
-            Key path of this section.
+        `path`: key path of this section.
         """
         self._path = path
         for name in type(self).model_fields:
@@ -74,14 +97,17 @@ class Section(BaseModel):
                 value.locate(self.key(key))
 
 
-def sections_of(section: Section) -> Iterator[Section]:
-    """A section and all in it, in the order of their types.
+def _without_unit(text: str, annotation: Any) -> str:
+    """A sentence on a number without the unit, which a quantity has beside it."""
+    units = {q.unit.replace(".", " ") for q in quantities_in(annotation)} - {"1"}
+    assert all(f", {unit}" in text for unit in units), f"{text!r} must say its unit, {units}"
+    for unit in units or {"a ratio"}:
+        text = text.replace(f", {unit}", "", 1)
+    return text
 
-    Parameters
-    ----------
-    section : Section
-        The first.
-    """
+
+def sections_of(section: Section) -> Iterator[Section]:
+    """A section and all in it, in the order of their types. `section`: the first."""
     yield section
     for name in type(section).model_fields:
         for _, inner in _sections(name, getattr(section, name)):

@@ -26,34 +26,17 @@ class Side:
         return self.axle[0].upper() + self.name[0].upper()
 
     def point(self, left: Sequence[float]) -> Point:
-        """A point of this side from the one of the left side.
-
-        Parameters
-        ----------
-        left : sequence of float
-            m, as drawn.
-        """
+        """A point of this side from the one of the left side. `left`: in m, as drawn."""
         return (left[0], self.sign * left[1], left[2])
 
     def body(self, model: Model, name: str, part: Part) -> Body:
         """A part of this side; its principal inertias are along the earth axes.
 
-        Parameters
-        ----------
-        name : str
-            The wheel's name follows it.
-        part : Part
-            Mass, centre and inertia of the left one.
+        `name`: the wheel's name follows it; `part`: mass, centre and inertia of the left one.
         """
         return model.body(f"{name} {self.wheel}", mass=part.mass, com=self.point(part.com), inertia=part.inertia)
 
 
 def sides(axle: str) -> tuple[Side, Side]:
-    """Left and right of an axle.
-
-    Parameters
-    ----------
-    axle : str
-        "front" or "rear".
-    """
+    """Left and right of an axle. `axle`: "front" or "rear"."""
     return Side(axle, "left", 1.0), Side(axle, "right", -1.0)

@@ -147,7 +147,7 @@ class Damper(Section):
         return list(self.table)
 
 
-class Stops(Section):
+class Stops(Section, of=EndStops):
     """Bump and rebound stops, whose stiffness is four times as large after a progression; then metal meets metal.
 
     Over the compression x a stop has the force k x (1 + (x/L)^2), times 1 + chi x' while it is compressed and
@@ -161,39 +161,22 @@ class Stops(Section):
     stiffness: StopStiffness
     """k, where a stop begins."""
     bump_progression: SmallLength
-    """L of the bump stop."""
     bump_travel: SmallLength
-    """Compression of the bump stop at which metal meets metal."""
     rebound_progression: SmallLength
-    """L of the rebound stop."""
     rebound_travel: SmallLength
-    """Compression of the rebound stop at which metal meets metal."""
     metal_stiffness: MetalStiffness
-    """Stiffness of metal on metal."""
     metal_onset: SmallLength
-    """Depth over which it sets in."""
     loss: HysteresisLoss
     """chi."""
 
     def around(self, drawn: float) -> EndStops:
-        """Stops of a spring.
-
-        Parameters
-        ----------
-        drawn : float
-            Length as drawn, m.
-        """
-        return EndStops(
-            drawn - self.bump_gap,
-            self.stiffness,
-            drawn + self.rebound_gap,
-            self.stiffness,
-            bump_progression=self.bump_progression,
-            bump_travel=self.bump_travel,
-            rebound_progression=self.rebound_progression,
-            rebound_travel=self.rebound_travel,
-            metal_stiffness=self.metal_stiffness,
-            metal_onset=self.metal_onset,
+        """Stops of a spring. `drawn`: length as drawn, m."""
+        return self.element(
+            EndStops,
+            bump_length=drawn - self.bump_gap,
+            bump_stiffness=self.stiffness,
+            rebound_length=drawn + self.rebound_gap,
+            rebound_stiffness=self.stiffness,
             bump_loss=self.loss,
             rebound_loss=self.loss,
         )

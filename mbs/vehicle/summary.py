@@ -10,13 +10,7 @@ from mbs.vehicle.section import sections_of
 
 
 def summary(car: Car) -> str:
-    """Masses, loads and dimensions.
-
-    Parameters
-    ----------
-    car : Car
-        Its equilibrium is found.
-    """
+    """Masses, loads and dimensions. `car`: its equilibrium is found."""
     rest = settled(car.model(), car)
     load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
     total = load["front"] + load["rear"]

@@ -28,12 +28,7 @@ class Row:
         return self.cells[column]
 
     def number(self, column: str, low: float, high: float, unit: str) -> float:
-        """A cell as a number.
-
-        Parameters
-        ----------
-        low, high : float
-            Least and largest plausible value.
+        """A cell as a number. `low`, `high`: least and largest plausible value.
 
         Raises
         ------
@@ -50,13 +45,7 @@ class Row:
         return value
 
     def count(self, column: str, most: int) -> int:
-        """A cell as a whole number from 1 on.
-
-        Parameters
-        ----------
-        most : int
-            Largest plausible value.
-        """
+        """A cell as a whole number from 1 on. `most`: largest plausible value."""
         text = self[column]
         if not (text.isascii() and text.isdigit() and 1 <= int(text[:9]) <= most):
             must = f"it must be a whole number between 1 and {most}"
@@ -67,12 +56,8 @@ class Row:
 def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> list[Row]:
     """Lines of a table.
 
-    Parameters
-    ----------
-    key : str
-        Key path of the name in the car's file, for messages.
-    columns : sequence of str
-        Titles that it must have; others may be there too.
+    `key`: key path of the name in the car's file, for messages; `columns`: titles that it must have; others may be
+    there too.
 
     Raises
     ------

@@ -59,12 +59,7 @@ class TabledParts:
     def body(self, name: str, *, mass: float, com: ArrayLike, inertia: ArrayLike) -> Body:
         """A part of the axle by its table.
 
-        Parameters
-        ----------
-        name : str
-            Of the part, which ends with the wheel's.
-        mass, com, inertia
-            As of `Model.body`.
+        `name`: of the part, which ends with the wheel's; `mass`, `com`, `inertia`: as of `Model.body`.
         """
         (part,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
         poses = self._grid.full(part.start, 12)

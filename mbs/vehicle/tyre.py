@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Literal
 
 from mbs.elements.tyre import Tyre, TyreCurve
+from mbs.elements.tyre_bore import TyreBore
 from mbs.vehicle.quantities import (
     CamberSlip,
     CarcassStiffness,
@@ -26,19 +27,14 @@ from mbs.vehicle.section import Section
 from mbs.vehicle.tyre_bore import Bore
 
 
-class Curve(Section):
+class Curve(Section, of=TyreCurve):
     """Steady force over slip in one direction, each at the nominal load and at twice of it."""
 
     slope: tuple[SlopeForce, SlopeForce]
-    """Initial slope, force per slip."""
     max_force: tuple[Force, Force]
-    """Largest force on a road of the reference friction; on another it goes with the friction."""
     max_slip: tuple[Slip, Slip]
-    """Slip where it is reached."""
     slide_force: tuple[Force, Force]
-    """Force of full sliding."""
     slide_slip: tuple[Slip, Slip]
-    """Slip from which on it slides."""
 
     def faults(self) -> Iterator[str]:
         """Force rises to its maximum and falls to sliding, at both loads."""
@@ -61,7 +57,7 @@ class Curve(Section):
                 )
 
 
-class TMeasy(Section):
+class TMeasy(Section, of=Tyre):
     """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119.
 
     The curves hold on a road of the friction `reference_friction`. On a road of another friction, largest and sliding
@@ -74,43 +70,25 @@ class TMeasy(Section):
     kind: Literal["tmeasy"]
     """Names the tyre formula."""
     radius: Length
-    """Free radius."""
     bottoming_radius: Length
-    """Loaded radius below which the rim bears."""
     stiffness: TyreRate
-    """Radial stiffness."""
     damping: TyreDamping
-    """Radial damping."""
     bottoming_stiffness: TyreStiffness
-    """Stiffness of the rim on the road."""
     longitudinal: Curve
-    """Longitudinal force over longitudinal slip."""
     lateral: Curve
-    """Lateral force over lateral slip."""
     trail: tuple[Coefficient, Coefficient]
-    """Dynamic trail over contact length at zero slip."""
     trail_zero: tuple[Slip, Slip]
-    """Lateral slip where the trail first vanishes."""
     trail_end: tuple[Slip, Slip]
-    """Lateral slip where it ends."""
     carcass_stiffness: tuple[CarcassStiffness, CarcassStiffness]
-    """Longitudinal and lateral stiffness of the carcass."""
     carcass_damping: tuple[TyreDamping, TyreDamping]
-    """Longitudinal and lateral damping of the carcass."""
     nominal_load: Force
-    """Load at which the first number of each pair holds."""
     reference_friction: ReferenceFriction
-    """Friction of the road on which the curves hold."""
     max_load_factor: Ratio
-    """Multiple of the nominal load at which the curves are clamped."""
     rolling_resistance: RollingResistance
-    """Coefficient of rolling resistance."""
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""
-    camber_slip: CamberSlip = 0.0
-    """Camber thrust over cornering stiffness: the lateral slip that has the force of a camber whose sine is 1."""
+    camber_slip: CamberSlip = Tyre.camber_slip
     bore: Bore | None = None
-    """Torque against turning about the normal of the road."""
 
     def faults(self) -> Iterator[str]:
         """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too."""
@@ -124,13 +102,6 @@ class TMeasy(Section):
         if not found and not any(True for curve in (self.longitudinal, self.lateral) for _ in curve.faults()):
             for field, _, wrong in self.tyre().faults_over_loads():
                 yield f"{self.key(field)} {wrong}; its two numbers are continued to this load."
-
-    parameters: ClassVar[dict[str, str]] = {
-        "grip": "friction_factor",
-        "stiffness": "stiffness",
-        "rolling_resistance": "rolling_resistance",
-    }
-    """Fields that a parameter may change, and the real of the element that they are."""
 
     @property
     def friction(self) -> tuple[float, float]:
@@ -147,26 +118,11 @@ class TMeasy(Section):
         return self.longitudinal.slope[0], stiffness, self.carcass_damping[0] / stiffness, 0.0
 
     def rolling_radius(self, loaded: float) -> float:
-        """Way of a free wheel per radian, m.
-
-        Parameters
-        ----------
-        loaded : float
-            Loaded radius, m.
-        """
+        """Way of a free wheel per radian, m. `loaded`: loaded radius, m."""
         return (2.0 * self.radius + loaded) / 3.0
 
     def tyre(self, side: str = "left") -> Tyre:
-        """The tyre of the engine, the same on both sides.
-
-        Parameters
-        ----------
-        side : str
-            Not used.
-        """
-        apart = ("kind", "grip", "bore")
-        values = {name: getattr(self, name) for name in type(self).model_fields if name not in apart}
-        for name in ("longitudinal", "lateral"):
-            values[name] = TyreCurve(**dict(getattr(self, name)))
-        bore = None if self.bore is None else self.bore.element
-        return Tyre(**values, friction_factor=self.grip, bore=bore)
+        """The tyre of the engine, the same on both sides. `side`: not used."""
+        curves = {name: getattr(self, name).element(TyreCurve) for name in ("longitudinal", "lateral")}
+        bore = None if self.bore is None else self.bore.element(TyreBore)
+        return self.element(Tyre, **curves, friction_factor=self.grip, bore=bore)

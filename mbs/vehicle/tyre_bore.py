@@ -7,7 +7,7 @@ from mbs.vehicle.quantities import Length, YawDamping, YawStiffness
 from mbs.vehicle.section import Section
 
 
-class Bore(Section):
+class Bore(Section, of=TyreBore):
     """Torque of a patch that turns on the road, after G. Rill, Road Vehicle Dynamics, CRC Press, 2011, section 3.7.
 
     Friction acts at two thirds of the mean of half the length and half the width of the patch; the carcass twists
@@ -15,13 +15,5 @@ class Bore(Section):
     """
 
     width: Length
-    """Width of the patch."""
     stiffness: YawStiffness
-    """Torsional stiffness of the carcass about the normal of the road."""
     damping: YawDamping
-    """Torsional damping of the carcass."""
-
-    @property
-    def element(self) -> TyreBore:
-        """What the engine's tyres take."""
-        return TyreBore(self.width, self.stiffness, self.damping)

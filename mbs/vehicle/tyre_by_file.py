@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from math import atan, sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import PrivateAttr
 
 from mbs.elements.magic_tyre import FACTORS, MagicTyre
+from mbs.elements.tyre_bore import TyreBore
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 _IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
 
-class MagicFormula(Section):
+class MagicFormula(Section, of=MagicTyre):
     """Tyre by the Magic Formula: PAC2002, MF-Tyre 5.2, 6.1 or 6.2.
 
     On a road of another friction than `reference_friction`, LMUX and LMUY of the file are multiplied by the friction of
@@ -38,25 +39,16 @@ class MagicFormula(Section):
     pressure: InflationPressure | None = None
     """Inflation pressure; by default that of the file."""
     reference_friction: ReferenceFriction = 1.0
-    """Friction of the road on which the coefficients hold."""
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""
     lmux: ScalingFactor = 1.0
-    """Factor on LMUX of the file, the largest longitudinal force."""
     lmuy: ScalingFactor = 1.0
-    """Factor on LMUY of the file, the largest lateral force."""
     lkx: ScalingFactor = 1.0
-    """Factor on LKX of the file, the longitudinal slip stiffness."""
     lky: ScalingFactor = 1.0
-    """Factor on LKY of the file, the cornering stiffness."""
     bore: Bore | None = None
-    """Torque against turning on the spot; it fades out up to 1 m/s, from where the file has the moments."""
 
     _read: TyreFile | None = PrivateAttr(None)
     _tyre: MagicTyre | None = PrivateAttr(None)
-
-    parameters: ClassVar[dict[str, str]] = {"grip": "friction_factor", **{name: name for name in FACTORS}}
-    """Fields that a parameter may change, and the real of the element that they are."""
 
     def open(self, folder: Path) -> None:
         """Read the file; done once by the reader of the car.
@@ -98,7 +90,7 @@ class MagicFormula(Section):
             friction_factor=self.grip,
             **more,
         )
-        return made if self.bore is None else replace(made, bore=self.bore.element)
+        return made if self.bore is None else replace(made, bore=self.bore.element(TyreBore))
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -153,13 +145,7 @@ class MagicFormula(Section):
         return by_slip, stiffness, self._left.settling, 1.0
 
     def rolling_radius(self, loaded: float) -> float:
-        """Way of a free wheel per radian, m, at rest with a loaded radius.
-
-        Parameters
-        ----------
-        loaded : float
-            m
-        """
+        """Way of a free wheel per radian, m, at rest with a loaded radius. `loaded`: in m."""
         t, c = self._left, self._left.coefficients
         free = t.radius * c.get("Q_RE0", 1.0)
         depth, unit = free - loaded, t.nominal_load / (t.stiffness * (1.0 + c.get("PFZ1", 0.0) * t.pressure))

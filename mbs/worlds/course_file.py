@@ -94,11 +94,8 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
 def read_course(file: Path) -> dict[str, Float]:
     """Columns of a course file by name.
 
-    Parameters
-    ----------
-    file : Path
-        CSV; its first line may name the columns x, y, z, width and bank, else they are x, y and then z, width, bank as
-        far as there are any. Lines that begin with # are left out.
+    `file`: CSV; its first line may name the columns x, y, z, width and bank, else they are x, y and then z, width, bank
+    as far as there are any. Lines that begin with # are left out.
 
     Raises
     ------

@@ -57,14 +57,8 @@ def make_world(
 ) -> dict[str, Any]:
     """Write the road file of a world, and return its record.
 
-    Parameters
-    ----------
-    file : Path
-        ``.toml`` of a world or of a road, or ``.road``.
-    tell : callable
-        Called with what is done and its part, 0 to 1.
-    thin : bool
-        Fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off.
+    `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with what is done and its part, 0 to 1;
+    `thin`: fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off.
 
     Raises
     ------

@@ -26,12 +26,7 @@ CONES = {"orange": "#e8590c", "yellow": "#f2c200", "blue": "#1c5fd0"}
 def draw_map(record: dict[str, Any], file: Path) -> None:
     """Draw a world from above, x to the right and y up, with its scenery and places.
 
-    Parameters
-    ----------
-    record : dict
-        The JSON file of the world.
-    file : Path
-        A PNG, or what Matplotlib writes by the suffix.
+    `record`: the JSON file of the world; `file`: a PNG, or what Matplotlib writes by the suffix.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.colors import LightSource, to_rgb

@@ -40,10 +40,7 @@ class DrawnPatch:
 def patches_of(terrain: Terrain, tell: Callable[[float], None] = lambda part: None) -> list[DrawnPatch]:
     """Patches that cover a world, those of finer points on the edges of their coarser neighbours.
 
-    Parameters
-    ----------
-    tell : callable
-        Called with the part that is done, 0 to 1.
+    `tell`: called with the part that is done, 0 to 1.
     """
     x0, y0, x1, y1 = terrain.world.bounds
     nx, ny = (max(1, round(side / (CELLS * COARSEST))) for side in (x1 - x0, y1 - y0))

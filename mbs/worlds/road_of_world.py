@@ -36,12 +36,7 @@ def write_world_road(
 ) -> None:
     """Write the road file of a world.
 
-    Parameters
-    ----------
-    tell : callable
-        Called with the part that is done, 0 to 1.
-    thin : bool
-        Rounded, for a page; see `thin_world`.
+    `tell`: called with the part that is done, 0 to 1; `thin`: rounded, for a page; see `thin_world`.
     """
     x0, y0, _, _ = terrain.world.bounds
     dx, dy = terrain.world.spacing

@@ -43,12 +43,7 @@ def _sources(place: Path) -> list[Path]:
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
     """The files of a world in a folder, from those that are kept, or made.
 
-    Parameters
-    ----------
-    key : str
-        From `key_of`.
-    make : callable
-        Writes the files into an empty folder.
+    `key`: from `key_of`; `make`: writes the files into an empty folder.
 
     Returns
     -------

@@ -47,10 +47,7 @@ def thinner(spacing: tuple[float, float]) -> tuple[float, float]:
 def off_by(terrain: Terrain, road: Path) -> Off:
     """Compare a road file with the terrain in the middle of some cells of every tile.
 
-    Parameters
-    ----------
-    road : Path
-        As it lies on the disk.
+    `road`: as it lies on the disk.
     """
     chance = np.random.default_rng(1)
     differences = []

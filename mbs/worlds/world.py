@@ -26,14 +26,8 @@ def shipped_worlds() -> list[str]:
 def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> int:
     """Put the files of a world into a folder; gives the exit code.
 
-    Parameters
-    ----------
-    given : str
-        Name of the package, or a file.
-    picture : Path, optional
-        PNG file of its map.
-    thin : bool
-        Fewer and rounder numbers, for a page.
+    `given`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers, for a
+    page.
 
     Raises
     ------

@@ -25,12 +25,8 @@ def world_record(
 ) -> dict[str, Any]:
     """What the JSON file of a world says.
 
-    Parameters
-    ----------
-    tell : callable
-        Called with the part that is done, 0 to 1.
-    step : float
-        m: the heights that are drawn are whole multiples of it; 0: as they are.
+    `tell`: called with the part that is done, 0 to 1; `step`: m: the heights that are drawn are whole multiples of it;
+    0: as they are.
     """
     world = terrain.world
     patches = patches_of(terrain, lambda part: tell(0.9 * part))

@@ -9,22 +9,21 @@ import importlib
 import inspect
 import pkgutil
 import re
-import textwrap
 from collections.abc import Iterator
 from dataclasses import is_dataclass
-from itertools import pairwise
 from typing import Any
 
 import pytest
 
 import mbs.scenes
-from mbs.elements.reals import declared
+from mbs.elements.reals import declared, texts_of
 from tests.house.test_import_directions import ROOT
 
 ROOMS = ("mbs", "mbs.model", "mbs.elements", "mbs.flexible")
 SECTION = re.compile(r"^(Parameters|Returns|Yields|Raises|Warns|Attributes|Notes|Examples)\n-+$", re.MULTILINE)
 UNIT = re.compile(
-    r"\b(m|mm|m2|kg|m3|m/s2?|s|N|rad|deg|degrees|Hz|J|W|Pa|K|[Ff]actor|[Rr]atio|share|[Cc]oefficient|Multiplies|[Rr]elative|units?"
+    r"\b(m|mm|m2|kg|m3|m/s2?|s|N|rad|deg|degrees|Hz|J|W|Pa|K|[Ff]actor|[Rr]atio|[Ss]hare"
+    r"|[Ee]fficiency|[Cc]oefficient|Multiplies|[Rr]elative|units?"
     r"|[Tt]urns|[Mm]ultiple|[Ff]raction|0 to 1)\b|%|(?:See|As of) `"
 )
 """A unit, a word that says that there is none, or where it stands."""
@@ -139,12 +138,7 @@ def test_a_bare_entry_is_seen():
 def _attributes(kind: type) -> dict[str, str]:
     """The text under each attribute of a class, and of those that it inherits."""
     inherited = _attributes(kind.__base__) if is_dataclass(kind.__base__) else {}
-    body = ast.parse(textwrap.dedent(inspect.getsource(kind))).body[0].body  # type: ignore[attr-defined]
-    return inherited | {
-        field.target.id: text.value.value
-        for field, text in pairwise(body)
-        if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
-    }
+    return inherited | texts_of(kind)
 
 
 def test_numbers_of_elements_say_their_units():

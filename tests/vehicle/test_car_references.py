@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -38,6 +40,7 @@ NOT_SMOOTH = {
 SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
 
 
+@cache  # two tests ask for some
 def error(car, name, h, since=0.0):
     t, values, length = trajectories.read(name, car)
     found = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))

@@ -42,14 +42,8 @@ LOOKS: dict[str, Any] = json.loads(Path(__file__).parents[1].joinpath("looks.jso
 def look(shape: Mapping[str, Any], other: str = "plastic", color: str | None = None, double: bool = False) -> Look:
     """The material of a shape.
 
-    Parameters
-    ----------
-    shape : mapping
-        May have ``material``, ``color`` and ``opacity``.
-    other : str
-        Kind where it names none.
-    double : bool
-        Seen from both sides.
+    `shape`: may have ``material``, ``color`` and ``opacity``; `other`: kind where it names none; `double`: seen from
+    both sides.
     """
     name = shape.get("material") or other
     kind = LOOKS["materials"][name]

@@ -123,10 +123,7 @@ def interpolated(track: Track, t: Vectors) -> tuple[Vectors, Vectors, Vectors | 
 def between(a: Vectors, b: Vectors) -> tuple[Vectors, Vectors, Vectors]:
     """Position, quaternion and length of a node whose y axis runs from points a to points b, with the least twist.
 
-    Parameters
-    ----------
-    a, b : array of shape (n, 3)
-        m.
+    `a`, `b`: in m, shape (n, 3).
     """
     to = b - a
     length = np.linalg.norm(to, axis=1)

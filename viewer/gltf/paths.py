@@ -20,12 +20,7 @@ _LIFT = 0.02  # m
 def path_solids(scene: Mapping[str, Any], poses: FramePoses, up: Vectors) -> list[tuple[str, Solid, Look]]:
     """Bands where a run has been; none where what is followed stays where it is.
 
-    Parameters
-    ----------
-    poses : FramePoses
-        Of its frames, over the run.
-    up : array of shape (3,)
-        Unit.
+    `poses`: of its frames, over the run; `up`: unit, shape (3,).
     """
     focus = scene.get("focus")
     if not focus or scene.get("planar"):

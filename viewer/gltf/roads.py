@@ -17,14 +17,8 @@ _MOST = 200  # points of a grid in each direction
 def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float) -> tuple[Solid, int] | None:
     """Triangles of a road, and of how many points in a row one is drawn; None for one that stands in a file.
 
-    Parameters
-    ----------
-    up : array of shape (3,)
-        Unit.
-    centre : array of shape (3,)
-        Of the motion: roads without an end are drawn about it.
-    half : float
-        Half the side of what is drawn of them, m.
+    `up`: unit, shape (3,); `centre`: of the motion, shape (3,): roads without an end are drawn about it; `half`: half
+    the side of what is drawn of them, m.
     """
     kind = road["kind"]
     if kind == "flat":

@@ -26,14 +26,8 @@ def scenery_solids(
 ) -> tuple[dict[str, list[tuple[Solid, Look]]], int]:
     """What of a scenery stands in a rectangle, by kind.
 
-    Parameters
-    ----------
-    things : sequence of mapping
-        Entries of the list `scenery` of a scene.
-    axes : array of shape (3, 3)
-        x, y and up of the world, one a row.
-    low, high : array of shape (2,)
-        x and y of the corners of the rectangle, m.
+    `things`: entries of the list `scenery` of a scene; `axes`: x, y and up of the world, one a row, shape (3, 3);
+    `low`, `high`: x and y of the corners of the rectangle, m, shape (2,).
 
     Returns
     -------
@@ -69,14 +63,8 @@ def scenery_solids(
 def ribbon(points: Vectors, width: float, up: Vectors, lift: float = _LIFT) -> Solid:
     """A flat band along points.
 
-    Parameters
-    ----------
-    points : array of shape (n, 3)
-        Of its middle, m; no two that follow each other are the same.
-    width, lift : float
-        m; lift: above the points.
-    up : array of shape (3,)
-        Unit.
+    `points`: of its middle, m, shape (n, 3); no two that follow each other are the same; `width`, `lift`: in m; lift:
+    above the points; `up`: unit, shape (3,).
     """
     way = np.gradient(points, axis=0)
     side = np.cross(up, way)

@@ -27,14 +27,8 @@ def terrain_solids(
 ) -> tuple[list[tuple[Solid, Look]], float]:
     """Triangles of what lies in a rectangle, one solid a surface.
 
-    Parameters
-    ----------
-    road : mapping
-        Of the scene, of the kind terrain.
-    axes : array of shape (3, 3)
-        x, y and up of the world, one a row.
-    low, high : array of shape (2,)
-        x and y of the corners of the rectangle, m.
+    `road`: of the scene, of the kind terrain; `axes`: x, y and up of the world, one a row, shape (3, 3); `low`, `high`:
+    x and y of the corners of the rectangle, m, shape (2,).
 
     Returns
     -------

@@ -28,12 +28,8 @@ def section(
 ) -> HtmlElement:
     """All of a test.
 
-    Parameters
-    ----------
-    records : mapping of str to TestRecord or str
-        By label of the car, in the order of the cars.
-    command : sequence of str
-        That makes the whole report; empty where nobody knows it.
+    `records`: by label of the car, in the order of the cars; `command`: that makes the whole report; empty where nobody
+    knows it.
     """
     done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
     parts: list[Content] = [element("h2", test.title), *(_standard(s) for s in test.standards)]

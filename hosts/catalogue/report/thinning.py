@@ -12,12 +12,7 @@ MOST = 1500
 def thinned(x: NDArray[np.float64], y: NDArray[np.float64], most: int = MOST) -> NDArray[np.intp]:
     """Indices of points that are kept: ends, and of each stretch its smallest and largest x and y.
 
-    Parameters
-    ----------
-    x, y : ndarray of shape (n,)
-        NaN where there is no point; a gap stays one.
-    most : int
-        About how many are kept.
+    `x`, `y`: NaN where there is no point, shape (n,); a gap stays one; `most`: about how many are kept.
     """
     n = len(x)
     stretches = max(1, most // 4)

@@ -164,12 +164,7 @@ def tries(car: TestedCar, layout: _Layout, speed: float, passed: Passage | None)
 def steering_of(driver: str, course: Course, constants: Mapping[str, float], speed: float) -> Pilot:
     """One of the drivers.
 
-    Parameters
-    ----------
-    driver : str
-        One of `DRIVERS`.
-    speed : float
-        m/s.
+    `driver`: one of `DRIVERS`; `speed`: in m/s.
     """
     wheelbase, angle = constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"]
     length, width = constants["vehicle.length"], constants["vehicle.width"]
@@ -182,12 +177,7 @@ def steering_of(driver: str, course: Course, constants: Mapping[str, float], spe
 def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage:
     """One passage of a course.
 
-    Parameters
-    ----------
-    speed : float
-        km/h.
-    driver : str
-        One of `DRIVERS`.
+    `speed`: in km/h; `driver`: one of `DRIVERS`.
     """
     constants, wanted = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]

@@ -56,13 +56,7 @@ def total_load(result: Result) -> NDArray[np.float64]:
 
 
 def measures_of(result: Result, settings: Mapping[str, float]) -> list[Measure]:
-    """Measures of a drop.
-
-    Parameters
-    ----------
-    result : Result
-        From the start of the fall.
-    """
+    """Measures of a drop. `result`: from the start of the fall."""
     time, load = result.time, total_load(result)
     loads = at_wheels(result, "Fz")
     assert loads is not None

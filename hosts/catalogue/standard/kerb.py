@@ -93,13 +93,7 @@ def _not_passed(way: str, result: Result, height: float) -> tuple[str, ...]:
 
 
 def measures_of(result: Result, prefix: str) -> list[Measure]:
-    """Measures of one passage.
-
-    Parameters
-    ----------
-    result : Result
-        From rolling at rest to rolling at rest again.
-    """
+    """Measures of one passage. `result`: from rolling at rest to rolling at rest again."""
     loads = at_wheels(result, "Fz")
     assert loads is not None  # one of the needs
     rest = loads[0]

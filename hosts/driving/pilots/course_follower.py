@@ -48,12 +48,7 @@ class CourseFollower:
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the coming communication step.
 
-        Parameters
-        ----------
-        time : float
-            s.
-        senses : mapping of str to float
-            `SENSES`, SI units, earth axes.
+        `time`: in s; `senses`: `SENSES`, SI units, earth axes.
 
         Returns
         -------

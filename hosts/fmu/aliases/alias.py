@@ -55,12 +55,7 @@ class Aliases:
         return self.missing.get(name, "")
 
     def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Factors and offsets of variables.
-
-        Parameters
-        ----------
-        theirs : sequence of str
-            n names.
+        """Factors and offsets of variables. `theirs`: n names.
 
         Returns
         -------

@@ -36,12 +36,7 @@ def is_si(variable: Variable) -> bool:
 def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     """What a value in SI is to be multiplied by.
 
-    Parameters
-    ----------
-    unit : object
-        As it stands in the file.
-    variable : Variable, optional
-        That has it; its own definition of a unit of that name counts.
+    `unit`: as it stands in the file; `variable`: that has it; its own definition of a unit of that name counts.
 
     Raises
     ------

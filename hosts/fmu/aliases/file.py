@@ -22,10 +22,7 @@ _RECORDED = ("input", "output")
 def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     """Those of a file that comes with the package, by its name, or of another.
 
-    Parameters
-    ----------
-    name : str or Path
-        Such as ``chrono``; a file of that name here comes first.
+    `name`: such as ``chrono``; a file of that name here comes first.
 
     Raises
     ------

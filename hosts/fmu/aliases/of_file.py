@@ -9,12 +9,7 @@ from hosts.fmu.variables import Variables
 
 
 def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
-    """Those of a file, none where none is named.
-
-    Parameters
-    ----------
-    file : str or Path, optional
-        As `hosts.fmu.aliases.file.find_aliases` takes it.
+    """Those of a file, none where none is named. `file`: as `hosts.fmu.aliases.file.find_aliases` takes it.
 
     Raises
     ------

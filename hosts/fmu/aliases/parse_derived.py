@@ -16,12 +16,7 @@ _CALL = re.compile(r"\s*(\w+)\s*\(([^()]*)\)\s*")
 def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: str) -> Derived:
     """A formula as an alias file has it.
 
-    Parameters
-    ----------
-    constants : mapping of str to float
-        Their names in `text` become numbers.
-    where : str
-        How messages call it.
+    `constants`: their names in `text` become numbers; `where`: how messages call it.
 
     Raises
     ------

@@ -58,13 +58,7 @@ class Calibration:
         return [[round(low, 4), round(high, 4)] for low, high in self._span] if self._first else []
 
     def feed(self, time: float, reading: Reading) -> None:
-        """Take the next values.
-
-        Parameters
-        ----------
-        time : float
-            s, of any clock that does not go back.
-        """
+        """Take the next values. `time`: in s, of any clock that does not go back."""
         axes = reading.axes
         if not self._first:
             still = self._since is not None and all(

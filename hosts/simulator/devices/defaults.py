@@ -30,14 +30,8 @@ _HAT_BITS = {1: "up", 2: "right", 4: "down", 8: "left"}
 def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collection[str]) -> DeviceMapping:
     """A first guess; empty for a device that nothing is known of.
 
-    Parameters
-    ----------
-    kind : str
-        As of `Joystick`.
-    reading : Reading
-        As it came: a pedal that rests at the high end of its axis is inverted.
-    bindings : str
-        SDL's table of a gamepad.
+    `kind`: as of `Joystick`; `reading`: as it came: a pedal that rests at the high end of its axis is inverted;
+    `bindings`: SDL's table of a gamepad.
     """
     if kind == "gamepad":
         found, settings = _of_gamepad(bindings), DeviceSettings()

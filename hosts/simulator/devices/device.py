@@ -90,10 +90,7 @@ class Device:
     def wants(self, everything: bool) -> dict[str, tuple[float, float]]:
         """What it wants of the car, by the reading it has: value, and largest change per second.
 
-        Parameters
-        ----------
-        everything : bool
-            Also what has not changed since the last call.
+        `everything`: also what has not changed since the last call.
         """
         found: dict[str, tuple[float, float]] = {}
         for name, mapping in self.mapping.inputs.items():

@@ -70,12 +70,7 @@ class Devices:
     def assign(self, device: str, name: str, mapping: Mapping[str, Any] | None) -> None:
         """Another mapping of an input; it is kept in the device's file.
 
-        Parameters
-        ----------
-        device : str
-            Its `id`.
-        mapping : mapping or None
-            Fields of `InputMapping`; None: the device does not drive this input.
+        `device`: its `id`; `mapping`: fields of `InputMapping`; None: the device does not drive this input.
 
         Raises
         ------
@@ -102,14 +97,8 @@ class Devices:
     def calibrate(self, device: str, on: bool, keep: bool = True) -> None:
         """Begin a calibration, or end it.
 
-        Parameters
-        ----------
-        device : str
-            Its `id`.
-        on : bool
-            True: begin; the device drives nothing until the end.
-        keep : bool
-            At the end, whether what was found counts.
+        `device`: its `id`; `on`: true: begin; the device drives nothing until the end; `keep`: at the end, whether what
+        was found counts.
 
         Raises
         ------
@@ -163,11 +152,8 @@ class Devices:
     def message(self, message: Mapping[str, Any]) -> None:
         """Do what a message of the page asks for.
 
-        Parameters
-        ----------
-        message : mapping
-            `type` is ``assign``, ``assign by moving``, ``calibrate``, ``reset mapping``, ``device settings`` or
-            ``test force``; `device` an `id`; see the method of that name for the others.
+        `message`: `type` is ``assign``, ``assign by moving``, ``calibrate``, ``reset mapping``, ``device settings`` or
+        ``test force``; `device` an `id`; see the method of that name for the others.
 
         Raises
         ------

@@ -46,12 +46,7 @@ class InputMapping:
     """Where an axis of the steering rests; None: halfway."""
 
     def value(self, name: str, reading: Reading) -> float | None:
-        """The input.
-
-        Parameters
-        ----------
-        name : str
-            Of the input: whether it has a middle depends on it.
+        """The input. `name`: of the input: whether it has a middle depends on it.
 
         Returns
         -------
@@ -125,12 +120,7 @@ class DeviceMapping:
 
 
 def read_input(name: str, table: object) -> InputMapping:
-    """The mapping of an input from a table of its fields.
-
-    Parameters
-    ----------
-    table : mapping
-        What is not in it is as by default.
+    """The mapping of an input from a table of its fields. `table`: what is not in it is as by default.
 
     Raises
     ------

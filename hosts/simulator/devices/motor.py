@@ -49,12 +49,7 @@ class Motor:
             raise
 
     def push(self, level: int) -> None:
-        """A constant force.
-
-        Parameters
-        ----------
-        level : int
-            From -32767 to 32767, positive to the left.
+        """A constant force. `level`: from -32767 to 32767, positive to the left.
 
         Raises
         ------
@@ -69,12 +64,7 @@ class Motor:
     def condition(self, kind: str, share: float) -> bool:
         """A damper or a spring to the middle; False where the device has no such.
 
-        Parameters
-        ----------
-        kind : str
-            ``damper`` or ``spring``.
-        share : float
-            From 0 to 1 of the largest.
+        `kind`: ``damper`` or ``spring``; `share`: from 0 to 1 of the largest.
 
         Raises
         ------

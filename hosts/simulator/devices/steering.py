@@ -29,12 +29,8 @@ class Steering:
     def share(self, turn: float, rotation: float) -> float:
         """Steering from -1 to 1.
 
-        Parameters
-        ----------
-        turn : float
-            Of the device, from -1 to 1, positive to the left.
-        rotation : float
-            Degrees of the device from end to end; 0: its ends are full steering.
+        `turn`: of the device, from -1 to 1, positive to the left; `rotation`: degrees of the device from end to end; 0:
+        its ends are full steering.
         """
         if not rotation or not self.angle_max:
             return turn

@@ -113,13 +113,7 @@ def with_unit(name: str, unit: str) -> str:
 
 
 def study_data(frame: pd.DataFrame) -> StudyData:
-    """Sort what `hosts.study.store.read_study` gives.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        With its attrs.
-    """
+    """Sort what `hosts.study.store.read_study` gives. `frame`: with its attrs."""
     attrs, units = frame.attrs, dict(frame.attrs["units"])
     parameters, columns = [], []
     for name in attrs["parameters"]:
@@ -153,12 +147,7 @@ def study_data(frame: pd.DataFrame) -> StudyData:
 def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.float64]:
     """Values of which those that lie within the round-off of the largest of them, or of the unit, are the same.
 
-    Parameters
-    ----------
-    values : ndarray of shape (n,)
-        Finite; n is at least 1.
-    unit : str
-        Theirs.
+    `values`: finite, shape (n,); n is at least 1; `unit`: theirs.
 
     Returns
     -------

@@ -54,12 +54,7 @@ def classes(x: NDArray[np.float64]) -> tuple[NDArray[np.int64], bool]:
 def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
     """The main effect of a parameter.
 
-    Parameters
-    ----------
-    x, y : ndarray of shape (n,)
-        Parameter and measure of each run; n is at least 1.
-    seed : int
-        Of the bootstrap.
+    `x`, `y`: parameter and measure of each run, shape (n,); n is at least 1; `seed`: of the bootstrap.
 
     Returns
     -------

@@ -37,12 +37,8 @@ def measure_section(
 ) -> list[HtmlElement]:
     """Its distribution, indices, main effects, runs, and the highest and lowest of them with their commands.
 
-    Parameters
-    ----------
-    number : int
-        Of the response, for the names of its pictures.
-    numbers : list of dict
-        To which the effects are added, a row a parameter.
+    `number`: of the response, for the names of its pictures; `numbers`: to which the effects are added, a row a
+    parameter.
     """
     if len(response.values) == 1:
         words = f"One run yields it: {response.values[0]:.6g} {response.unit if response.unit != '1' else ''}".strip()

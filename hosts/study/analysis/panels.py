@@ -21,12 +21,7 @@ _ROW = 2.5
 def parameter_panels(parameters: Sequence[Parameter], label: str, share_y: bool) -> tuple[Figure, list[Axes]]:
     """A figure with labelled axes.
 
-    Parameters
-    ----------
-    label : str
-        Of the vertical axes.
-    share_y : bool
-        Whether these have one scale, so that panels can be compared.
+    `label`: of the vertical axes; `share_y`: whether these have one scale, so that panels can be compared.
     """
     columns = min(_COLUMNS, max(len(parameters), 2))
     rows = -(-len(parameters) // columns)

@@ -33,12 +33,7 @@ if TYPE_CHECKING:
 
 
 def write_report(folder: Path) -> list[Path]:
-    """Write ``report.html``, and its pictures and tables into ``analysis``.
-
-    Parameters
-    ----------
-    folder : Path
-        Of a study, done or half done.
+    """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, done or half done.
 
     Returns
     -------

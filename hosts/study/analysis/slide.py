@@ -19,13 +19,7 @@ from hosts.study.limits import Share, share_rows, shares
 
 
 def write_study_slide(data: StudyData, indices: Indices | str | None, folder: Path) -> list[Path]:
-    """Write ``summary.svg`` and ``summary.png``.
-
-    Parameters
-    ----------
-    indices : Indices or str, optional
-        Of `main_response`; a str says why there are none.
-    """
+    """Write ``summary.svg`` and ``summary.png``. `indices`: of `main_response`; a str says why there are none."""
     found = shares(data.frame)
     if found:
         head = ["measure", "limit", "within", "share", "95 %"]

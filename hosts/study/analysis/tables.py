@@ -60,10 +60,7 @@ def told_statistics(data: StudyData) -> tuple[list[str], str]:
 def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:
     """The highest and the lowest runs, of equal ones those with the lowest index first.
 
-    Parameters
-    ----------
-    count : int
-        Of each; fewer where there are not twice as many.
+    `count`: of each; fewer where there are not twice as many.
     """
     order = np.argsort(response.values, kind="stable")
     up = np.argsort(-response.values, kind="stable")

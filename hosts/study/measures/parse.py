@@ -14,14 +14,8 @@ _FUNCTION = re.compile(r"(.+\.py):\s*([^:\s]*)")
 def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeasure:
     """Read a measure of a study.
 
-    Parameters
-    ----------
-    text : str
-        Such as ``max(abs(chassis.ay), after=2.0)``, or ``file.py:function``.
-    name : str
-        Of its column; by default the text, or the name of the function.
-    folder : Path
-        From which the file is looked for.
+    `text`: such as ``max(abs(chassis.ay), after=2.0)``, or ``file.py:function``; `name`: of its column; by default the
+    text, or the name of the function; `folder`: from which the file is looked for.
 
     Raises
     ------

@@ -32,12 +32,7 @@ class StudyMeasure(Protocol):
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
         """Names and units of its numbers.
 
-        Parameters
-        ----------
-        units : mapping of str to str
-            Of the signals of a run.
-        stop_time : float, optional
-            Of every run, s.
+        `units`: of the signals of a run; `stop_time`: of every run, s.
 
         Raises
         ------
@@ -48,8 +43,5 @@ class StudyMeasure(Protocol):
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
         """Its numbers of a run in the order of `columns`, NaN with a note where the run does not yield them.
 
-        Parameters
-        ----------
-        parameters : mapping of str to float, int, bool or str, optional
-            What was set before the start.
+        `parameters`: what was set before the start.
         """

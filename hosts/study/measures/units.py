@@ -17,12 +17,7 @@ _PLAIN = re.compile(r"[^/.* ]+")
 def unit_of(node: Node, units: Mapping[str, str], text: str) -> str:
     """The unit of an expression.
 
-    Parameters
-    ----------
-    node : ast.expr
-        Of a right form.
-    text : str
-        Of the whole measure, for messages.
+    `node`: of a right form; `text`: of the whole measure, for messages.
 
     Raises
     ------

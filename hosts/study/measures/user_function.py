@@ -115,10 +115,7 @@ class UserFunction:
 def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
     """Read the file and load it once, so that what is wrong is said before the first run.
 
-    Parameters
-    ----------
-    name : str
-        By default that of the function.
+    `name`: by default that of the function.
 
     Raises
     ------

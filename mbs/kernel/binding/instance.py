@@ -90,11 +90,8 @@ class Instance:
     def set_input_function(self, function: Callable[[float, bool, Any], None] | None) -> None:
         """Inputs as a function of time, asked for at every time at which a method looks at them; None ends that.
 
-        Parameters
-        ----------
-        function : callable or None
-            Called with the time in s, whether the value behind a jump is meant, and a writable array of all inputs
-            that holds the present ones. What it raises ends the step and is raised by `step` or `run`.
+        `function`: called with the time in s, whether the value behind a jump is meant, and a writable array of all
+        inputs that holds the present ones. What it raises ends the step and is raised by `step` or `run`.
         """
 
         def ask(_: Any, t: float, after: int, values: Any) -> int:
@@ -203,12 +200,7 @@ class Instance:
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while all else settles; after `initialise`.
 
-        Parameters
-        ----------
-        duration : float
-            s, at most `LONGEST_SETTLING`.
-        h : float
-            Of the steps, s.
+        `duration`: in s, at most `LONGEST_SETTLING`; `h`: of the steps, s.
 
         Returns
         -------
@@ -357,10 +349,7 @@ class Instance:
     def follow(self, other: Instance) -> None:
         """Take over the state of the same model without ports, and find the forces at the ports, for `sensors`.
 
-        Parameters
-        ----------
-        other : Instance
-            Initialised; stays as it is. This System has the map of `mbs.compiler.ports.with_ports_of`.
+        `other`: initialised; stays as it is. This System has the map of `mbs.compiler.ports.with_ports_of`.
         """
         self._check(self._library.ali3_ports_follow(self._handle, other._handle))
 

@@ -107,12 +107,7 @@ def library_path() -> Path:
 
 
 def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
-    """Load the kernel.
-
-    Parameters
-    ----------
-    path : path, optional
-        The library; by default `library_path()`.
+    """Load the kernel. `path`: the library; by default `library_path()`.
 
     Returns
     -------

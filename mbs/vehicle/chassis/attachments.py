@@ -47,12 +47,8 @@ class _Noted(Body):
 def attachments(b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> Attachments:
     """Build the mechanism of a car and note its points on the chassis.
 
-    Parameters
-    ----------
-    b : CarBuilder
-        With a rigid chassis and nothing else.
-    parts : callable
-        Adds the parts of the mechanism in turn: front axle and steering, then rear axle.
+    `b`: with a rigid chassis and nothing else; `parts`: adds the parts of the mechanism in turn: front axle and
+    steering, then rear axle.
     """
     noted = _Noted(b.chassis.body, b.chassis.origin)
     b.chassis = replace(b.chassis, body=noted)

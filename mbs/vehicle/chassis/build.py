@@ -18,12 +18,7 @@ from mbs.vehicle.fidelity import Fidelity
 def build_chassis(m: Model, data: Chassis, flexible: FlexibleFrame | None, fidelity: Fidelity) -> Mount:
     """Add the chassis.
 
-    Parameters
-    ----------
-    flexible : FlexibleFrame or None
-        Needed from QUASI_STATIC on.
-    fidelity : Fidelity
-        How much of it is modelled.
+    `flexible`: needed from QUASI_STATIC on; `fidelity`: how much of it is modelled.
     """
     origin = data.reference
     if fidelity.rigid or flexible is None:

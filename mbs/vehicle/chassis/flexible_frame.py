@@ -62,13 +62,7 @@ class FlexibleFrame:
         return np.asarray(self.model.positions[self.model.node(joint)])
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:
-        """The frame with the modes of a flexible fidelity.
-
-        Parameters
-        ----------
-        fidelity : Fidelity, int or str
-            From LOAD_PATHS on.
-        """
+        """The frame with the modes of a flexible fidelity. `fidelity`: from LOAD_PATHS on."""
         which = Fidelity.of(fidelity)
         if which not in self._reduced:
             self._reduced[which] = self._reduce(which)
@@ -130,10 +124,7 @@ class FlexibleFrame:
     def settled_loads(self, forces: np.ndarray) -> np.ndarray:
         """Interface forces with the wishbones' axial forces that keep their pivots apart.
 
-        Parameters
-        ----------
-        forces : ndarray, shape (3 n_interfaces, n)
-            N.
+        `forces`: in N, shape (3 n_interfaces, n).
         """
         relief, pairs, n = self._relief_with_stretch
         return np.asarray(forces - pairs @ np.linalg.solve(relief.forces[n:] @ pairs, relief.balanced[n:] @ forces))
@@ -141,10 +132,7 @@ class FlexibleFrame:
     def deformation_energy(self, forces: np.ndarray) -> np.ndarray:
         """Products of the deformations under interface forces, freely accelerated, in the energy norm, (n, n), J.
 
-        Parameters
-        ----------
-        forces : ndarray, shape (3 n_interfaces, n)
-            N.
+        `forces`: in N, shape (3 n_interfaces, n).
         """
         from mbs.flexible.component_modes import craig_bampton
         from mbs.flexible.load_paths import load_path_deformations
@@ -195,10 +183,7 @@ class FlexibleFrame:
     def drawn_amplitudes(self, body: ReducedBody) -> np.ndarray:
         """Amplitudes of `drawn` per unit amplitude of another reduction of the frame, nearest in the energy norm.
 
-        Parameters
-        ----------
-        body : ReducedBody
-            Of this frame, with the same reference.
+        `body`: of this frame, with the same reference.
 
         Returns
         -------

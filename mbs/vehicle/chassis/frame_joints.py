@@ -61,12 +61,8 @@ class JointFinder:
     def joints(self, chassis: Chassis, driven: int) -> FrameJoints:
         """All joints that the car needs.
 
-        Parameters
-        ----------
-        chassis : Chassis
-            With the place of the floating frame and accelerometers.
-        driven : int
-            0: the front axle is driven, 1: the rear one.
+        `chassis`: with the place of the floating frame and accelerometers; `driven`: 0: the front axle is driven, 1:
+        the rear one.
 
         Raises
         ------

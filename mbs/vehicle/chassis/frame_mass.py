@@ -13,12 +13,7 @@ CENTRE = 0.005  # m
 
 
 def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
-    """Refuse a frame that is another body than the rigid chassis.
-
-    Parameters
-    ----------
-    model : FiniteElementModel
-        Of the frame with all it carries.
+    """Refuse a frame that is another body than the rigid chassis. `model`: of the frame with all it carries.
 
     Raises
     ------

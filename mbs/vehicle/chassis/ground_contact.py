@@ -22,12 +22,8 @@ def ground_contact(
 ) -> None:
     """Add the points and what they report.
 
-    Parameters
-    ----------
-    mass : float
-        Of the car, kg.
-    joints : callable
-        Gives the places of the joints of the frame by name, m, where a point is the name of one.
+    `mass`: of the car, kg; `joints`: gives the places of the joints of the frame by name, m, where a point is the name
+    of one.
     """
     m = b.m
     contact = ContactPoints.for_mass(

@@ -31,23 +31,11 @@ class LeverCarrier(Body):
         self._chassis, self._axes = chassis, axes
 
     def point(self, position: ArrayLike) -> AffineVector:
-        """Point of the chassis.
-
-        Parameters
-        ----------
-        position : array_like, shape (3,)
-            Earth axes in the reference configuration, m.
-        """
+        """Point of the chassis. `position`: earth axes in the reference configuration, m, shape (3,)."""
         return self._chassis.point(position)
 
     def vector(self, components: ArrayLike) -> AffineVector:
-        """Vector in the mean axes.
-
-        Parameters
-        ----------
-        components : array_like, shape (3,)
-            Earth axes in the reference configuration.
-        """
+        """Vector in the mean axes. `components`: earth axes in the reference configuration, shape (3,)."""
         x, y, z = (float(v) for v in vector(components, 3, "a vector of the chassis"))
         return self._axes[0] * x + self._axes[1] * y + self._axes[2] * z
 
@@ -70,13 +58,7 @@ class Mount:
     """Origin, axes and place of the origin in the drawing, m, that take the forces of the ground on the chassis."""
 
     def place(self, point: ArrayLike) -> AffineVector:
-        """A point in the contact frame, which takes forces at any fidelity.
-
-        Parameters
-        ----------
-        point : array_like, shape (3,)
-            In the drawing, m.
-        """
+        """A point in the contact frame, which takes forces at any fidelity. `point`: in the drawing, m, shape (3,)."""
         origin, axes, at = self.contact_frame
         x, y, z = (float(v) for v in np.subtract(vector(point, 3, "a point of the chassis"), at))
         return origin + axes[0] * x + axes[1] * y + axes[2] * z

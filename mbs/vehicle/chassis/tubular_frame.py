@@ -67,14 +67,8 @@ class TubularFrame:
         Nodes are the joints by their names first, then the nodes inside the tubes ("LRL-D1L 1" and on); elements run
         from the first joint of each tube to the second.
 
-        Parameters
-        ----------
-        theory : str
-            "euler_bernoulli" or "timoshenko".
-        refinement : int
-            Multiplies the number of elements of every tube.
-        carried_masses : bool
-            Without them the frame is bare tubes.
+        `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: multiplies the number of elements of every tube;
+        `carried_masses`: without them the frame is bare tubes.
 
         Raises
         ------
@@ -161,13 +155,7 @@ class TubularFrame:
 
 
 def mirrored(name: str) -> str:
-    """Name of the image of a joint.
-
-    Parameters
-    ----------
-    name : str
-        Of the joint; its last letter is its side.
-    """
+    """Name of the image of a joint. `name`: of the joint; its last letter is its side."""
     return name[:-1] + IMAGE[name[-1]]
 
 

@@ -61,10 +61,7 @@ def wheel_measures(linkage: Linkage, at: Position) -> dict[str, float]:
 def travel_measures(linkage: Linkage, at: Position, direction: Array) -> dict[str, float]:
     """Columns that belong to a direction of wheel travel, in SI units.
 
-    Parameters
-    ----------
-    direction : ndarray, shape (3,)
-        Rates of the travels of the left and the right wheel, and of the rack.
+    `direction`: rates of the travels of the left and the right wheel, and of the rack, shape (3,).
     """
     found: dict[str, float] = {}
     wheels = [wheel_motion(linkage, at, k) for k in range(2)]
@@ -106,13 +103,7 @@ def roll_measures(linkage: Linkage, at: Position) -> dict[str, float]:
 
 
 def roll_centre_height(wheels: list[WheelMotion]) -> float:
-    """Height of the roll centre over the ground, m.
-
-    Parameters
-    ----------
-    wheels : list of WheelMotion
-        Left and right.
-    """
+    """Height of the roll centre over the ground, m. `wheels`: left and right."""
     heights = []
     for w in wheels:
         way = w.fixed_contact_rate @ ROLL
@@ -125,12 +116,7 @@ def roll_centre_height(wheels: list[WheelMotion]) -> float:
 def anti_measures(car: CarContent, axle: str, wheels: list[WheelMotion]) -> dict[str, float]:
     """Anti-dive and its like, %.
 
-    Parameters
-    ----------
-    car : CarContent
-        Gives the shares, the wheelbase and the height of the centre of mass.
-    wheels : list of WheelMotion
-        Left and right.
+    `car`: gives the shares, the wheelbase and the height of the centre of mass; `wheels`: left and right.
     """
     lever = 100.0 * car.wheelbase / car.vehicle.reference_point[2]
     forwards = 1.0 if axle == "front" else -1.0
@@ -157,10 +143,7 @@ def length(linkage: Linkage, line: AffineVector, at: Position) -> float:
 def stretch(linkage: Linkage, line: AffineVector, at: Position, direction: Array) -> float:
     """Rate of that length along a direction.
 
-    Parameters
-    ----------
-    direction : ndarray, shape (3,)
-        Rates of the travels of the left and the right wheel, and of the rack.
+    `direction`: rates of the travels of the left and the right wheel, and of the rack, shape (3,).
     """
     D, d = linkage.linear(line)
     way = D @ at.q + d

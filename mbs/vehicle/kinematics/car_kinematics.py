@@ -121,13 +121,7 @@ def wheel_by_rack(car: Car) -> WheelByRack:
 
 
 def checked_travel(travel: object) -> tuple[float, float]:
-    """A range of wheel travel.
-
-    Parameters
-    ----------
-    travel : object
-        To be two numbers, m.
-    """
+    """A range of wheel travel. `travel`: to be two numbers, m."""
     if not isinstance(travel, (tuple, list)) or len(travel) != 2 or not all(is_finite(v) for v in travel):
         raise ModelError(f"The range of wheel travel is {shown(travel)}; it must be two numbers, m.")
     low, high = (float(v) for v in travel)

@@ -69,10 +69,7 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
 def shown_number(value: float) -> str:
     """Four digits; what round-off leaves of zero is zero, what there is not a dash.
 
-    Parameters
-    ----------
-    value : float
-        In the unit that is shown.
+    `value`: in the unit that is shown.
     """
     if math.isnan(value):
         return "-"

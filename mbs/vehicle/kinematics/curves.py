@@ -82,12 +82,8 @@ def travel_curve(linkage: Linkage, motion: str, travel: Array) -> Curve:
 def steer_curve(linkage: Linkage, rack: Array, wheel_by_rack: WheelByRack) -> Curve:
     """A curve over the travel of the rack, the wheel centres at the height of the drawing.
 
-    Parameters
-    ----------
-    rack : ndarray, shape (n,)
-        Rising, with 0 among them, m.
-    wheel_by_rack : callable
-        Gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m.
+    `rack`: rising, with 0 among them, m, shape (n,); `wheel_by_rack`: gives the angle of the steering wheel, rad, and
+    its change per travel of the rack, rad/m, at a travel, m.
     """
 
     def measures(at: Position) -> dict[str, float]:

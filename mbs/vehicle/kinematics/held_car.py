@@ -44,10 +44,7 @@ class HeldWheel:
 def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[str, tuple[Body, Point]]]:
     """The model, in which nothing holds the chassis yet, and carrier and centre as drawn of each wheel.
 
-    Parameters
-    ----------
-    car : Car
-        Without faults.
+    `car`: without faults.
     """
     m = Model(f"{car.name} held", gravity=(0.0, 0.0, 0.0))
     m.start_in_equilibrium = False
@@ -113,13 +110,7 @@ class HeldCar(StandingModel):
         return {name: self._wheel(*parts) for name, parts in self._carriers.items()}
 
     def rows(self, q: Array) -> Array:
-        """Jacobian (n, nq) of the conditions of the joints and of the held chassis.
-
-        Parameters
-        ----------
-        q : ndarray, shape (nq,)
-            Coordinates.
-        """
+        """Jacobian (n, nq) of the conditions of the joints and of the held chassis. `q`: coordinates, shape (nq,)."""
         return np.vstack([self.evaluator.jacobian(q), self._pins])
 
     def wheel_rows(self) -> Array:
@@ -129,10 +120,7 @@ class HeldCar(StandingModel):
     def flexibility(self, held: Array) -> tuple[Array, Array]:
         """Small motions that the joints and further rows allow, and the inverse of their stiffness.
 
-        Parameters
-        ----------
-        held : ndarray, shape (k, nq)
-            Further rows that are held.
+        `held`: further rows that are held, shape (k, nq).
 
         Returns
         -------

@@ -22,10 +22,8 @@ STRAIGHT = 1e-4  # rad: below it there is no circle
 def steer_measures(linkage: Linkage, at: Position, wheel_by_rack: WheelByRack) -> dict[str, float]:
     """Columns of steering in SI units, NaN where the wheels stand straight ahead or not to one side.
 
-    Parameters
-    ----------
-    wheel_by_rack : callable
-        Gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a travel, m.
+    `wheel_by_rack`: gives the angle of the steering wheel, rad, and its change per travel of the rack, rad/m, at a
+    travel, m.
     """
     wheels = [wheel_motion(linkage, at, k) for k in range(2)]
     steers = [w.steer for w in wheels]

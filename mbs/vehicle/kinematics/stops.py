@@ -12,10 +12,7 @@ from mbs.vehicle.linkages.linkage import Linkage
 def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:
     """Sentences where the range of a curve goes beyond where the stops are metal on metal.
 
-    Parameters
-    ----------
-    parallel : Curve
-        Over parallel travel.
+    `parallel`: over parallel travel.
     """
     stops = linkage.data.stops
     if stops is None:
@@ -38,12 +35,7 @@ def stop_notes(linkage: Linkage, parallel: Curve) -> list[str]:
 def travel_at(parallel: Curve, compression: float) -> float:
     """Wheel travel at which the spring is shorter than drawn by a compression, m; NaN: not on the curve.
 
-    Parameters
-    ----------
-    parallel : Curve
-        Over parallel travel.
-    compression : float
-        m, negative where the spring is longer.
+    `parallel`: over parallel travel; `compression`: in m, negative where the spring is longer.
     """
     compressed = parallel.drawn()["spring_length_left"] - parallel["spring_length_left"]
     rising, first = np.unique(compressed, return_index=True)

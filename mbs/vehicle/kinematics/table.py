@@ -38,13 +38,7 @@ SECTIONS = (
 
 
 def named(name: str) -> tuple[Quantity, str]:
-    """Quantity and title of a value at the drawing.
-
-    Parameters
-    ----------
-    name : str
-        As `Kinematics.drawn` has it.
-    """
+    """Quantity and title of a value at the drawing. `name`: as `Kinematics.drawn` has it."""
     base, title = TITLED.get(name, (name, ""))
     quantity = BY_NAME[base]
     return quantity, title or quantity.title

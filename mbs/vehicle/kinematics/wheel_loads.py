@@ -24,10 +24,7 @@ def wheel_loads(linkage: Linkage, at: Position, direction: Array) -> tuple[Array
 
     How the way of the linkage bends is exact; only the slope of the springs' forces is a central difference.
 
-    Parameters
-    ----------
-    direction : ndarray, shape (3,)
-        Rates of the travels of the left and the right wheel, and of the rack.
+    `direction`: rates of the travels of the left and the right wheel, and of the rack, shape (3,).
 
     Returns
     -------

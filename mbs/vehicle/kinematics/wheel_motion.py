@@ -79,13 +79,7 @@ class SteeringAxis:
     """Shift along it per turn, m/rad: of a screw; 0 where ball joints hold it."""
 
     def at_height(self, z: float) -> Array:
-        """Point of the axis at a height, m, shape (3,).
-
-        Parameters
-        ----------
-        z : float
-            m.
-        """
+        """Point of the axis at a height, m, shape (3,). `z`: in m."""
         return np.asarray(self.point + self.way * (z - self.point[2]) / self.way[2])
 
     @property
@@ -94,24 +88,13 @@ class SteeringAxis:
         return float(np.arctan2(-self.way[0], self.way[2]))
 
     def inclination(self, side: float) -> float:
-        """Kingpin inclination angle, rad: in the rear view, positive with the top inwards.
-
-        Parameters
-        ----------
-        side : float
-            1 left, -1 right.
-        """
+        """Kingpin inclination angle, rad: in the rear view, positive with the top inwards. `side`: 1 left, -1 right."""
         return float(np.arctan2(-side * self.way[1], self.way[2]))
 
     def offsets(self, wheel: WheelMotion, centre: Array) -> tuple[float, float]:
         """From a point of the wheel to the axis at the point's height, along the wheel's x axis and inwards, m.
 
-        Parameters
-        ----------
-        wheel : WheelMotion
-            Gives the directions.
-        centre : ndarray, shape (3,)
-            The point.
+        `wheel`: gives the directions; `centre`: the point, shape (3,).
 
         Returns
         -------
@@ -124,13 +107,7 @@ class SteeringAxis:
 
 
 def wheel_motion(linkage: Linkage, at: Position, side: int) -> WheelMotion:
-    """A wheel at a position.
-
-    Parameters
-    ----------
-    side : int
-        0 left, 1 right.
-    """
+    """A wheel at a position. `side`: 0 left, 1 right."""
     C, c = linkage.centre(side)
     axes = linkage.triad(side)
     turn = 0.5 * np.sum([np.cross(A @ at.q + a, (A @ at.tangent).T).T for A, a in axes], axis=0)
@@ -144,10 +121,7 @@ def wheel_motion(linkage: Linkage, at: Position, side: int) -> WheelMotion:
 def steering_axis(linkage: Linkage, at: Position, side: int) -> SteeringAxis | None:
     """Screw axis of the carrier while the rack moves and the springs keep their length; None: nothing steers it.
 
-    Parameters
-    ----------
-    side : int
-        0 left, 1 right.
+    `side`: 0 left, 1 right.
     """
     if not linkage.has_rod:
         return None

@@ -45,11 +45,8 @@ class Choice:
 def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Choice]:
     """Each fidelity and step that was measured in all manoeuvres, with its largest errors and its cost.
 
-    Parameters
-    ----------
-    rows : sequence of mapping
-        With "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output; None where there is
-        none.
+    `rows`: with "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output; None where there is
+    none.
     """
     names = {row["manoeuvre"] for row in rows}
     found: list[Choice] = []
@@ -66,12 +63,7 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Ch
 def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> Choice:
     """The fidelity and step with the least time per simulated second that meet tolerances in all manoeuvres measured.
 
-    Parameters
-    ----------
-    rows : sequence of mapping
-        As for `levels`.
-    tolerances : mapping of str to float
-        On the errors of outputs.
+    `rows`: as for `levels`; `tolerances`: on the errors of outputs.
 
     Raises
     ------

@@ -77,12 +77,7 @@ def own_drives(system: System) -> list[Drive]:
 def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
     """A drive from a table of inputs over time.
 
-    Parameters
-    ----------
-    file : Path
-        CSV with the column ``time``, s, and one of each input; linear in between.
-    speed : float
-        At the start, m/s.
+    `file`: CSV with the column ``time``, s, and one of each input; linear in between; `speed`: at the start, m/s.
 
     Raises
     ------

@@ -18,14 +18,8 @@ def reached(
 ) -> tuple[list[Position], float | None]:
     """Positions at rising or falling values from zero on.
 
-    Parameters
-    ----------
-    direction : ndarray, shape (3,)
-        Travels of the left and the right wheel and of the rack per value.
-    values : ndarray, shape (n,)
-        All of one sign, farther and farther from zero, m.
-    start : Position, optional
-        Where the value is zero; by default as drawn.
+    `direction`: travels of the left and the right wheel and of the rack per value, shape (3,); `values`: all of one
+    sign, farther and farther from zero, m, shape (n,); `start`: where the value is zero; by default as drawn.
 
     Returns
     -------

@@ -18,10 +18,7 @@ from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
     """Columns of the table of the left wheel, as far as its stops and the rack go, (n,) each, by name, SI units.
 
-    Parameters
-    ----------
-    rack_travel : float
-        To each side, m; 0 where the axle is not steered.
+    `rack_travel`: to each side, m; 0 where the axle is not steered.
 
     Raises
     ------
@@ -47,12 +44,7 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
 def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike[str]) -> None:
     """Write the table of an axle as CSV, SI units in the headings.
 
-    Parameters
-    ----------
-    rack_travel : float
-        As of `curve_rows`.
-    file : path
-        To be written; one that exists is replaced when the new one is whole.
+    `rack_travel`: as of `curve_rows`; `file`: to be written; one that exists is replaced when the new one is whole.
     """
     columns = curve_rows(linkage, rack_travel)
     with whole_file(Path(file)) as made, made.open("w", newline="", encoding="utf-8") as out:

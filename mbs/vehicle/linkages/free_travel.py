@@ -17,10 +17,7 @@ FARTHEST = 0.5  # m: travel of wheels and rack that is looked at
 def notes_without_stops(car: Car) -> Iterator[str]:
     """A sentence for each axle without stops, and one for a steered knuckle without.
 
-    Parameters
-    ----------
-    car : Car
-        At rest near the drawing.
+    `car`: at rest near the drawing.
     """
     yield from _of_the_springs(car)
     yield from _of_the_steering(car)

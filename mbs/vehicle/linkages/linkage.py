@@ -123,10 +123,7 @@ class Linkage(StandingModel):
     def constraints(self, q: Array, qd: Array, rack: float) -> tuple[Array, Array, Array]:
         """Conditions of the joints at a travel of the rack, their Jacobian, and their rate by the rack's travel.
 
-        Parameters
-        ----------
-        q, qd : ndarray, shape (nq,)
-            Coordinates and rates.
+        `q`, `qd`: coordinates and rates, shape (nq,).
         """
         return self.evaluator.constraints(q, qd, rack)
 
@@ -146,14 +143,8 @@ class Linkage(StandingModel):
     def solve(self, start: Array, travel: Array, rack: float) -> Position:
         """The position near a start.
 
-        Parameters
-        ----------
-        start : ndarray, shape (nq,)
-            Coordinates near to it.
-        travel : ndarray, shape (2,)
-            Of the left and the right wheel, m.
-        rack : float
-            Travel of the rack, m.
+        `start`: coordinates near to it, shape (nq,); `travel`: of the left and the right wheel, m, shape (2,); `rack`:
+        travel of the rack, m.
 
         Raises
         ------
@@ -183,10 +174,7 @@ class Linkage(StandingModel):
     def bends(self, at: Position, directions: Array) -> Array:
         """Second derivatives (nq, n) of the coordinates along directions.
 
-        Parameters
-        ----------
-        directions : ndarray, shape (3, n)
-            Rates of the travels of the left and the right wheel and of the rack.
+        `directions`: rates of the travels of the left and the right wheel and of the rack, shape (3, n).
         """
         still = np.zeros(len(at.q))
 

@@ -53,10 +53,7 @@ class PoseGrid:
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     """Positions of an axle over all it can be asked for.
 
-    Parameters
-    ----------
-    rack_travel : float
-        To each side, m; 0 where the axle is not steered.
+    `rack_travel`: to each side, m; 0 where the axle is not steered.
 
     Raises
     ------

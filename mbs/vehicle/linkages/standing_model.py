@@ -42,11 +42,5 @@ class StandingModel:
         return self._T[k], float(self._constant[k])
 
     def force(self, q: Array) -> Array:
-        """Forces Q (nq,) of all elements at rest.
-
-        Parameters
-        ----------
-        q : ndarray, shape (nq,)
-            Coordinates.
-        """
+        """Forces Q (nq,) of all elements at rest. `q`: coordinates, shape (nq,)."""
         return self.evaluator.forces(q)

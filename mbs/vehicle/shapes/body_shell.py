@@ -205,13 +205,7 @@ class BodyShell:
 
 
 def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
-    """Draw the body.
-
-    Parameters
-    ----------
-    clear : bool
-        Whether pages can make it see-through, onto the frame in it.
-    """
+    """Draw the body. `clear`: whether pages can make it see-through, onto the frame in it."""
     car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
     m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)

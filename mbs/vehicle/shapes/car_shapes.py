@@ -36,12 +36,7 @@ SUSPENSIONS: Mapping[str, Callable[[Looks, str, Axle], None]] = {
 def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links: bool) -> None:
     """Draw a car whose model has all bodies and sensors.
 
-    Parameters
-    ----------
-    spins : mapping of str to Spin
-        Its wheels by name.
-    links : bool
-        Whether its suspensions have links, no tables in their place.
+    `spins`: its wheels by name; `links`: whether its suspensions have links, no tables in their place.
     """
     b.m.default_shapes = False
     linked = links and car.front.by_curves is None and car.rear.by_curves is None

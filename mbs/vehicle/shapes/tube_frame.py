@@ -16,12 +16,7 @@ LOW = 0.05  # m above the lowest joint: what the floor lies on
 def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None:
     """Draw the tubes, if nothing else does, and the floor.
 
-    Parameters
-    ----------
-    frame : TubularFrame
-        Tables of the car.
-    bends : bool
-        Whether the chassis of the model is a flexible body, whose beams are drawn.
+    `frame`: tables of the car; `bends`: whether the chassis of the model is a flexible body, whose beams are drawn.
     """
     joints = frame.joint_places()
     paint = PAINT if looks.car.chassis.body in ("auto", "open") else CAST

@@ -11,13 +11,7 @@ RACK_FORCE = "force of the tie rods on the rack, positive to the left"
 
 
 def angle_demand(m: Model, largest: float) -> Input:
-    """The input of the steering wheel's angle in rad.
-
-    Parameters
-    ----------
-    largest : float
-        Angle at full lock, rad.
-    """
+    """The input of the steering wheel's angle in rad. `largest`: angle at full lock, rad."""
     return m.input(
         "steering_wheel_angle_demand",
         min=-largest,
@@ -30,14 +24,8 @@ def angle_demand(m: Model, largest: float) -> Input:
 def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
     """The demand as used, and what full lock takes away of both demands together.
 
-    Parameters
-    ----------
-    demand : Input
-        From `angle_demand`.
-    guide : Guide
-        That follows the demand.
-    scale : float
-        Radians of the steering wheel per unit of the guide.
+    `demand`: from `angle_demand`; `guide`: that follows the demand; `scale`: radians of the steering wheel per unit of
+    the guide.
     """
     m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
     excess = m.sense_guide(

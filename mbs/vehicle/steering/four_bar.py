@@ -29,10 +29,7 @@ class FourBar:
     def turned(self, phi: Array) -> tuple[Array, Array, Array]:
         """Joint of the arm and turn of the link at angles of the arm.
 
-        Parameters
-        ----------
-        phi : ndarray, shape (n,)
-            rad, continuous from the drawing on.
+        `phi`: in rad, continuous from the drawing on, shape (n,).
 
         Returns
         -------
@@ -57,10 +54,7 @@ class FourBar:
     def lever(self, phi: Array) -> Array:
         """Cosine of the angle of the arm from straight ahead or back (n,), as drawn positive.
 
-        Parameters
-        ----------
-        phi : ndarray, shape (n,)
-            rad.
+        `phi`: in rad, shape (n,).
         """
         arm = self.joint - self.pivot
         return np.asarray(np.copysign(1.0, arm.real) * np.real(arm * np.exp(1j * phi)) / abs(arm))
@@ -68,10 +62,7 @@ class FourBar:
     def transmission(self, phi: Array) -> Array:
         """Sine of the angle between link and idler arm (n,), as drawn positive: 0 where they lock, NaN beyond.
 
-        Parameters
-        ----------
-        phi : ndarray, shape (n,)
-            rad.
+        `phi`: in rad, shape (n,).
         """
         joint, turn, _ = self.turned(phi)
         link = (self.idler_joint - self.joint) * np.exp(1j * turn)
@@ -82,12 +73,7 @@ class FourBar:
     def carried(self, point: complex, phi: Array) -> tuple[Array, Array]:
         """Way (n,) of a point of the link from the drawing, m, and its rate per angle of the arm, both complex.
 
-        Parameters
-        ----------
-        point : complex
-            As drawn, m.
-        phi : ndarray, shape (n,)
-            rad.
+        `point`: as drawn, m; `phi`: in rad, shape (n,).
         """
         joint, turn, rate = self.turned(phi)
         arm = (point - self.joint) * np.exp(1j * turn)

@@ -56,13 +56,7 @@ class RackSection(SteeringSection):
 
 
 def rack_ends(b: CarBuilder, guide: Guide) -> TieRodEnd:
-    """Ends of a rack without mass.
-
-    Parameters
-    ----------
-    guide : Guide
-        Its travel, m, positive to the left.
-    """
+    """Ends of a rack without mass. `guide`: its travel, m, positive to the left."""
 
     def end(side: Side, point: Point) -> End:
         return b.m.slide(f"rack end {side.wheel}", b.chassis.body, point=point, direction=LEFT, guide=guide)

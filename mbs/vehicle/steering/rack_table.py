@@ -44,13 +44,7 @@ class RackTable:
         """Angle in the table over that of the steering wheel."""
 
     def angle(self, travel: float) -> float:
-        """Angle in the table at a travel of the rack within its ends, rad.
-
-        Parameters
-        ----------
-        travel : float
-            m.
-        """
+        """Angle in the table at a travel of the rack within its ends, rad. `travel`: in m."""
         x, y = self.rows.T
         if abs(travel) >= y[-1]:
             return math.copysign(float(x[-1] + (abs(travel) - y[-1]) / self._curve(x[-1], 1)), travel)
@@ -60,25 +54,13 @@ class RackTable:
         return float(brentq(lambda u: float(self._curve(u)) - travel, x[k], x[k + 1], xtol=1e-15, rtol=1e-15))
 
     def at(self, travel: float) -> tuple[float, float]:
-        """Angle of the steering wheel, rad, and its change per travel of the rack, rad/m.
-
-        Parameters
-        ----------
-        travel : float
-            Of the rack, m.
-        """
+        """Angle of the steering wheel, rad, and its change per travel of the rack, rad/m. `travel`: of the rack, m."""
         angle = self.angle(travel)
         return angle / self.factor, 1.0 / (self.factor * float(self._curve(angle, 1)))
 
 
 def table_faults(key: str, rows: Rows, travel_key: str, travel: float) -> Iterator[str]:
-    """What a table must be.
-
-    Parameters
-    ----------
-    travel_key, travel : str, float
-        Of the travel at full lock, m, that it must reach.
-    """
+    """What a table must be. `travel_key`, `travel`: of the travel at full lock, m, that it must reach."""
     if len(rows) < 2:
         yield f"{key} has {len(rows)} rows; it must have two or more."
         return

@@ -17,14 +17,9 @@ def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn
     A table is stretched along the angle. Full lock stays where it is for rack or arm; the range of the demanded angle
     stays that of the file.
 
-    Parameters
-    ----------
-    held : Guide
-        Of the travel of the rack, of the angle in the table, or of the angle of the arm.
-    turn : float
-        Ratio over that guide per radian of the steering wheel, or of their reciprocals.
-    inverse : bool
-        Whether the steering wheel turns the more the larger the ratio is.
+    `held`: of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`: ratio over that
+    guide per radian of the steering wheel, or of their reciprocals; `inverse`: whether the steering wheel turns the
+    more the larger the ratio is.
     """
     value = getattr(data, name)
     if b.ports.steering is None:

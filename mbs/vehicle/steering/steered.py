@@ -32,10 +32,7 @@ class Steered:
 def tie_rods(m: Model, guide: Guide) -> list[Joint]:
     """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
 
-    Parameters
-    ----------
-    m : Model
-        With the suspension.
+    `m`: with the suspension.
     """
     return [
         joint

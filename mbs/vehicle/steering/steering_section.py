@@ -40,19 +40,13 @@ class SteeringSection(Section):
     def wheel_at(self, motion: float) -> tuple[float, float]:
         """Angle of the steering wheel, rad, and its change per motion.
 
-        Parameters
-        ----------
-        motion : float
-            m or rad, positive where it steers to the left.
+        `motion`: in m or rad, positive where it steers to the left.
         """
 
     def signed(self, way: float) -> float:
         """Sign of its motion where it steers to the left.
 
-        Parameters
-        ----------
-        way : float
-            1 where a rack that moves to the left steers to the left, else -1.
+        `way`: 1 where a rack that moves to the left steers to the left, else -1.
         """
         return way
 
@@ -60,12 +54,7 @@ class SteeringSection(Section):
     def ends(self, b: CarBuilder, guide: Guide, way: float) -> TieRodEnd:
         """What the inner ends of the tie rods hang on where a guide gives its motion.
 
-        Parameters
-        ----------
-        guide : Guide
-            m or rad.
-        way : float
-            As of `signed`.
+        `guide`: in m or rad; `way`: as of `signed`.
         """
 
     @property

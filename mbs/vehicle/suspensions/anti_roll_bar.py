@@ -62,12 +62,7 @@ class AntiRollBar(Section):
     def build(self, b: CarBuilder, axle: str, corners: Sequence[Corner]) -> None:
         """Add the bar with its links.
 
-        Parameters
-        ----------
-        axle : str
-            "front" or "rear".
-        corners : sequence of Corner
-            Left and right side of the axle.
+        `axle`: "front" or "rear"; `corners`: left and right side of the axle.
         """
         carrier, levers = b.chassis.lever_carrier, []
         for corner in corners:

@@ -114,12 +114,7 @@ class Compliance(Section):
     def rack_end(self, b: CarBuilder, side: Side, rack: Coordinate, steer_per_rack: float) -> Coordinate:
         """Travel of the end of the rack at a wheel, on a spring.
 
-        Parameters
-        ----------
-        rack : Coordinate
-            Travel of the rack, m.
-        steer_per_rack : float
-            rad/m
+        `rack`: travel of the rack, m; `steer_per_rack`: in rad/m.
         """
         end = b.m.travel(f"rack end {side.wheel}")
         stiffness = steer_per_rack**2 / self.per_moment
@@ -135,13 +130,7 @@ class Compliance(Section):
         return turn
 
     def turned(self, curves: WheelCurves, side: Side) -> WheelCurves:
-        """Curves over travel alone as curves over travel and turn.
-
-        Parameters
-        ----------
-        curves : WheelCurves
-            With one point of the second variable.
-        """
+        """Curves over travel alone as curves over travel and turn. `curves`: with one point of the second variable."""
         c, s = np.cos(TURNS), np.sin(TURNS)
         about = np.zeros((len(TURNS), 3, 3))
         about[:, 0, 0] = about[:, 1, 1] = c

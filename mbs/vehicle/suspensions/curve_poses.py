@@ -43,10 +43,7 @@ class WheelCurves:
 def axes_of(steer: Array, inclination: Array) -> Array:
     """Unit vectors of wheels: forward and level, their axis to the left, up in their plane, as columns (..., 3, 3).
 
-    Parameters
-    ----------
-    steer, inclination : ndarray
-        rad, positive to the left and with the top to the right.
+    `steer`, `inclination`: in rad, positive to the left and with the top to the right.
     """
     nought = np.zeros_like(steer)
     forward = np.stack([np.cos(steer), np.sin(steer), nought], axis=-1)
@@ -70,10 +67,7 @@ def wheel_curves(table: CurveTable, side: Side, hub: Hub) -> WheelCurves:
 
     Angles count from those of the table at the drawing, as places do: what is drawn stays as drawn.
 
-    Parameters
-    ----------
-    hub : Hub
-        The left wheel as drawn.
+    `hub`: the left wheel as drawn.
     """
     own = table.both and side.name == "right"
     if own and table.second_name == OTHER:  # whose rows are places of the axle: the left wheel's travel comes first

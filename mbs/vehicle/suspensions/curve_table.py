@@ -89,12 +89,7 @@ class CurveTable:
 
 
 def read_curves(folder: Path, name: str, key: str) -> CurveTable:
-    """Read the table of an axle.
-
-    Parameters
-    ----------
-    key : str
-        Key path of the name, for messages.
+    """Read the table of an axle. `key`: key path of the name, for messages.
 
     Raises
     ------

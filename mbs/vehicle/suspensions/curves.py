@@ -89,12 +89,7 @@ class Curves(Section):
     _hub: Hub | None = PrivateAttr(None)
 
     def open(self, folder: Path, hub: Hub) -> None:
-        """Read the table; done once by the reader of the car.
-
-        Parameters
-        ----------
-        hub : Hub
-            The left wheel as drawn.
+        """Read the table; done once by the reader of the car. `hub`: the left wheel as drawn.
 
         Raises
         ------
@@ -127,13 +122,7 @@ class Curves(Section):
         return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
 
     def steered_angle(self, rack: float) -> float:
-        """Mean angle of both wheels at a travel of the rack to either side, rad.
-
-        Parameters
-        ----------
-        rack : float
-            m.
-        """
+        """Mean angle of both wheels at a travel of the rack to either side, rad. `rack`: in m."""
         steer = CubicSpline(*self._steer(self.of(Side("front", "left", 1.0))))
         return 0.5 * abs(float(steer(rack) - steer(-rack)))
 
@@ -167,12 +156,7 @@ class Curves(Section):
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left side, then the right one, then what joins them.
 
-        Parameters
-        ----------
-        axle, springs
-            As of `IndependentSuspension.corners`.
-        tie_rod : TieRodEnd
-            Of no use here: the rack is a coordinate.
+        `axle`, `springs`: as of `IndependentSuspension.corners`; `tie_rod`: of no use here: the rack is a coordinate.
         """
         travels = {side.name: b.m.travel(f"wheel travel {side.wheel}") for side in sides(axle)}
         levers = []

@@ -51,14 +51,8 @@ class IndependentSuspension(Section):
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left side, then the right one.
 
-        Parameters
-        ----------
-        axle : str
-            "front" or "rear".
-        springs : AxleSprings
-            Springs, dampers and stops of the axle.
-        tie_rod : TieRodEnd
-            Gives what the inner ends of the rods hang on.
+        `axle`: "front" or "rear"; `springs`: springs, dampers and stops of the axle; `tie_rod`: gives what the inner
+        ends of the rods hang on.
         """
         for side in sides(axle):
             yield self.corner(b, side, springs, tie_rod)
@@ -67,10 +61,5 @@ class IndependentSuspension(Section):
     def corner(self, b: CarBuilder, side: Side, springs: AxleSprings, tie_rod: TieRodEnd) -> Corner:
         """Add one side.
 
-        Parameters
-        ----------
-        b, springs, tie_rod
-            As of `corners`.
-        side : Side
-            Axle, and left or right.
+        `b`, `springs`, `tie_rod`: as of `corners`; `side`: axle, and left or right.
         """

@@ -83,12 +83,7 @@ class TwistBeam(Section):
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left half, then the right one, then what joins them.
 
-        Parameters
-        ----------
-        axle, springs
-            As of `IndependentSuspension.corners`.
-        tie_rod : TieRodEnd
-            Of no use here.
+        `axle`, `springs`: as of `IndependentSuspension.corners`; `tie_rod`: of no use here.
         """
         m, chassis = b.m, b.chassis.body
         halves = []

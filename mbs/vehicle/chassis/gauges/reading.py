@@ -30,11 +30,5 @@ class Reading:
 
 
 def in_order(readings: Iterable[Reading]) -> tuple[Reading, ...]:
-    """Forces and moments first, then stresses, each in the order of the file.
-
-    Parameters
-    ----------
-    readings : iterable of Reading
-        Gauge by gauge.
-    """
+    """Forces and moments first, then stresses, each in the order of the file. `readings`: gauge by gauge."""
     return tuple(sorted(readings, key=lambda reading: reading.quantity == STRESS))

@@ -81,12 +81,7 @@ class TubeGauge(Section):
     def readings(self, gauge: StrainGauge, frame: Frame) -> Iterator[Reading]:
         """What it reports.
 
-        Parameters
-        ----------
-        gauge : StrainGauge
-            From `strain_gauge`.
-        frame : Frame
-            With its tube.
+        `gauge`: from `strain_gauge`; `frame`: with its tube.
         """
         name = gauge.name
         fibre = self.fibre if isinstance(self.fibre, str) else f"{self.fibre:g} deg"
