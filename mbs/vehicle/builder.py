@@ -81,8 +81,8 @@ class CarBuilder:
     ) -> Input:
         """An input that another program sets, 0 until then.
 
-        `least`, `largest`: ends of its range, at which larger values are held, in `unit`; `role`, `near`, `figures`: what
-        an FMU watches it for, by which sensor, and what it must know; `whole`: whether it is a whole number.
+        `least`, `largest`: ends of its range, at which larger values are held, in `unit`; `role`, `near`, `figures`:
+        what an FMU watches it for, by which sensor, and what it must know; `whole`: whether it is a whole number.
         """
         limits = 0.0, least, largest, unit, description
         channel = new_input(self.m, name, *limits, whole, True, role, near, figures=figures)
