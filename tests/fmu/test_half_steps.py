@@ -136,9 +136,7 @@ def test_a_host_that_sets_a_state_before_each_step_is_told_what_steps_tell_thems
     assert "rebound stop too hard" in said
 
 
-def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds_only(
-    build: Callable[..., Path], host: HostMaker
-) -> None:
+def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable[..., Path], host: HostMaker) -> None:
     """Each hop is abrupt, so the two motions go apart until the second one ends; half a second later it is judged."""
     driven = host(build("hopper")).start({"step_size": 0.004})
     for k in range(800):

@@ -84,6 +84,7 @@ WAYS = {
         **TABLES,
         **STATE,
         "--show-parameters": "hosts.check.parameters",
+        "--reference": "hosts.check.reference",
         "--soak": "hosts.soak.soak",
     },
     "catalogue": {**EVERY, **CAR, **ALIASES},

@@ -10,21 +10,22 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 43212,
-    "build --kernel": 395,
-    "car": 27344,
-    "run": 3811,
-    "run, all of it": 8105,
-    "view": 756,
-    "simulator": 8484,
-    "simulator, all of it": 15268,
-    "check": 5677,
-    "catalogue": 7999,
-    "compare": 9262,
-    "study": 5645,
-    "study --run": 7844,
-    "study, all of it": 14542,
-    "road": 668,
+    "build": 44106,
+    "build --kernel": 404,
+    "car": 27916,
+    "run": 3903,
+    "run, all of it": 8346,
+    "view": 778,
+    "simulator": 8675,
+    "simulator, all of it": 15679,
+    "check": 3593,
+    "check --reference": 5784,
+    "catalogue": 8236,
+    "compare": 9526,
+    "study": 5768,
+    "study --run": 8089,
+    "study, all of it": 14958,
+    "road": 687,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300
