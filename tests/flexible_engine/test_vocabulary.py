@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from mbs import Settings, compile
+from mbs.flexible.reduced_body import ReducedBody
 from mbs.model import Model, ModelError
 from mbs.model.flexible import FlexibleBody
 from mbs.simulation.stepping import Simulation
@@ -46,10 +48,25 @@ def test_a_shared_point_needs_no_coordinates_of_its_own() -> None:
     assert compile(m).nq == (12 + 8) + 12
 
 
-def _watched(node_first: bool) -> Simulation:
+def with_interface() -> ReducedBody:
+    """Random shapes but for those of node 3, whose three coordinates are amplitudes."""
+    reduced = cloud()
+    shapes = reduced.node_translations.copy()
+    shapes[3] = np.eye(3, reduced.n_modes)
+    weighted = (np.sqrt(reduced.masses)[:, None, None] * shapes).reshape(-1, reduced.n_modes)
+    return replace(
+        reduced,
+        node_translations=shapes,
+        mass_shapes=shapes,
+        modes=shapes.reshape(-1, reduced.n_modes),
+        M=weighted.T @ weighted,
+    )
+
+
+def _watched(node_first: bool, reduced: ReducedBody | None = None) -> Simulation:
     """A body that turns and bends, its node 3 in earth axes, in its own and in those of another body, all orders."""
     m = Model("watched")
-    body = m.flexible_body("cloud", cloud())
+    body = m.flexible_body("cloud", reduced or cloud())
     m.initial_velocity(body, (0.1, 0.2, 0.3), (1.0, 2.0, 3.0))
     place = body.node_positions[3]
     other = m.body("other", mass=1.0, com=(2.0, 0, 0), inertia=(0.1, 0.2, 0.25))
@@ -66,9 +83,11 @@ def _watched(node_first: bool) -> Simulation:
     return simulation
 
 
-def test_a_node_is_read_without_coordinates() -> None:
-    """Place, velocity and acceleration are those of the node that has coordinates, of its own also by differences."""
-    alone, node = _watched(False), _watched(True)
+@pytest.mark.parametrize("reduced", [cloud(), with_interface()], ids=["cloud", "interface"])
+def test_a_node_is_read_without_coordinates(reduced: ReducedBody) -> None:
+    """Place, velocity and acceleration are those of the node that has coordinates; the rows of an interface have
+    entries of one term."""
+    alone, node = _watched(False, reduced), _watched(True, reduced)
     assert alone.system.nq == node.system.nq - 3
     for name, value in node.sensors.items():
         assert alone.sensors[name] == pytest.approx(value, rel=1e-6, abs=1e-7), name
