@@ -87,7 +87,7 @@ static void forces(ali3_instance *in, double wC, double wK) {
 static bool evaluate(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   double largest = 0.0, open = 0.0;
-  for (int i = 0; i < STAGES; i++) {
+  for (int i = 0; i < STAGES; i++) { /* ascending: the number behind a stage, which it may write, is of the next one */
     double *Phi = of_rows(in, in->stage_Phi, i), *J = of_entries(in, in->stage_J, i), *r = residual(in, i);
     place(in, t, h, i);
     ali3_constraints(in, in->next.q, in->next.s, Phi, J);

@@ -35,7 +35,7 @@ static inline double *ali3_pool_array(ali3_pool *pool, size_t count) {
   return piece;
 }
 
-/* Such numbers with one more behind them, which may be read: of three of them as of four (`ali3_three`). */
+/* Such numbers with one more behind them that holds nothing: three are read and written as four (`ali3_three`). */
 static inline double *ali3_pool_padded(ali3_pool *pool, size_t count) { return ali3_pool_array(pool, count + 1); }
 
 /* Items of any kind, from a multiple of 16 bytes to one. */
