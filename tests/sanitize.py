@@ -65,7 +65,8 @@ def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> li
         The compiler refuses a source.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    words = " ".join(part for part in command if "-I" not in part).encode()
+    version = subprocess.run([command[0], "--version"], capture_output=True, check=True).stdout
+    words = version + " ".join(part for part in command if "-I" not in part).encode()
 
     def made(source: Path) -> str:
         text = subprocess.run([*command, "-E", "-P", source], capture_output=True, check=True).stdout

@@ -8,6 +8,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
+from pydantic.fields import FieldInfo
 
 from mbs.elements.reals import texts_of
 from mbs.vehicle.quantities import Quantity, quantities_in
@@ -35,9 +36,11 @@ class Section(BaseModel):
     def __init_subclass__(cls, of: type | None = None, **options: Any) -> None:
         super().__init_subclass__(**options)
         texts, known = {} if of is None else texts_of(of), vars(sys.modules[cls.__module__])
-        for name in texts.keys() & cls.__annotations__.keys() - (texts_of(cls).keys() if texts else set()):
-            text = _without_unit(texts[name], eval(cls.__annotations__[name], known))
-            setattr(cls, name, Field(cls.__dict__.get(name, ...), description=text))
+        for name in texts.keys() & cls.__annotations__.keys():
+            given = cls.__dict__.get(name, ...)
+            if not isinstance(given, FieldInfo):  # else it has a text of its own
+                text = _without_unit(texts[name], eval(cls.__annotations__[name], known))
+                setattr(cls, name, Field(given, description=text))
 
     def element(self, kind: type[Element], **more: Any) -> Element:
         """An element that has the numbers of this table in its fields of the same names.

@@ -7,7 +7,7 @@ from math import atan, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from pydantic import PrivateAttr
+from pydantic import Field, PrivateAttr
 
 from mbs.elements.magic_tyre import FACTORS, MagicTyre
 from mbs.elements.tyre_bore import TyreBore
@@ -34,10 +34,10 @@ class MagicFormula(Section, of=MagicTyre):
     """Names the tyre formula."""
     file: str
     """Name of the tyre property file (.tir)."""
-    signs: Literal["iso", "sae", "adapted_sae"] = "iso"
-    """Axes of the coefficients: ISO, SAE, or those of Pacejka's book."""
-    pressure: InflationPressure | None = None
-    """Inflation pressure; by default that of the file."""
+    signs: Literal["iso", "sae", "adapted_sae"] = Field(
+        "iso", description="Axes of the coefficients: ISO, SAE, or those of Pacejka's book."
+    )
+    pressure: InflationPressure | None = Field(None, description="Inflation pressure; by default that of the file.")
     reference_friction: ReferenceFriction = 1.0
     grip: Factor = 1.0
     """Factor on the friction of the road under the tyres of this axle."""
