@@ -10,7 +10,6 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-<<<<<<< HEAD
     "build": 43320,
     "build --kernel": 395,
     "car": 27443,
@@ -27,23 +26,6 @@ MOST = {
     "study --run": 7856,
     "study, all of it": 14558,
     "road": 668,
-=======
-    "build": 43320,
-    "build --kernel": 395,
-    "car": 27443,
-    "run": 3811,
-    "run, all of it": 8115,
-    "view": 756,
-    "simulator": 8484,
-    "simulator, all of it": 15278,
-    "check": 3516,
-    "catalogue": 8001,
-    "compare": 9262,
-    "study": 5647,
-    "study --run": 7856,
-    "study, all of it": 14558,
-    "road": 668,
->>>>>>> w-house
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300
