@@ -114,6 +114,8 @@ class Repeats:
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
         """After two finer runs: where what the last two differ by may change the verdict, by a third, then a fourth.
 
+        Of these two the one that says more counts: behind abrupt forces they are off to both sides.
+
         Raises
         ------
         SimulationError
@@ -123,9 +125,11 @@ class Repeats:
             first, second = map(self._table, self._finer[-2:])
             if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
                 break
-            known = self.finer(times * parts)
+            last, known = known, self.finer(times * parts)
             tables = [self._table(self.run), second, self._table(self._finer[-1])]
             known = by_limit(known, tables, self.groups, self.before)
+            if times == 2 and (last.error or 0.0) > (known.error or 0.0):
+                known = replace(known, units=last.units, sensors=last.sensors)
         return known
 
     def add_ends(self) -> None:

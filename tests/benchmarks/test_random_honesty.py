@@ -90,13 +90,14 @@ def test_a_wrong_run_without_a_word_is_found(monkeypatch):
 
 
 @pytest.mark.parametrize(("seed", "number", "h"), [(2, 54, 0.02), (7, 968, 0.01)])
-def test_where_two_repeats_leave_a_verdict_on_forces_open_a_third_decides(seed, number, h):
+def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, number, h):
     """The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
 
-    There it told 1.7 % of 5.8 %: the run with half the step is further off, 9.9 %, so that both cannot be believed.
+    There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.1 % and a 16th 4.8 %: the larger of the
+    last two counts.
     """
     run, error = told_and_true(seed, number, h)
-    assert run.accuracy.repeated_with == pytest.approx(h / 8.0)
+    assert run.accuracy.repeated_with == pytest.approx(h / 16.0)
     assert run.accuracy.error == pytest.approx(error, rel=0.14)
 
 
