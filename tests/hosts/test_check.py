@@ -131,7 +131,7 @@ def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path)
         "resource.setrlimit(resource.RLIMIT_AS, (used + 30_000_000, resource.RLIM_INFINITY))\n"
         "print(_one('x', lambda subject: 1 / 0, subject).words)\n"
         "try:\n"
-        "    _one('crowd', lambda subject: [crowd.append(Instance(subject)) for _ in range(100_000)], subject)\n"
+        "    print(_one('crowd', lambda subject: [crowd.append(Instance(subject)) for _ in range(100_000)], subject))\n"
         "except MemoryError:\n"
         "    print('MemoryError')\n"
     )
@@ -140,4 +140,4 @@ def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path)
     command = [sys.executable, "-c", program, str(fmus["native"]), str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
     assert "ZeroDivisionError: division by zero; this process may take " in done.stdout, done.stderr
-    assert done.stdout.endswith("MemoryError\n")
+    assert done.stdout.endswith("MemoryError\n"), done.stdout
