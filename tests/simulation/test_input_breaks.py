@@ -9,6 +9,7 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_mechanisms
+from mbs.kernel.binding import Instance, LoadedSystem
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.input_breaks import input_breaks
 
@@ -177,3 +178,22 @@ def test_a_run_by_hand_is_judged_as_by_simulate() -> None:
     for run in runs:
         with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.[6-9] % .* steps of 0\.00057"):
             run()
+
+
+def test_a_step_that_is_refused_behind_a_break_leaves_the_state_where_it_was() -> None:
+    instance = Instance(LoadedSystem(sledge(800.0).to_bytes()))
+
+    def given(t: float, after: bool, u: np.ndarray) -> None:
+        if t > 0.2055:
+            raise ZeroDivisionError
+        u[0] = 50.0
+
+    instance.set_input_function(given)
+    instance.set_input_breaks(np.array([0.205]))
+    instance.initialise(0.0)
+    for _ in range(10):
+        instance.step(0.02)
+    before = np.copy(instance.get_state()[0])
+    with pytest.raises(ZeroDivisionError):
+        instance.step(0.02)
+    np.testing.assert_array_equal(instance.get_state()[0], before)
