@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from dataclasses import fields
-from typing import TYPE_CHECKING, Any, TypeVar, get_args
+from inspect import signature
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
 from pydantic.fields import FieldInfo
@@ -13,10 +13,7 @@ from pydantic.fields import FieldInfo
 from mbs.elements.reals import texts_of
 from mbs.vehicle.quantities import Quantity, quantities_in
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-Element = TypeVar("Element", bound="DataclassInstance")
+Element = TypeVar("Element")
 
 AXES, PRODUCTS = ("x", "y", "z"), ("xy", "xz", "yz")
 """Names of the numbers of a point or of moments of inertia, and of products of inertia."""
@@ -52,7 +49,7 @@ class Section(BaseModel):
         **more
             Its other fields, and those that are not as in the file.
         """
-        own = {f.name: getattr(self, f.name) for f in fields(kind) if f.name in type(self).model_fields}
+        own = {name: getattr(self, name) for name in signature(kind).parameters if name in type(self).model_fields}
         return kind(**(own | more))
 
     @property

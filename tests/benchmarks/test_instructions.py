@@ -43,7 +43,7 @@ def test_the_functions_of_a_scene_are_named_with_their_shares(tmp_path, capsys, 
     share = {row["function"]: row["share"] for row in rows}
     assert sum(share.values()) == pytest.approx(1.0)
     named = {name.removeprefix("ali3_").removesuffix("_avx2") for name in share}  # one of the two that are compiled
-    assert {"constraints", "factorise"} <= named
+    assert {"rigid_rows", "factorise"} <= named
     assert all(value > instructions.LEAST for name, value in share.items() if name != "all others")
     assert "factorise" in capsys.readouterr().out
 

@@ -156,8 +156,8 @@ struct ali3_system {
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
   unsigned char *row_single; /* its entries have a term each at most, of Systems with flexible bodies only: */
-  int32_t *single_col;       /* as row_col: the coordinate in that term */
-  double *single_val;        /* as row_col: its factor, or 0 */
+  int32_t *single_col; /* as row_col: the coordinate in that term */
+  double *single_val; /* as row_col: its factor, or 0 */
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
                         side; else the end of its terms */
   int32_t *row_alike; /* nc: rows from this one on with the same stretch in the same front; 0: no stretch */

@@ -34,8 +34,8 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
   ali3_three_products(n, f->P, eta, f->S);
   for (int i = 0; i < 3; i++)
     for (int k = 0; k <= i; k++)
-      f->J[3 * i + k] = f->J[3 * k + i] = ali3_product_from_far(f->c + (3 * k + i) * n, eta, n) +
-                                          ali3_product_from_far(f->D + (3 * i + k) * n, eta, n);
+      f->J[3 * i + k] = f->J[3 * k + i] =
+          ali3_product_from_far(f->c + (3 * k + i) * n, eta, n) + ali3_product_from_far(f->D + (3 * i + k) * n, eta, n);
 }
 
 ALI3_INLINED void flexible_prepare(const ali3_instance *in, const real *q) {
@@ -111,8 +111,7 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
       for (int k = 0; k < 3; k++) Q[f.frame[3 * i + k]] += total[k] + (i > 0 ? f.S[i - 1] * g[k] : ali3_same(0.0));
     }
     real weight[3];
-    for (int l = 0; l < 3; l++)
-      weight[l] = -(f.A[3 * l] * g[0] + f.A[3 * l + 1] * g[1] + f.A[3 * l + 2] * g[2]);
+    for (int l = 0; l < 3; l++) weight[l] = -(f.A[3 * l] * g[0] + f.A[3 * l + 1] * g[1] + f.A[3 * l + 2] * g[2]);
     ali3_add_three_rows(n, f.P, weight, sum);
     ali3_add_to_modes(&f, sum, -1.0, Q);
   }
