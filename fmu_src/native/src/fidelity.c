@@ -32,6 +32,7 @@ void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
 /* False, and said, if it cannot be loaded; then `loaded` is empty. */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   char file[32], message[256] = "";
+  const char *why;
   size_t size = 0;
   memset(loaded, 0, sizeof *loaded);
   snprintf(file, sizeof file, "system_%u.ali3", (unsigned)number);
@@ -39,9 +40,9 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     slave_say(s, SLAVE_ERROR, "There is no fidelity %u in this FMU.", (unsigned)number);
     return false;
   }
-  unsigned char *bytes = slave_read(s->resources, file, &s->memory, &size);
+  unsigned char *bytes = slave_read(s->resources, file, &s->memory, &size, &why);
   if (bytes == NULL) {
-    slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s.", file, s->resources);
+    slave_say(s, SLAVE_ERROR, "The file %s of the FMU cannot be read in %s: %s.", file, s->resources, why);
     return false;
   }
   ali3_status status = ali3_system_load_with(bytes, size, &s->memory, &loaded->system, message, sizeof message);

@@ -56,15 +56,17 @@ bool slave_path_of_uri(const char *uri, char *path, size_t size) {
   return true;
 }
 
-unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size) {
+unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
+                          const char **why) {
   char path[SLAVE_PATH + 64];
-  const char *why;
   int64_t length = 0;
   snprintf(path, sizeof path, "%s/%s", folder, name);
-  ali3_file *file = ali3_file_open(path, &length, &why);
+  ali3_file *file = ali3_file_open(path, &length, why);
   if (file == NULL) return NULL;
   unsigned char *bytes = NULL;
-  if (length > 0 && length < MOST_BYTES) bytes = memory->allocate(1, (size_t)length);
+  const bool fits = length > 0 && length < MOST_BYTES;
+  if (fits) bytes = memory->allocate(1, (size_t)length);
+  *why = fits && bytes == NULL ? "there is not enough memory" : "it is too short, too long or breaks off";
   if (bytes != NULL && !ali3_file_read(file, 0, bytes, (size_t)length)) {
     memory->release(bytes);
     bytes = NULL;

@@ -179,7 +179,8 @@ bool slave_allowed(slave *s, const char *function, unsigned mask);
 
 /* resource.c */
 bool slave_path_of_uri(const char *uri, char *path, size_t size);
-unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size);
+unsigned char *slave_read(const char *folder, const char *name, const ali3_memory *memory, size_t *size,
+                          const char **why);
 
 /* fidelity.c */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded);

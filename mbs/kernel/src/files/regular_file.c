@@ -88,6 +88,8 @@ static const char *reason(int error) {
   case EMFILE:
   case ENFILE:
     return "too many files are open";
+  case ENOMEM:
+    return "there is not enough memory";
   default:
     return "it cannot be opened";
   }
