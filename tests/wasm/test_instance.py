@@ -34,8 +34,8 @@ def test_what_cannot_be_loaded(told: Any, what: str, words: str) -> None:
     [
         (
             "noResources",
-            "The FMU gave no instance: The file system_0.ali3 of the FMU cannot be read in /resources: there is no such "
-            "file.",
+            "The FMU gave no instance: The file system_0.ali3 of the FMU cannot be read in /resources: there is no "
+            "such file.",
         ),
         ("otherGuid", "The FMU gave no instance: The GUID {0} does not belong to this FMU"),
         ("early", "The step from 0 s over 0.002 s was refused: fmi2DoStep is not allowed before initialisation."),
