@@ -5,6 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.common.polyline import needed_points
 from mbs.settings.input_signals import Table
 
 LEAST = 0.05  # of the range of the table: a smaller departure is noise of a record
@@ -24,14 +25,15 @@ def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> 
         for number in np.unique(step[departs]):
             inside = within & (step == number)
             k = int(np.argmax(inside))
-            found += _parted(np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]], least)
+            found.extend(_parted(np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]], least))
     times = np.unique(found)[:-1]
     return times[np.diff(times, prepend=-np.inf) > AT_END * h]
 
 
-def _parted(t: NDArray[np.float64], x: NDArray[np.float64], least: float) -> list[float]:
-    """Points without which straight lines would miss a table by more than `least` (Douglas, Peucker 1973)."""
-    apart = np.abs(x - np.interp(t, [t[0], t[-1]], [x[0], x[-1]]))
-    k = int(np.argmax(apart))
-    parts = apart[k] > least and t[0] < t[-1]
-    return [*_parted(t[: k + 1], x[: k + 1], least), float(t[k]), *_parted(t[k:], x[k:], least)] if parts else []
+def _parted(t: NDArray[np.float64], x: NDArray[np.float64], least: float) -> NDArray[np.float64]:
+    """Times between the first and the last without which straight lines would miss a table by more than `least`."""
+
+    def off(a: int, b: int) -> NDArray[np.float64]:
+        return np.abs(x[a + 1 : b] - np.interp(t[a + 1 : b], t[[a, b]], x[[a, b]]))
+
+    return t[needed_points(len(t), off, least)[1:-1]]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ali3.cones import cone_places as places_beside
 from ali3.iso_3888 import lanes
+from mbs.common.polyline import needed_points
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.layers import CourseLayer
 from mbs.worlds.terrain import Terrain
@@ -88,23 +89,17 @@ def draped(terrain: Terrain, x: Float, y: Float) -> list[list[float]]:
 
 
 def _thinned(points: Float) -> list[int]:
-    """Indices of the points that a line needs (Ramer, Douglas and Peucker), without recursion."""
-    keep = {0, len(points) - 1}
-    waiting = [(0, len(points) - 1)]
-    while waiting:
-        a, b = waiting.pop()
-        if b - a < 2:
-            continue
+    """Indices of the points that a line needs."""
+
+    def off(a: int, b: int) -> Float:
         way = points[b] - points[a]
         size = float(way @ way)
         inner = points[a + 1 : b] - points[a]
         share = np.clip(inner @ way / size, 0.0, 1.0) if size > 0.0 else np.zeros(len(inner))
-        off = np.linalg.norm(inner - share[:, None] * way, axis=1)
-        k = int(np.argmax(off))
-        if off[k] > OFF:
-            keep.add(a + 1 + k)
-            waiting += [(a, a + 1 + k), (a + 1 + k, b)]
-    return sorted(keep)
+        distance: Float = np.linalg.norm(inner - share[:, None] * way, axis=1)
+        return distance
+
+    return needed_points(len(points), off, OFF)
 
 
 def _dense(points: Sequence[tuple[float, float]]) -> tuple[Float, Float]:

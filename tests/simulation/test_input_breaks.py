@@ -197,3 +197,11 @@ def test_a_step_that_is_refused_behind_a_break_leaves_the_state_where_it_was() -
     with pytest.raises(ZeroDivisionError):
         instance.step(0.02)
     np.testing.assert_array_equal(instance.get_state()[0], before)
+
+
+def test_a_step_of_thousands_of_rows_of_noise_is_parted() -> None:
+    """Each row is farther from straight lines than all before, so that lines end at one after the other."""
+    t = np.linspace(0.0, 1.0, 5001)[:-1]
+    breaks = input_breaks([(t, t * (-1.0) ** np.arange(len(t)))], 0.0, 1.0, 1.0)
+    assert 4000 < len(breaks) < len(t)
+    assert set(breaks) <= set(t)

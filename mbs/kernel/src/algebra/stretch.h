@@ -2,6 +2,7 @@
  * alone, and sums are added up in the order of the numbers. */
 #ifndef ALI3_STRETCH_H
 #define ALI3_STRETCH_H
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "real.h"
@@ -30,6 +31,9 @@
 /* A number of which the compiler takes nothing for granted: addresses that follow from it are found where they are used,
  * as loops around that carry many along have no registers left. */
 #define ALI3_OPAQUE(number) __asm__("" : "+r"(number))
+
+/* Whether n places that ascend lie side by side, as those of modes mostly do. */
+static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
 enum { ALI3_LARGE = 12 }; /* coordinates of a front from which on it is worth while to count in fours */
 

@@ -1,7 +1,6 @@
 /* A flexible body in the arrays of a System, and the loops that its files share. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
-#include <stdbool.h>
 #include <string.h>
 
 #include "../algebra/processor.h"
@@ -156,9 +155,6 @@ ALI3_INLINED void ali3_add_three_rows(int32_t n, const real *restrict rows, cons
 static inline void ali3_gather(int32_t n, const int32_t *index, const real *from, real *to) {
   for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
 }
-
-/* Whether n places that ascend lie side by side, as those of modes mostly do. */
-static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
 /* The amplitudes of x. */
 ALI3_INLINED void ali3_amplitudes(const ali3_flexible *f, const real *x, real *to) {
