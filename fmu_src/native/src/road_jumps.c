@@ -13,12 +13,9 @@ static const double FARTHEST = 4.0; /* square of a wheel's way to an answer over
 
 /* An input at the end of the last step, whose derivatives it may have followed. */
 static double reached(const slave *s, size_t i) {
-  double value, power = 1.0;
+  double value;
   ali3_get_input(s->fidelity.kernel, slave_the_table.variable[i].index, &value);
-  for (size_t k = 0; s->made.sloped && k < SLAVE_MOST_ORDERS; k++) {
-    power *= (double)s->made.n * s->made.h / (double)(k + 1);
-    value += s->made_slope[i * SLAVE_MOST_ORDERS + k] * power;
-  }
+  if (s->made.sloped) slave_add_slope(s->made_slope, i, (double)s->made.n * s->made.h, &value);
   return value;
 }
 

@@ -237,6 +237,7 @@ slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, cons
 slave_status slave_step(slave *s, double time, double step);
 
 /* slopes.c */
+void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input);
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 

@@ -1,17 +1,20 @@
 /* Inputs along their derivatives within a communication step. */
 #include "slave.h"
 
-/* What derivatives change in the inputs (nu) at `elapsed` after the communication point. */
+/* What derivatives change in the input of a variable at `elapsed` after the communication point. */
+void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input) {
+  double power = 1.0;
+  for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
+    power *= elapsed / (k + 1);
+    *input += slope[variable * SLAVE_MOST_ORDERS + (size_t)k] * power / slave_the_table.variable[variable].scale;
+  }
+}
+
+/* The same in all inputs (nu). */
 void slave_add_slopes(const double *slope, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < t->n_known; i++) {
-    if (t->variable[i].source != SLAVE_INPUT) continue;
-    double *u = &input[t->variable[i].index], power = 1.0;
-    for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
-      power *= elapsed / (k + 1);
-      *u += slope[i * SLAVE_MOST_ORDERS + (size_t)k] * power / t->variable[i].scale;
-    }
-  }
+  for (size_t i = 0; i < t->n_known; i++)
+    if (t->variable[i].source == SLAVE_INPUT) slave_add_slope(slope, i, elapsed, &input[t->variable[i].index]);
 }
 
 /* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
