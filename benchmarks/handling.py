@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     cars = {name: load(name) for name in options.cars or car_names()}
     if not options.cars:  # axles by curves have no links to be measured
-        cars = {name: car for name, car in cars.items() if car.front.by_curves is None and car.rear.by_curves is None}
+        cars = {name: car for name, car in cars.items() if car.linked}
     measured = {name: measure(cars[name]) for name in watched(list(cars))}
     rows = []
     for m in MEASURES:

@@ -18,7 +18,7 @@ from exudyn import itemInterface
 from numpy.typing import NDArray
 
 from mbs.vehicle.car import Car
-from mbs.vehicle.tyre import TMeasy
+from mbs.vehicle.tyres.tmeasy import TMeasy
 
 Array = NDArray[np.float64]
 VERSION = exu.__version__

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from pydantic import Field
 
-from mbs.common.errors import ModelError
 from mbs.model.carried import Spin
 from mbs.vehicle.alignment import Alignment
 from mbs.vehicle.builder import CarBuilder
@@ -19,14 +18,9 @@ from mbs.vehicle.section import Section
 from mbs.vehicle.springs import AxleSprings, Damper, Spring, Stops
 from mbs.vehicle.suspensions import Suspension
 from mbs.vehicle.suspensions.anti_roll_bar import AntiRollBar
-from mbs.vehicle.suspensions.curve_poses import Hub
-from mbs.vehicle.suspensions.curves import Curves
-from mbs.vehicle.suspensions.double_wishbone import DoubleWishbone
-from mbs.vehicle.tyre import TMeasy
-from mbs.vehicle.tyre_by_file import MagicFormula
+from mbs.vehicle.tyres import Tyre
 
 MOST_CAMBER = 0.2  # rad, the end of its range
-LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
 
 
 class Wheel(Section):
@@ -59,7 +53,7 @@ class Axle(Section):
     """Wheels."""
     alignment: Alignment = Field(default_factory=Alignment)
     """Toe and camber."""
-    tyre: TMeasy | MagicFormula = Field(discriminator="kind")
+    tyre: Tyre = Field(discriminator="kind")
     """Tyres, by their formula."""
 
     @property
@@ -67,63 +61,27 @@ class Axle(Section):
         """Distance between the centres of the wheels as drawn, m."""
         return 2.0 * self.wheel.centre[1]
 
-    @property
-    def by_curves(self) -> Curves | None:
-        """The table of its suspension, in place of links."""
-        return self.suspension if isinstance(self.suspension, Curves) else None
-
-    @property
-    def without_steering_stop(self) -> DoubleWishbone | None:
-        """Its suspension, where that has a place for a stop of the knuckles and none is there."""
-        suspension = self.suspension
-        return suspension if isinstance(suspension, DoubleWishbone) and suspension.steering_stop is None else None
-
-    def needs_links(self) -> None:
-        """Refuse an axle whose suspension is a table.
+    def open(self, folder: Path) -> None:
+        """Read the files of its tyres and its suspension; done once by the reader of the car.
 
         Raises
         ------
-        ModelError
-            It is.
+        CarFileError
+            A file is missing or not right.
         """
-        curves = self.by_curves
-        if curves is not None:
-            raise ModelError(
-                f"{curves.key('kind')} is 'curves': the axle has no links whose curves or compliance could be found; "
-                f"{curves.file} has its curves."
-            )
-
-    def open_curves(self, folder: Path) -> None:
-        """Read the table of its suspension, if it has one; done once by the reader of the car."""
-        if self.by_curves is not None:
-            ahead = -1.0 if self.wheel.centre[0] < -LEAST_WHEELBASE else 1.0
-            self.by_curves.open(folder, Hub(self.wheel.centre, ahead))
+        self.tyre.open(folder)
+        self.suspension.open(folder, self.wheel.centre)
 
     def faults(self) -> Iterator[str]:
         """The anti-roll bar hangs on a part that is there; a table reaches to the stops."""
-        if self.by_curves is not None:
-            yield from self._faults_of_curves(self.by_curves)
-            return
-        parts = list(type(self.suspension.bodies).model_fields)
-        bar = self.anti_roll_bar
-        if bar is not None and bar.part not in parts:
+        suspension, bar = self.suspension, self.anti_roll_bar
+        parts = list(type(suspension.bodies).model_fields)
+        if bar is not None and not suspension.linked:
+            yield f"{self.key('anti_roll_bar')} hangs on links; of an axle by its curves give {suspension.key('bar')}."
+        elif bar is not None and bar.part not in parts:
             yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
-
-    def _faults_of_curves(self, curves: Curves) -> Iterator[str]:
-        if self.anti_roll_bar is not None:
-            yield f"{self.key('anti_roll_bar')} hangs on links; of an axle by its curves give {curves.key('bar')}."
-        if self.stops is None:
-            return
-        least, largest = curves.compressions
-        for name, reached, gap, travel in (
-            ("bump", largest, self.stops.bump_gap, self.stops.bump_travel),
-            ("rebound", -least, self.stops.rebound_gap, self.stops.rebound_travel),
-        ):
-            if reached < gap + travel:
-                yield (
-                    f"{curves.key('file')} ({curves.file}) ends at {reached:.3g} m of the spring in {name}; it must "
-                    f"reach to the end of its stop at {gap + travel:g} m."
-                )
+        if self.stops is not None:
+            yield from suspension.stop_faults(self.stops)
 
     def build(
         self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin, float], None]

@@ -54,7 +54,6 @@ from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
-from mbs.vehicle.tyre_by_file import MagicFormula
 
 MOST_FAULTS = 8
 
@@ -234,7 +233,7 @@ class Car(CarContent):
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle."""
         steered = self.steering.build(b, self.rack_way)
-        if self.front.by_curves is not None and steered.travel is not None:
+        if not self.front.suspension.linked and steered.travel is not None:
             b.rack = steered.travel()
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
@@ -252,7 +251,7 @@ class Car(CarContent):
 
         b.rack = steered.travel()
         for name, axle in (("front", self.front), ("rear", self.rear)):
-            if axle.by_curves is None:
+            if axle.suspension.linked:
                 yield steered, tabled_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
             else:
                 yield steered, axle.build(b, name, steered.tie_rod, self.brakes.build)
@@ -346,9 +345,7 @@ def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool 
     car._data = dict(data)
     try:
         for axle in (car.front, car.rear):
-            if isinstance(axle.tyre, MagicFormula):
-                axle.tyre.open(folder)
-            axle.open_curves(folder)
+            axle.open(folder)
     except CarFileError as error:
         raise CarFileError(_told(what, [str(error)])) from None
     faults = car_faults(car)

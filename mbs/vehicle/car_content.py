@@ -26,13 +26,6 @@ from mbs.vehicle.road import RoadSection
 from mbs.vehicle.section import Section, sections_of
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.steering import Steering
-from mbs.vehicle.steering.rack_by_angle import RackByAngle
-from mbs.vehicle.steering.rack_section import RackSection
-from mbs.vehicle.suspensions.curve_table import RACK
-from mbs.vehicle.suspensions.curves import Curves
-from mbs.vehicle.suspensions.twist_beam import TwistBeam
-
-RACK_PORTS = {"rack_by_angle": "rack_position", "column": "rack_force"}
 
 
 class Vehicle(Section):
@@ -122,10 +115,15 @@ class CarContent(Section):
 
     def faults(self) -> Iterator[str]:
         """The front axle steers; the port of the steering is one that its kind has."""
-        if isinstance(self.front.suspension, TwistBeam):
-            kind = self.front.suspension.kind
-            yield f"front.suspension.kind is '{kind}'; such an axle cannot steer and may be the rear one only."
-        yield from self._faults_of_curves()
+        yield from self.front.suspension.steering_faults(self.steering)
+        yield from self.rear.suspension.steering_faults(None)
+        if not self.front.suspension.linked and self.steering.without_travel:
+            yield (
+                f"{self.steering.key('kind')} is '{self.steering.kind}', {self.steering.without_travel}; an axle by "
+                "its curves needs 'rack_by_angle'."
+            )
+        if not self.linked and self.chassis.frame is not None:
+            yield f"{self.chassis.key('frame')} hangs on links; with an axle by its curves the chassis is rigid."
         if self.ports.tyre is not None and self.ports.road is not None:
             yield (
                 "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
@@ -137,39 +135,13 @@ class CarContent(Section):
             why = "ports.torque leaves the drive out" if self.ports.torque is not None else "an electric drive has none"
             yield f"ports.{port} {what} of an automatic drive, and {why}; leave it out."
         port_of_rack = self.ports.steering
-        if port_of_rack is not None and port_of_rack != RACK_PORTS.get(self.steering.kind):
+        if port_of_rack is not None and port_of_rack != self.steering.rack_port:
             yield (
                 f"ports.steering is '{port_of_rack}' and steering.kind '{self.steering.kind}'; a rack_by_angle has the "
                 "port rack_position, a column rack_force, a pitman_arm none."
             )
-        if port_of_rack is not None and isinstance(self.steering, RackByAngle) and self.steering.by_table is not None:
-            yield (
-                f"{self.steering.key('rack_by_wheel_angle')} is there, and ports.steering asks for the travel of the "
-                "rack itself; leave one of them out."
-            )
-
-    def _faults_of_curves(self) -> Iterator[str]:
-        """What axles by their curves ask of the rest of the car."""
-        front, rear = self.front.by_curves, self.rear.by_curves
-        if front is not None and front.table.second_name != RACK:
-            yield f"{front.key('file')} ({front.file}) has no column {RACK}; the front axle steers."
-        elif front is not None and isinstance(self.steering, RackSection):
-            low, high = front.table.second[0], front.table.second[-1]
-            travel = self.steering.rack_travel
-            if not low <= -travel <= travel <= high:
-                yield (
-                    f"{front.key('file')} ({front.file}) has {RACK} from {low:g} to {high:g} m; it must reach to "
-                    f"{self.steering.key('rack_travel')}, {travel:g} m, on both sides."
-                )
-        if rear is not None and rear.table.second_name == RACK:
-            yield f"{rear.key('file')} ({rear.file}) has the column {RACK}; the rear axle does not steer."
-        if front is not None and self.steering.without_travel:
-            yield (
-                f"{self.steering.key('kind')} is '{self.steering.kind}', {self.steering.without_travel}; an axle by "
-                "its curves needs 'rack_by_angle'."
-            )
-        if (front or rear) and self.chassis.frame is not None:
-            yield f"{self.chassis.key('frame')} hangs on links; with an axle by its curves the chassis is rigid."
+        if port_of_rack is not None:
+            yield from self.steering.port_faults()
 
     def values(self) -> dict[str, float]:
         """Numbers that a finished FMU of the car has as parameters, by key path."""
@@ -192,18 +164,19 @@ class CarContent(Section):
     @property
     def rack_ends(self) -> Coordinates:
         """Inner end of the left tie rod of the front axle, m."""
-        suspension = self.front.suspension
-        assert not isinstance(suspension, (TwistBeam, Curves)), "refused with the file, or without links"
-        return suspension.steering_arm_inner
+        inner = self.front.suspension.rod_point("inner")
+        assert inner is not None, "refused with the file, or without links"
+        return inner
 
     @property
     def rack_way(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
-        suspension = self.front.suspension
-        assert not isinstance(suspension, TwistBeam), "refused with the file"
-        if isinstance(suspension, Curves):
-            return 1.0 if suspension.steers_left else -1.0
-        return 1.0 if suspension.steering_arm[0] > self.front.wheel.centre[0] else -1.0
+        return 1.0 if self.front.suspension.steers_left(self.front.wheel.centre) else -1.0
+
+    @property
+    def linked(self) -> bool:
+        """Whether links carry all wheels."""
+        return self.front.suspension.linked and self.rear.suspension.linked
 
     @property
     def footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:

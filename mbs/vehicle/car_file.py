@@ -49,7 +49,7 @@ def load(car: str | Path) -> Car:
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
     found = car_from(read_toml(path, CarFileError), path.parent, str(path), warn=True)
-    if found.front.without_steering_stop is not None or None in (found.front.stops, found.rear.stops):
+    if found.front.suspension.stop_left_out or None in (found.front.stops, found.rear.stops):
         from mbs.vehicle.linkages.free_travel import notes_without_stops
 
         for sentence in notes_without_stops(found):

@@ -6,14 +6,13 @@ from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried import Spin
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.tyre import TMeasy
-from mbs.vehicle.tyre_by_file import MagicFormula
+from mbs.vehicle.tyres import Tyre
 
 LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
 """Unit, end of the range and word by the letter."""
 
 
-def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: TMeasy | MagicFormula, inertia: float) -> None:
+def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) -> None:
     """Add inputs, their element, and what a tyre needs to know beside place, axis, velocity and speed of the wheel.
 
     `wheel`: its name, as "FL"; `tyre`: that which is left out; what another program has in its place is taken for like

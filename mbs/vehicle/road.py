@@ -11,8 +11,7 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, Roa
 from mbs.model import Model
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
-from mbs.vehicle.tyre import TMeasy
-from mbs.vehicle.tyre_by_file import MagicFormula
+from mbs.vehicle.tyres import Tyre
 
 FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
 KERB_HEIGHT = 0.08  # m, of the paper's test
@@ -31,7 +30,7 @@ class RoadSection(Section):
         """Level ground with a kerb."""
         return KerbRoad(FAR_AWAY, KERB_HEIGHT, -KERB_HEIGHT, "before", self.friction, self.friction_factor)
 
-    def grip_of(self, tyre: TMeasy | MagicFormula) -> float:
+    def grip_of(self, tyre: Tyre) -> float:
         """Factor on the largest forces of a tyre's file."""
         return self.friction * self.friction_factor * tyre.grip / tyre.reference_friction
 

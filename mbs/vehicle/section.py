@@ -65,6 +65,10 @@ class Section(BaseModel):
         """Sentences on what cannot be between the numbers of this table; a template overrides it."""
         yield from ()
 
+    def oddities(self) -> Iterator[str]:
+        """Sentences on what is odd of this table, where it can be; a template overrides it."""
+        yield from ()
+
     @classmethod
     def quantity(cls, field: str) -> Quantity | None:
         """Unit and range of a field, None where it is no single number."""

@@ -55,6 +55,15 @@ def test_every_way_is_a_module_that_its_command_imports(graph: grimp.ImportGraph
         assert set(ways.values()) <= read_for(graph, modules[name]), name
 
 
+def test_a_kind_of_a_part_of_a_car_has_one_door(graph: grimp.ImportGraph) -> None:
+    """What the file names by another kind need not be read: only the list of the kinds of its part knows it."""
+    plain = read_for(graph, "mbs.vehicle.command", WAYS["car"].values())
+    kinds = [module for way, module in WAYS["car"].items() if ".kind " in way]
+    assert len(kinds) > 5
+    doors = {kind: graph.find_modules_that_directly_import(kind) & plain for kind in kinds}
+    assert doors == {kind: {kind.rpartition(".")[0]} for kind in kinds}
+
+
 def test_what_is_read_goes_on_behind_each_module_but_those_besides() -> None:
     graph = grimp.ImportGraph()
     for importer, imported in (("a", "b"), ("b", "c")):

@@ -10,7 +10,7 @@ import pytest
 from mbs import Simulation, compile, linearise
 from mbs.elements.road import PlaneRoad
 from mbs.scenes import prototype_car
-from mbs.vehicle.tyre import TMeasy
+from mbs.vehicle.tyres.tmeasy import TMeasy
 from tests.scenes.car import NEUTRAL, car, car_on_ice
 
 # the figures take the parts of the suspension as points and leave the damping of the tyres out

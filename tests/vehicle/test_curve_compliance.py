@@ -112,8 +112,8 @@ def test_wheels_of_a_turning_car_lean_by_their_lateral_forces(content: dict[str,
     for wheel, axle in (("FL", car.front), ("FR", car.front), ("RL", car.rear), ("RR", car.rear)):
         lean = np.arctan2(at[f"compliance {wheel}.bz"], at[f"compliance {wheel}.cz"]) - roll
         height = LATERAL / -CAMBER - out[f"wheel_{wheel}.travel"]  # a wheel in bump is nearer to the axis
-        assert axle.by_curves is not None
-        mass = axle.wheel.mass + axle.by_curves.bodies.carrier.mass
+        assert not axle.suspension.linked
+        mass = axle.wheel.mass + axle.suspension.bodies.carrier.mass
         sideways = out[f"wheel_{wheel}.Fy"] + out[f"wheel_{wheel}.Fz"] * np.sin(roll)
         held = mass * (out["chassis.ay"] + 9.81 * np.sin(roll)) * (height - axle.wheel.centre[2])
         assert abs(lean) > 1e-3

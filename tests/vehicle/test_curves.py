@@ -19,7 +19,6 @@ from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Car, CarFileError, CarWarning
 from mbs.vehicle.car import car_from
-from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
@@ -111,7 +110,7 @@ def test_compliance_is_what_the_forces_in_the_contact_ask_for(content: dict, fol
         Fy += load * np.sin(out["chassis.roll"]) - moved * out["chassis.ay"]
         assert turn == pytest.approx(sign * c_x * Fx + c_y * Fy + c_m * Mz, rel=0.03)
     ends = sum(at[f"rack end F{side}"] - at["rack travel"] for side in "LR")
-    stiffness = car.front.by_curves._steer_per_rack(car.front.by_curves.of(Side("front", "left", 1.0))) ** 2 / c_m
+    stiffness = car.front.suspension._steer_per_rack(car.front.suspension.of(Side("front", "left", 1.0))) ** 2 / c_m
     assert out["steering_rack_force"] == pytest.approx(stiffness * ends, rel=1e-3)
 
 
@@ -172,7 +171,7 @@ def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(conten
     with pytest.warns(CarWarning, match="not used are the columns remark"):
         second = car_from(content["saloon"] | {"chassis": chassis}, copied, "second", warn=True)
     for side in (Side("rear", "left", 1.0), Side("rear", "right", -1.0)):
-        one, other = (c.rear.by_curves.of(side) for c in (car, second))
+        one, other = (c.rear.suspension.of(side) for c in (car, second))
         np.testing.assert_allclose(other.centres, one.centres, atol=1e-12)
         np.testing.assert_allclose(other.rotations, one.rotations, atol=1e-12)
 
@@ -181,16 +180,16 @@ def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(con
     before = car_from(content["saloon"], copied, "first")
     heading, rows = rows_of(copied / "rear.csv")
     written(copied, heading, np.delete(rows, [3, 8, 15], axis=0))
-    uneven = car_from(content["saloon"], copied, "second").rear.by_curves
-    one, other = (c.of(Side("rear", "left", 1.0)) for c in (before.rear.by_curves, uneven))
+    uneven = car_from(content["saloon"], copied, "second").rear.suspension
+    one, other = (c.of(Side("rear", "left", 1.0)) for c in (before.rear.suspension, uneven))
     for values, found in ((one.centres, other.centres), (one.rotations, other.rotations)):
-        smooth = CubicSpline(before.rear.by_curves.table.travel, values)(uneven.table.travel)
+        smooth = CubicSpline(before.rear.suspension.table.travel, values)(uneven.table.travel)
         np.testing.assert_allclose(found, smooth, atol=2e-6)
     heading, rows = rows_of(copied / "front.csv")
     cross = rows[(np.abs(rows[:, 0]) < 1e-9) | (np.abs(rows[:, 1]) < 1e-9)]
     written(copied, heading, cross)
     front = read_curves(copied, "rear.csv", "key")
-    full = before.front.by_curves.table
+    full = before.front.suspension.table
     i, k = (int(np.argmin(np.abs(axis))) for axis in (full.travel, full.second))
     toe, whole = front.columns["toe_angle"], full.columns["toe_angle"]
     np.testing.assert_allclose(toe, whole[:, [k]] + whole[[i]] - whole[i, k], atol=1e-15)
@@ -244,17 +243,18 @@ def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_told
     """As a table in degrees under headings in radians."""
     data = copy.deepcopy(content["saloon"])
     car = car_from(data, copied, "x")
-    assert car.front.by_curves.steered_angle(0.07) == pytest.approx(0.6012, rel=5e-3)
-    assert not [*steering_oddities(car)]
+    assert car.front.suspension.steered_angle(0.07) == pytest.approx(0.6012, rel=5e-3)
+    suspension, centre = car.front.suspension, car.front.wheel.centre
+    assert not [*suspension.steering_oddities(car.steering, centre)]
     data["steering"]["front_wheel_angle_max"] = 0.9
-    (said,) = steering_oddities(car_from(data, copied, "x"))
+    (said,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
     assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in said
     assert said.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
     """The left wheel of a twist beam and, of the right one, the image of what the left does with travels exchanged."""
-    mirrored = car_from(content["hatchback"], folder / "hatchback", "mirrored").rear.by_curves
+    mirrored = car_from(content["hatchback"], folder / "hatchback", "mirrored").rear.suspension
     heading, rows = rows_of(folder / "hatchback" / "rear.csv")
     exchanged = rows[[int(np.flatnonzero((rows[:, 0] == b) & (rows[:, 1] == a))[0]) for a, b in rows[:, :2]], 2:]
     names = heading[2:]
@@ -325,7 +325,7 @@ def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict,
     heading, rows = rows_of(folder / "saloon" / "rear.csv")
     smooth, step = CubicSpline(rows[:, 0], rows), rows[-1, 0] / 2500
     written(copied, heading, smooth(step * np.arange(np.ceil(rows[0, 0] / step), 2501)))
-    table = car_from(content["saloon"], copied, "x").rear.by_curves.table
+    table = car_from(content["saloon"], copied, "x").rear.suspension.table
     assert len(table.travel) <= FINEST + 1
     np.testing.assert_allclose(
         table.columns["toe_angle"][:, 0], smooth(table.travel)[:, heading.index("toe_angle [rad]")]

@@ -61,7 +61,7 @@ def test_the_scene_of_a_car_is_one(car: str) -> None:
     assert not [shape for shape in found["shapes"] if shape["kind"] == "wheel" and not 0.2 < shape["radius"] < 0.4]
 
 
-@pytest.mark.parametrize("car", [name for name in car_names() if load(name).front.by_curves is None])
+@pytest.mark.parametrize("car", [name for name in car_names() if load(name).linked])
 def test_rods_springs_and_wheels_are_at_the_hard_points(car: str) -> None:
     made = load(car)
     near = 5e-3 if car == "ferrari_250_lm" else 3e-4  # its driver sits on the right: it rests tilted

@@ -89,8 +89,7 @@ def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
     told = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
     for axle, line in zip(("front", "rear"), told, strict=True):
         assert f"car.toml: {axle}.stops is left out" in line
-        curves = getattr(car, axle).by_curves
-        if curves is not None:
+        if not getattr(car, axle).suspension.linked:
             assert "goes from -0.130 to +0.130 m of wheel travel" in line
             continue
         ends = [float(v) for v in re.search(r"follow from ([-+.\d]+) to ([-+.\d]+) m", line).groups()]

@@ -11,7 +11,6 @@ from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import mass_faults, mass_oddities
 from mbs.vehicle.checks.places import place_faults, place_oddities
 from mbs.vehicle.checks.rates import rate_oddities
-from mbs.vehicle.checks.steered_angle import steering_oddities
 from mbs.vehicle.checks.tyres import tyre_faults, tyre_oddities
 from mbs.vehicle.section import sections_of
 
@@ -38,10 +37,11 @@ def _faults(car: CarContent) -> Iterator[str]:
 def car_oddities(car: CarContent, rest: Rest) -> list[str]:
     """A sentence for each thing that is odd."""
     return [
+        *(sentence for section in sections_of(car) for sentence in section.oddities()),
         *rest.oddities(car),
         *place_oddities(car),
         *mass_oddities(car),
         *tyre_oddities(car, rest),
         *rate_oddities(car, rest),
-        *steering_oddities(car),
+        *car.front.suspension.steering_oddities(car.steering, car.front.wheel.centre),
     ]

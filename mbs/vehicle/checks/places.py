@@ -100,7 +100,7 @@ def _suspension(axle: Axle) -> Iterator[str]:
 def _parts(axle: Axle) -> Iterator[str]:
     """Centres of mass lie among the points."""
     around = [*drawn_points(axle).values(), axle.wheel.centre]
-    margin = MARGIN if axle.by_curves is None else OF_CURVES
+    margin = MARGIN if axle.suspension.linked else OF_CURVES
     for part in parts_of(axle):
         for k, axis in enumerate("xyz"):
             low, high = min(p[k] for p in around) - margin, max(p[k] for p in around) + margin

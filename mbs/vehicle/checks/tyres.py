@@ -7,11 +7,8 @@ from collections.abc import Iterator
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.tyre import TMeasy
-from mbs.vehicle.tyre_by_file import MagicFormula
 
 LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
-FRICTION = 0.2, 3.0  # largest force over the load
 GRIPPED = 0.02  # force over the load that a tyre must reach on the road: half of what wet ice gives
 LOADS = 0.2, 5.0  # load at rest over the nominal load
 
@@ -20,16 +17,11 @@ def tyre_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault."""
     for axle in (car.front, car.rear):
         yield from _radii(axle)
-        yield from _friction(axle)
 
 
 def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     """A sentence for each thing that is odd."""
     for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
-        if isinstance(axle.tyre, MagicFormula):
-            yield from axle.tyre.notes
-        if axle.by_curves is not None:
-            yield from axle.by_curves.notes
         road, tyre = car.road, axle.tyre
         reached = min(tyre.friction) * road.grip_of(tyre)
         if reached < GRIPPED:
@@ -60,28 +52,3 @@ def _radii(axle: Axle) -> Iterator[str]:
             f"{axle.tyre.key('bottoming_radius')} is {axle.tyre.bottoming_radius:g} m; it must be between "
             f"{0.4 * radius:.3g} m and the height of the wheel's centre, {height:g} m."
         )
-
-
-def _friction(axle: Axle) -> Iterator[str]:
-    tyre = axle.tyre
-    if not isinstance(tyre, TMeasy):
-        yield from _friction_of_file(tyre)
-        return
-    for curve in (tyre.longitudinal, tyre.lateral):
-        for k, load in enumerate((tyre.nominal_load, 2.0 * tyre.nominal_load)):
-            friction = curve.max_force[k] / load
-            if not FRICTION[0] <= friction <= FRICTION[1]:
-                yield (
-                    f"{curve.key('max_force')}.{k} is {curve.max_force[k]:g} N at a load of {load:g} N "
-                    f"({tyre.key('nominal_load')}{', twice' if k else ''}): a friction of {friction:.3g}; it must be "
-                    f"between {FRICTION[0]:g} and {FRICTION[1]:g}."
-                )
-
-
-def _friction_of_file(tyre: MagicFormula) -> Iterator[str]:
-    for name, friction in zip(("longitudinal", "lateral"), tyre.friction, strict=True):
-        if not FRICTION[0] <= friction <= FRICTION[1]:
-            yield (
-                f"{tyre.key('file')} has a {name} friction of {friction:.3g}; it must be between {FRICTION[0]:g} and "
-                f"{FRICTION[1]:g}."
-            )

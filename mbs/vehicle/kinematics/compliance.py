@@ -60,7 +60,7 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)
     for part in (car.front, car.rear):
-        part.needs_links()
+        part.suspension.needs_links()
     held = HeldCar(car, chosen)
     V, soft = held.flexibility(held.wheel_rows())
     values = {axle: _responses(held, axle, V, soft) for axle in ("front", "rear")}

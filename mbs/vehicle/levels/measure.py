@@ -39,7 +39,7 @@ def systems_of(car: Car) -> dict[Fidelity, System]:
     if car.ports.tyre is not None:
         raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it drives nowhere.")
     found = {}
-    if car.front.by_curves is None or car.rear.by_curves is None:  # else it is by tables as it is
+    if car.front.suspension.linked or car.rear.suspension.linked:  # else it is by tables as it is
         try:
             found[Fidelity.TABLE] = compile(car.model(fidelity=Fidelity.TABLE))
         except ModelError as error:

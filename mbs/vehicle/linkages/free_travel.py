@@ -9,7 +9,8 @@ import numpy as np
 from mbs.vehicle.car import Car
 from mbs.vehicle.linkages.continuation import HEAVE, STEER, reached
 from mbs.vehicle.linkages.linkage import Array, Linkage, Position
-from mbs.vehicle.steering.rack_section import RackSection
+from mbs.vehicle.suspensions.curve_table import RACK
+from mbs.vehicle.suspensions.curves import Curves
 
 FARTHEST = 0.5  # m: travel of wheels and rack that is looked at
 
@@ -27,11 +28,11 @@ def _of_the_springs(car: Car) -> Iterator[str]:
     for name, axle in (("front", car.front), ("rear", car.rear)):
         if axle.stops is not None:
             continue
-        if axle.by_curves is not None:
-            travel = axle.by_curves.table.travel
+        if isinstance(axle.suspension, Curves):
+            curves, travel = axle.suspension, axle.suspension.table.travel
             yield (
                 f"{axle.key('stops')} is left out: nothing but the spring ends the travel of the {name} wheels, and "
-                f"{axle.by_curves.key('file')} ({axle.by_curves.file}) goes from {travel[0]:+.3f} to {travel[-1]:+.3f} "
+                f"{curves.key('file')} ({curves.file}) goes from {travel[0]:+.3f} to {travel[-1]:+.3f} "
                 "m of wheel travel from the drawing; a run ends beyond. Stops that bear before that keep it within."
             )
             continue
@@ -47,21 +48,21 @@ def _of_the_springs(car: Car) -> Iterator[str]:
 
 
 def _of_the_steering(car: Car) -> Iterator[str]:
-    suspension, steering = car.front.without_steering_stop, car.steering
-    if suspension is None:
+    stop, steering = car.front.suspension.stop_left_out, car.steering
+    if not stop:
         return
     linkage = Linkage(car, "front")
     told = []
-    if isinstance(steering, RackSection) and (ends := _ends(linkage, STEER)):
+    if steering.motion == RACK and (ends := _ends(linkage, STEER)):
         told.append(
-            f"{ends[0]:+.3f} to {ends[1]:+.3f} m of the rack ({steering.key('rack_travel')} is {steering.full:g})"
+            f"{ends[0]:+.3f} to {ends[1]:+.3f} m of the rack ({steering.lateral_travel[0]} is {steering.full:g})"
         )
     at_lock, lock = reached(linkage, STEER, np.array([steering.full]))
     if lock is None and (ends := _ends(linkage, HEAVE, at_lock[0])):
         told.append(f"{ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel at full lock")
     if told:
         yield (
-            f"{suspension.key('steering_stop')} is left out: nothing keeps a knuckle from turning over, and the links "
+            f"{stop} is left out: nothing keeps a knuckle from turning over, and the links "
             f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. A stop that "
             "bears before that keeps it together."
         )

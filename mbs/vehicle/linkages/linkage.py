@@ -85,7 +85,7 @@ class Linkage(StandingModel):
 
     def __init__(self, car: CarContent, axle: str) -> None:
         self.car, self.name, self.data = car, axle, getattr(car, axle)
-        self.data.needs_links()
+        self.data.suspension.needs_links()
         m = self.model = Model(f"{car.name} {axle} suspension", gravity=(0.0, 0.0, 0.0))
         b = CarBuilder(m, m.road(PlaneRoad()), {})
         b.chassis = _held(m, car)

@@ -39,7 +39,7 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links:
     `spins`: its wheels by name; `links`: whether its suspensions have links, no tables in their place.
     """
     b.m.default_shapes = False
-    linked = links and car.front.by_curves is None and car.rear.by_curves is None
+    linked = links and car.linked
     for wheel, spin in spins.items():
         if isinstance(spin.carrier, TabledBody):
             spin.carrier.outputs = tuple(f"wheel_{wheel}.{part}" for part in (*POSE, "angle"))

@@ -47,6 +47,7 @@ class Column(RackSection):
     """Rack, pinion, torsion bar and steering wheel, which the driver holds at an angle or turns by a torque."""
 
     without_travel: ClassVar[str] = "whose rack is a body"
+    rack_port: ClassVar[str] = "rack_force"
 
     kind: Literal["column"]
     """Names this template."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from pydantic import ConfigDict, model_validator
 
@@ -17,7 +17,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.rack_section import RackSection, rack_ends
-from mbs.vehicle.steering.rack_table import RackTable, Rows, table_faults
+from mbs.vehicle.steering.rack_table import SAME, RackTable, Rows, table_faults
 from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
@@ -31,6 +31,8 @@ class RackByAngle(RackSection):
     """Rack that follows the angle of the steering wheel."""
 
     model_config = ConfigDict(json_schema_extra=_not_required)
+
+    rack_port: ClassVar[str] = "rack_position"
 
     kind: Literal["rack_by_angle"]
     """Names this template."""
@@ -55,6 +57,25 @@ class RackByAngle(RackSection):
         if self.rack_by_wheel_angle is not None:
             key, travel = self.key("rack_by_wheel_angle"), self.key("rack_travel")
             yield from table_faults(key, self.rack_by_wheel_angle, travel, self.rack_travel)
+
+    def oddities(self) -> Iterator[str]:
+        """A table is stretched."""
+        table = self.by_table
+        if table is not None and abs(table.factor - 1.0) > SAME:
+            turn = 2.0 * math.pi * table.slope
+            yield (
+                f"{self.key('rack_by_wheel_angle')} has {turn:.6g} m of rack travel per turn straight ahead, and "
+                f"{self.key('rack_per_turn')} is {self.rack_per_turn:g} m; the angles of the table are divided by "
+                f"{table.factor:.6g}. To have them as they are write {turn:.6g}."
+            )
+
+    def port_faults(self) -> Iterator[str]:
+        """A table gives the travel that the port asks for."""
+        if self.by_table is not None:
+            yield (
+                f"{self.key('rack_by_wheel_angle')} is there, and ports.steering asks for the travel of the rack "
+                "itself; leave one of them out."
+            )
 
     @cached_property
     def by_table(self) -> RackTable | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Iterator
 from typing import ClassVar
 
 from mbs.model.records import Guide
@@ -20,6 +21,13 @@ class SteeringSection(Section):
     """Name of its motion, which is one of the quantities of kinematic curves."""
     without_travel: ClassVar[str] = ""
     """Why tables over the travel of a rack cannot be steered by it; empty where they can."""
+
+    rack_port: ClassVar[str] = ""
+    """Kind of the port by which another program may move its rack; empty where it has none."""
+
+    def port_faults(self) -> Iterator[str]:
+        """Why this one cannot have that port."""
+        yield from ()
 
     @property
     @abstractmethod

@@ -11,21 +11,27 @@ from pydantic import Field, PrivateAttr
 from scipy.interpolate import CubicSpline
 
 from mbs.common.affine import Affine
+from mbs.common.errors import ModelError
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.names import Name
 from mbs.vehicle.part import Part
-from mbs.vehicle.quantities import Factor, Length, TorsionalStiffness
+from mbs.vehicle.quantities import Factor, Length, Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Side, sides
-from mbs.vehicle.springs import AxleSprings, spring_of_length
+from mbs.vehicle.springs import AxleSprings, Stops, spring_of_length
+from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 from mbs.vehicle.suspensions.curve_compliance import Compliance
 from mbs.vehicle.suspensions.curve_links import CurveLink
 from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
 from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, read_curves
+from mbs.vehicle.suspensions.suspension_section import SuspensionSection
+
+LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
+CURVES_MISS = 0.1  # of the angle: a table says it, but for what both wheels differ
 
 
 class CurvesBodies(Section):
@@ -52,7 +58,7 @@ class CurveBar(Section):
     """Travel of the wheel per angle of its lever; without it the table must have anti_roll_bar_angle."""
 
 
-class Curves(Section):
+class Curves(SuspensionSection):
     """Suspension by a table of where its wheels stand, in place of links.
 
     Columns, with units (m, mm, rad or deg) in the headings: `wheel_travel`, positive in bump; of an axle that steers
@@ -80,23 +86,24 @@ class Curves(Section):
     compliance: Compliance | None = None
     """Compliance of links and bushes."""
 
-    near_wheel: ClassVar[tuple[str, ...]] = ()
-    """Points on what carries the wheel: it has none."""
+    linked: ClassVar[bool] = False
     points: ClassVar[NoPoints] = NoPoints()
     """It has no hard points."""
 
     _table: CurveTable | None = PrivateAttr(None)
     _hub: Hub | None = PrivateAttr(None)
 
-    def open(self, folder: Path, hub: Hub) -> None:
-        """Read the table; done once by the reader of the car. `hub`: the left wheel as drawn.
+    def open(self, folder: Path, centre: Point) -> None:
+        """Read the table."""
+        ahead = -1.0 if centre[0] < -LEAST_WHEELBASE else 1.0
+        self._table, self._hub = read_curves(folder, self.file, self.key("file")), Hub(centre, ahead)
 
-        Raises
-        ------
-        CarFileError
-            There is no such file, or it is no such table.
-        """
-        self._table, self._hub = read_curves(folder, self.file, self.key("file")), hub
+    def needs_links(self) -> None:
+        """It has none."""
+        raise ModelError(
+            f"{self.key('kind')} is 'curves': the axle has no links whose curves or compliance could be found; "
+            f"{self.file} has its curves."
+        )
 
     @property
     def table(self) -> CurveTable:
@@ -110,15 +117,13 @@ class Curves(Section):
         assert self._hub is not None, "the file is opened with the car"
         return self._hub
 
-    @property
-    def notes(self) -> Iterator[str]:
+    def oddities(self) -> Iterator[str]:
         """What of the file is not used."""
         if self.table.left_out:
             yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.left_out)}."
 
-    @property
-    def steers_left(self) -> bool:
-        """Whether the wheels turn to the left as the rack moves to the left."""
+    def steers_left(self, centre: Point) -> bool:
+        """By the table."""
         return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
 
     def steered_angle(self, rack: float) -> float:
@@ -152,6 +157,46 @@ class Curves(Section):
             )
         if self.compliance is not None:
             yield from self.compliance.fits(self.table.second_name)
+
+    def stop_faults(self, stops: Stops) -> Iterator[str]:
+        """The table reaches to the ends of the stops."""
+        least, largest = self.compressions
+        for name, reached, gap, travel in (
+            ("bump", largest, stops.bump_gap, stops.bump_travel),
+            ("rebound", -least, stops.rebound_gap, stops.rebound_travel),
+        ):
+            if reached < gap + travel:
+                yield (
+                    f"{self.key('file')} ({self.file}) ends at {reached:.3g} m of the spring in {name}; it must "
+                    f"reach to the end of its stop at {gap + travel:g} m."
+                )
+
+    def steering_faults(self, steering: Steering | None) -> Iterator[str]:
+        """The table of the front axle, and no other, is over the travel of the rack up to full lock."""
+        table = f"{self.key('file')} ({self.file})"
+        if steering is None:
+            if self.table.second_name == RACK:
+                yield f"{table} has the column {RACK}; the rear axle does not steer."
+        elif self.table.second_name != RACK:
+            yield f"{table} has no column {RACK}; the front axle steers."
+        elif steering.motion == RACK:
+            low, high = self.table.second[0], self.table.second[-1]
+            key, travel = steering.lateral_travel
+            if not low <= -travel <= travel <= high:
+                yield (
+                    f"{table} has {RACK} from {low:g} to {high:g} m; it must reach to {key}, {travel:g} m, on both "
+                    "sides."
+                )
+
+    def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
+        """The angle in the table."""
+        found, given = self.steered_angle(steering.full), steering.front_wheel_angle_max
+        if abs(found - given) > CURVES_MISS * given:
+            yield (
+                f"{steering.key('front_wheel_angle_max')} is {given:g} rad, but at full travel of the rack, "
+                f"{steering.full:.3g} m, the wheels of {self.key('file')} ({self.file}) are turned by {found:.3g} rad; "
+                "are the units of its headings right?"
+            )
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left side, then the right one, then what joins them.

@@ -98,6 +98,11 @@ class DoubleWishbone(IndependentSuspension):
     near_wheel: ClassVar[tuple[str, ...]] = ("lower_ball_joint", "upper_ball_joint", "tie_rod_outer")
     """Points on what carries the wheel."""
 
+    @property
+    def stop_left_out(self) -> str:
+        """Key path of the steering stop."""
+        return self.key("steering_stop") if self.steering_stop is None else ""
+
     def faults(self) -> Iterator[str]:
         """The steering stop must not act in the drawing."""
         if self.steering_stop is None:

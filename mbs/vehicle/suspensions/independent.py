@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
@@ -12,9 +13,13 @@ from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Side, sides
 from mbs.vehicle.springs import AxleSprings
+from mbs.vehicle.steering import Steering
+from mbs.vehicle.suspensions.suspension_section import SuspensionSection
+
+FACTOR = 1.6  # the estimate leaves out the angle of the tie rods and the inclination of the steering axis
 
 
-class IndependentSuspension(Section):
+class IndependentSuspension(SuspensionSection):
     """Base of the templates."""
 
     kind: str
@@ -27,26 +32,22 @@ class IndependentSuspension(Section):
     rod: ClassVar[str] = "tie rod"
     """Name of the rod; its points are the same with underscores, `_inner` and `_outer`."""
 
-    def rod_point(self, end: str) -> Point:
-        """Point of the rod of the left side, m.
-
-        Parameters
-        ----------
-        end : {"inner", "outer"}
-            Which.
-        """
+    def rod_point(self, end: Literal["inner", "outer"]) -> Point:
+        """End of the rod of the left side, m."""
         point: Point = getattr(self.points, f"{self.rod.replace(' ', '_')}_{end}")
         return point
 
-    @property
-    def steering_arm(self) -> Point:
-        """Outer end of the rod of the left side, m."""
-        return self.rod_point("outer")
-
-    @property
-    def steering_arm_inner(self) -> Point:
-        """Inner end of it, m."""
-        return self.rod_point("inner")
+    def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
+        """The ends of the tie rods on the steering arms."""
+        given, angle_key = steering.front_wheel_angle_max, steering.key("front_wheel_angle_max")
+        key, travel = steering.lateral_travel
+        length = abs(self.rod_point("outer")[0] - centre[0])
+        about = math.asin(min(1.0, travel / max(length, 1e-3)))
+        if not about / FACTOR <= given <= about * FACTOR:
+            yield (
+                f"{angle_key} is {given:g} rad, but {key}, {travel:.3g} m to the side, on a steering arm {length:.3g} "
+                f"m long gives about {about:.2g} rad."
+            )
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left side, then the right one.

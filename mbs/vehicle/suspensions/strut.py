@@ -46,7 +46,7 @@ class StrutSuspension(IndependentSuspension):
         m.spherical(f"lower ball joint {w}", arm, upright, point=p["lower_ball_joint"])
         top, bottom = p["strut_top"], p[self.foot]
         m.point_on_line(f"strut {w}", (chassis, top), (upright, bottom), axis=np.subtract(top, bottom))
-        inner, outer = (side.point(self.rod_point(end)) for end in ("inner", "outer"))
+        inner, outer = side.point(self.rod_point("inner")), side.point(self.rod_point("outer"))
         m.distance(f"{self.rod} {w}", (upright, outer), tie_rod(side, inner))
         spring_and_damper(b, f"spring {w}", (upright, bottom), (chassis, top), springs)
         return Corner(side, upright, {"lower_arm": arm, "upright": upright})

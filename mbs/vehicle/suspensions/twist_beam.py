@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Literal
 
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
@@ -25,6 +25,8 @@ from mbs.vehicle.quantities import Point, TorsionalStiffness
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import sides
 from mbs.vehicle.springs import AxleSprings, spring_beside_damper
+from mbs.vehicle.steering import Steering
+from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
 
 class TwistBeamPoints(Section):
@@ -65,7 +67,7 @@ class TwistBeamBodies(Section):
     """Left half of the axle with half the cross-beam, hub and brake, without wheel."""
 
 
-class TwistBeam(Section):
+class TwistBeam(SuspensionSection):
     """Suspension by a twist beam; it cannot steer."""
 
     kind: Literal["twist_beam"]
@@ -77,8 +79,10 @@ class TwistBeam(Section):
     bodies: TwistBeamBodies
     """Masses and inertias."""
 
-    near_wheel: ClassVar[tuple[str, ...]] = ()
-    """Points on what carries the wheel and near to it."""
+    def steering_faults(self, steering: Steering | None) -> Iterator[str]:
+        """It cannot steer."""
+        if steering is not None:
+            yield f"{self.key('kind')} is '{self.kind}'; such an axle cannot steer and may be the rear one only."
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:
         """Add the left half, then the right one, then what joins them.

@@ -24,7 +24,8 @@ from mbs.vehicle.quantities import (
     TyreStiffness,
 )
 from mbs.vehicle.section import Section
-from mbs.vehicle.tyre_bore import Bore
+from mbs.vehicle.tyres.bore import Bore
+from mbs.vehicle.tyres.tyre_section import TyreSection
 
 
 class Curve(Section, of=TyreCurve):
@@ -57,7 +58,7 @@ class Curve(Section, of=TyreCurve):
                 )
 
 
-class TMeasy(Section, of=Tyre):
+class TMeasy(TyreSection, of=Tyre):
     """Tyre after W. Hirschberg, G. Rill, H. Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119.
 
     The curves hold on a road of the friction `reference_friction`. On a road of another friction, largest and sliding
@@ -91,7 +92,9 @@ class TMeasy(Section, of=Tyre):
     bore: Bore | None = None
 
     def faults(self) -> Iterator[str]:
-        """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too."""
+        """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too; the
+        friction is that of a tyre.
+        """
         found = [
             f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
             f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
@@ -102,6 +105,11 @@ class TMeasy(Section, of=Tyre):
         if not found and not any(True for curve in (self.longitudinal, self.lateral) for _ in curve.faults()):
             for field, _, wrong in self.tyre().faults_over_loads():
                 yield f"{self.key(field)} {wrong}; its two numbers are continued to this load."
+        for curve in (self.longitudinal, self.lateral):
+            for k, load in enumerate((self.nominal_load, 2.0 * self.nominal_load)):
+                at = f"at a load of {load:g} N ({self.key('nominal_load')}{', twice' if k else ''})"
+                what = f"{curve.key('max_force')}.{k} is {curve.max_force[k]:g} N {at}: a"
+                yield from self.friction_faults(what, curve.max_force[k] / load)
 
     @property
     def friction(self) -> tuple[float, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from math import atan, sqrt
 from pathlib import Path
@@ -14,8 +15,8 @@ from mbs.elements.tyre_bore import TyreBore
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
-from mbs.vehicle.section import Section
-from mbs.vehicle.tyre_bore import Bore
+from mbs.vehicle.tyres.bore import Bore
+from mbs.vehicle.tyres.tyre_section import TyreSection
 
 if TYPE_CHECKING:
     from mbs.tyre_files import TyreFile
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 _IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
 
-class MagicFormula(Section, of=MagicTyre):
+class MagicFormula(TyreSection, of=MagicTyre):
     """Tyre by the Magic Formula: PAC2002, MF-Tyre 5.2, 6.1 or 6.2.
 
     On a road of another friction than `reference_friction`, LMUX and LMUY of the file are multiplied by the friction of
@@ -51,13 +52,7 @@ class MagicFormula(Section, of=MagicTyre):
     _tyre: MagicTyre | None = PrivateAttr(None)
 
     def open(self, folder: Path) -> None:
-        """Read the file; done once by the reader of the car.
-
-        Raises
-        ------
-        CarFileError
-            There is no such file, or it is not a tyre property file.
-        """
+        """Read the tyre property file."""
         from mbs.tyre_files import TyreFileError, read_tyre
 
         try:
@@ -92,11 +87,15 @@ class MagicFormula(Section, of=MagicTyre):
         )
         return made if self.bore is None else replace(made, bore=self.bore.element(TyreBore))
 
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What the file lacks or what of it is not used, a sentence each."""
+    def faults(self) -> Iterator[str]:
+        """The friction is that of a tyre."""
+        for name, friction in zip(("longitudinal", "lateral"), self.friction, strict=True):
+            yield from self.friction_faults(f"{self.key('file')} has a {name}", friction)
+
+    def oddities(self) -> Iterator[str]:
+        """What the file lacks or what of it is not used."""
         assert self._read is not None
-        return tuple(f"{self.key('file')} ({self.file}): {note}" for note in self._read.notes)
+        yield from (f"{self.key('file')} ({self.file}): {note}" for note in self._read.notes)
 
     @property
     def _left(self) -> MagicTyre:
