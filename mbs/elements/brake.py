@@ -20,9 +20,9 @@ class Brake:
     max_torque: NotNegative
     """Torque at full pedal, N m."""
     stick_stiffness: Positive
-    """Of the sticking brake, N m/rad."""
+    """Stiffness of a standing brake about the wheel's axis, N m/rad."""
     stick_damping: Positive
-    """Of the sticking brake, N m s/rad."""
+    """Damping of a standing brake, N m s/rad."""
     share: NotNegative = 1.0
     """Factor on max_torque, so that a total torque and a balance may be parameters."""
     hand_torque: NotNegative = 0.0

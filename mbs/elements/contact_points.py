@@ -41,9 +41,9 @@ class ContactPoints:
     loss: NotNegative = 0.0
     """chi, s/m."""
     friction_factor: NotNegative = 1.0
-    """Multiplies the friction of the road."""
+    """Coefficient of friction on a road over the friction of the road."""
     radius: NotNegative = 0.0
-    """Of the spheres around the points, m; with 0 they are points."""
+    """Radius of the spheres around the points, as of tubes or edges, m."""
 
     @staticmethod
     def for_mass(

@@ -14,17 +14,17 @@ from mbs.kernel.header.enumerations import ElementType
 class TorsionBar:
     """Spring and damper between steering wheel and pinion, whose torque T controls an assistance on the pinion.
 
-    The assistance is ``gain T / sqrt(1 + (gain T / limit)^2)``.
+    The assistance is ``a T / sqrt(1 + (a T / limit)^2)`` with the factor a; there is none with a limit of 0.
     """
 
     stiffness: Positive
-    """N m/rad."""
+    """Torsional stiffness of column and torsion bar, N m/rad."""
     damping: NotNegative = 0.0
-    """N m s/rad."""
-    assist_gain: NotNegative = 0.0
-    """Factor of the assistance on the torque of the bar, where it is far below its limit."""
-    assist_limit: NotNegative = 0.0
-    """Largest assistance, N m on the pinion; 0 for none."""
+    """Torsional damping of column and torsion bar, N m s/rad."""
+    assistance: NotNegative = 0.0
+    """Torque of the power assistance on the pinion per torque of the torsion bar, where it is far below its limit."""
+    assistance_limit: NotNegative = 0.0
+    """Largest torque of the power assistance on the pinion, N m."""
 
     def record(self, name: str, wheel: Affine, pinion: Affine) -> ElementRecord:
         """The force element.

@@ -15,11 +15,10 @@ from mbs.vehicle.section import Section
 LARGEST_TORQUE, LARGEST_PRESSURE = 1e4, 4e7  # N m, Pa: ends of the ranges of the ports
 
 
-class AxleBrakes(Section):
-    """Brakes of an axle."""
+class AxleBrakes(Section, of=Brake):
+    """Brakes of an axle; standing, they are critically damped with the wheel."""
 
     stick_stiffness: StickStiffness
-    """Stiffness of a standing brake about the wheel's axis; critically damped with the wheel."""
 
 
 class Brakes(Section):

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
+from pydantic import Field
+
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record import ElementRecord
 from mbs.elements.spring_damper import EndStops, SpringDamper
@@ -99,15 +101,13 @@ def law_faults(
             return
 
 
-class Spring(Section):
+class Spring(Section, of=SpringDamper):
     """Spring of one wheel."""
 
-    stiffness: Stiffness | None = None
-    """Spring rate; or there is a table."""
+    stiffness: Stiffness | None = Field(None, description="Spring rate; or there is a table.")
     table: tuple[tuple[Compression, SpringForce], ...] | None = None
     """Rows of compression and force, both rising, through (0, 0), a monotone cubic between them."""
-    free_length: FreeLength
-    """Length without force, between the points that the suspension names."""
+    free_length: FreeLength = Field(description="Length without force, between the points that the suspension names.")
     factor: Factor = 1.0
     """Factor on the force of the spring."""
 
@@ -124,11 +124,10 @@ class Spring(Section):
         return [(-x, -force) for x, force in reversed(self.table)]
 
 
-class Damper(Section):
+class Damper(Section, of=SpringDamper):
     """Damper of one wheel, along the spring where the suspension has no points of its own for it."""
 
-    damping: Damping | None = None
-    """Damping coefficient; or there is a table."""
+    damping: Damping | None = Field(None, description="Damping coefficient; or there is a table.")
     table: tuple[tuple[DamperSpeed, DamperForce], ...] | None = None
     """Rows of speed and force, both positive in rebound and rising, through (0, 0), a monotone cubic between them."""
     factor: Factor = 1.0

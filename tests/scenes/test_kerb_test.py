@@ -10,7 +10,7 @@ import pytest
 from ali3.low_pass import low_pass
 from benchmarks.car import fidelity_runs
 from mbs import Settings, Simulation, compile
-from mbs.scenes import kerb_test
+from mbs.scenes import kerb_test, prototype_car
 from mbs.vehicle import load
 from tests.scenes.car import ON_ICE
 
@@ -50,6 +50,17 @@ def test_the_car_goes_down_the_kerb():
     in_the_air = [(t[f"wheel_{w}.Fz"] < 1.0).sum() * H for w in ("FL", "RL")]
     assert all(0.02 < air < 0.1 for air in in_the_air)  # s; a quarter car: 52 and 47 ms
     assert t["wheel_FL.Fz"].max() == pytest.approx(2520.0, rel=0.1)  # N, a quarter car
+
+
+def test_a_guided_car_is_in_neutral():
+    """The drive has no creep torque, nor has its parameter at the start, which else would write that of the file."""
+    creep = prototype_car.car().drive.creep_torque
+    system = compile(kerb_test.build(0))
+    (parameter,) = (p for p in system.meta["parameters"] if p["name"] == "drive.creep_torque")
+    assert parameter["value"] == 0.0 < creep
+    for given, expected in (({}, 0.0), ({"drive.creep_torque": 0.0}, 0.0), ({"drive.creep_torque": creep}, creep)):
+        t = Simulation(system, parameters=given).run(5 * H, H, progress=False, estimate_error=False)
+        assert np.abs(t["drive_torque"]).max() == pytest.approx(expected, abs=1e-9)
 
 
 def test_fewer_coordinates_and_rows_than_the_paper():

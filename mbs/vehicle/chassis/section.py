@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag
 
+from mbs.elements.contact_points import ContactPoints
 from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.names import Name
 from mbs.vehicle.quantities import (
@@ -27,19 +28,18 @@ ContactPoint = Annotated[
 ]
 
 
-class GroundContact(Section):
-    """Points of the chassis that may touch the ground; without this table it passes through."""
+class GroundContact(Section, of=ContactPoints):
+    """Points of the chassis that may touch the ground; without this table it passes through. chi of their loss is as of
+    the stops of the springs.
+    """
 
     points: tuple[ContactPoint, ...]
     """Points of the left half, each with its image on the right: coordinates, or the name of a joint of the frame."""
     radius: Thickness
-    """Radius of the tubes or edges at the points."""
     depth: SmallLength
     """By how much a point gives under a quarter of the car."""
     loss: HysteresisLoss
-    """chi, as of the stops of the springs."""
     friction_factor: Coefficient
-    """Coefficient of friction of the chassis on the road over the friction of the road."""
 
 
 class Chassis(Section):

@@ -43,7 +43,7 @@ FAR = 1.0  # m: from the middle of the rack to where the length of its stops is 
 RACK_RADIUS = 0.013  # m: of a rack, for its inertia
 
 
-class Column(RackSection):
+class Column(RackSection, of=TorsionBar):
     """Rack, pinion, torsion bar and steering wheel, which the driver holds at an angle or turns by a torque."""
 
     without_travel: ClassVar[str] = "whose rack is a body"
@@ -62,13 +62,9 @@ class Column(RackSection):
     friction: SteeringFriction = 0.0
     """Friction of the column at the steering wheel."""
     stiffness: ColumnStiffness
-    """Torsional stiffness of column and torsion bar."""
-    damping: ColumnDamping = 0.0
-    """Torsional damping of column and torsion bar."""
-    assistance: AssistanceFactor = 0.0
-    """Torque of the power assistance on the pinion per torque of the torsion bar, where it is far below its limit."""
-    assistance_limit: AssistanceTorque = 0.0
-    """Largest torque of the power assistance on the pinion."""
+    damping: ColumnDamping = TorsionBar.damping
+    assistance: AssistanceFactor = TorsionBar.assistance
+    assistance_limit: AssistanceTorque = TorsionBar.assistance_limit
     by_torque: OneOrZero = 0.0
     """1: steering_torque turns a free steering wheel; 0: the steering wheel follows steering and its angle demand."""
 
@@ -142,17 +138,10 @@ class Column(RackSection):
         return guide
 
     def _bar(self, b: CarBuilder, wheel: Coordinate, pinion: Coordinate) -> None:
-        bar = TorsionBar(self.stiffness, self.damping, self.assistance, self.assistance_limit)
-        b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine))
+        bar = self.element(TorsionBar)
+        b.tie_numbers(self, bar, b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine)))
         friction = CoordinateFriction(self.friction, *COLUMN_STICK)
         b.m.add(friction.record("steering friction", wheel.affine))
-        for name, real in (
-            ("stiffness", "stiffness"),
-            ("damping", "damping"),
-            ("assistance", "assist_gain"),
-            ("assistance_limit", "assist_limit"),
-        ):
-            b.tie(self, name, "torsion bar", real)
         b.tie(self, "friction", "steering friction", "largest")
 
     def _rack(self, b: CarBuilder, pinion: Coordinate, left: Point, per_radian: float) -> Body:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from mbs.elements.record import ElementRecord
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
@@ -47,13 +48,23 @@ class AntiRollBarPoints(Section):
             )
 
 
-class AntiRollBar(Section):
-    """Anti-roll bar with its links."""
+class RollStiffness(Section):
+    """Anti-roll bar between its levers."""
 
     stiffness: TorsionalStiffness
     """Torque of the bar per angle between both levers."""
     factor: Factor = 1.0
     """Factor on the torque of the bar."""
+
+    def tie(self, b: CarBuilder, bar: ElementRecord) -> None:
+        """Let parameters write them."""
+        b.tie(self, "stiffness", bar, "stiffness")
+        b.tie(self, "factor", bar, "stiffness_factor")
+
+
+class AntiRollBar(RollStiffness):
+    """Anti-roll bar with its links."""
+
     part: str
     """Part of the suspension that the drop link ends on, as the suspension's bodies are called."""
     points: AntiRollBarPoints
@@ -79,5 +90,4 @@ class AntiRollBar(Section):
         bar = b.m.anti_roll_bar(
             f"anti-roll bar {axle}", *levers, stiffness=self.stiffness, stiffness_factor=self.factor
         )
-        b.tie(self, "stiffness", bar, "stiffness")
-        b.tie(self, "factor", bar, "stiffness_factor")
+        self.tie(b, bar)

@@ -18,12 +18,12 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.names import Name
 from mbs.vehicle.part import Part
-from mbs.vehicle.quantities import Factor, Length, Point, TorsionalStiffness
+from mbs.vehicle.quantities import Length, Point
 from mbs.vehicle.section import Section
 from mbs.vehicle.side import Side, sides
 from mbs.vehicle.springs import AxleSprings, Stops, spring_of_length
 from mbs.vehicle.steering import Steering
-from mbs.vehicle.suspensions.anti_roll_bar import LINK
+from mbs.vehicle.suspensions.anti_roll_bar import LINK, RollStiffness
 from mbs.vehicle.suspensions.curve_compliance import Compliance
 from mbs.vehicle.suspensions.curve_links import CurveLink
 from mbs.vehicle.suspensions.curve_poses import Hub, WheelCurves, wheel_curves
@@ -47,13 +47,9 @@ class NoPoints(Section):
     """Hard points of a suspension that has none."""
 
 
-class CurveBar(Section):
+class CurveBar(RollStiffness):
     """Anti-roll bar between both wheels."""
 
-    stiffness: TorsionalStiffness
-    """Torque of the bar per angle between both levers."""
-    factor: Factor = 1.0
-    """Factor on the torque of the bar."""
     lever: Length | None = None
     """Travel of the wheel per angle of its lever; without it the table must have anti_roll_bar_angle."""
 
@@ -238,9 +234,7 @@ class Curves(SuspensionSection):
             yield Corner(side, carrier, {"carrier": carrier})
         if self.bar is not None:
             law = ScalarSpringDamper(self.bar.stiffness, stiffness_factor=self.bar.factor)
-            bar = b.m.add(law.record(f"anti-roll bar {axle}", levers[0] - levers[1]))
-            b.tie(self.bar, "stiffness", bar, "stiffness")
-            b.tie(self.bar, "factor", bar, "stiffness_factor")
+            self.bar.tie(b, b.m.add(law.record(f"anti-roll bar {axle}", levers[0] - levers[1])))
 
     def _over(
         self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]

@@ -66,7 +66,7 @@ class DoubleWishboneBodies(Section):
     """Upright without wheel."""
 
 
-class SteeringStop(Section):
+class SteeringStop(Section, of=EndStops):
     """Stop of the knuckle on the lower wishbone, from the outer end of the tie rod to the wishbone's front pivot."""
 
     length: Length
@@ -76,9 +76,7 @@ class SteeringStop(Section):
     travel: SmallLength
     """Compression at which metal meets metal."""
     metal_stiffness: MetalStiffness
-    """Stiffness of metal on metal."""
     metal_onset: SmallLength
-    """Depth over which it sets in."""
     loss: HysteresisLoss
     """chi, as of the stops of the springs."""
 
@@ -139,11 +137,10 @@ class DoubleWishbone(IndependentSuspension):
 
 
 def _end_stop(stop: SteeringStop) -> EndStops:
-    return EndStops(
-        stop.length,
-        stop.stiffness,
+    return stop.element(
+        EndStops,
+        bump_length=stop.length,
+        bump_stiffness=stop.stiffness,
         bump_travel=stop.travel,
-        metal_stiffness=stop.metal_stiffness,
-        metal_onset=stop.metal_onset,
         bump_loss=stop.loss,
     )
