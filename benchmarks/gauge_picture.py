@@ -35,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def draw(a: Any, car: Car, i: int, j: int) -> None:
     """Tubes, joints of the suspension, and gauges by name; from the side those of both sides are one."""
-    tubular = car.tubular_frame
+    tubular = car.frame_section.tubular(car.folder)
     frame, tubes = tubular.frame()
     x = frame.positions
     for beam in frame.beams:

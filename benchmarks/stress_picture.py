@@ -25,8 +25,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = parser_of("stress_picture", __doc__, json=False)
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
     options = parser.parse_args(arguments)
-    frame, _ = prototype_car.car().tubular_frame.frame()
-    body = prototype_car.car().flexible_frame.reduced(Fidelity.DYNAMIC)
+    car = prototype_car.car()
+    frame, _ = car.frame_section.tubular(car.folder).frame()
+    body = car.flexible_frame.reduced(Fidelity.DYNAMIC)
     run = kerb_run()
     recording = run.recording()
     (part,) = (recording.scene or {})["flexible"]

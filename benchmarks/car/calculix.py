@@ -22,7 +22,7 @@ from mbs.vehicle import load
 from mbs.vehicle.environment import GRAVITY
 
 CAR = load("prototype")
-FRAME = CAR.tubular_frame
+FRAME = CAR.frame_section.tubular(CAR.folder)
 INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
 STEEL, SECTIONS = FRAME.material, FRAME.tube_sections
 

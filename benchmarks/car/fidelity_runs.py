@@ -21,7 +21,7 @@ FOLDER = Path(__file__).parents[2] / "tests" / "data" / "fidelity"
 NAMES = ("kerb_test", "double_lane_change_replay", "drop")
 INTERVAL = 0.01  # s, between the samples of a reference
 FREQUENCY = 10.0  # Hz, of the low-pass
-MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().tubular_frame.section.gauges)
+MOMENTS = tuple(f"bending_moment.{g}" for g in prototype_car.car().frame_section.gauges)
 FILTERED = "filtered."
 OUTPUTS = ("moment", "moment_unfiltered", "motion", "wheel_load")
 """What has an error: moments after and before the filter and wheel loads as parts of their largest change, the place

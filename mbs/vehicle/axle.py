@@ -83,6 +83,18 @@ class Axle(Section):
         if self.stops is not None:
             yield from suspension.stop_faults(self.stops)
 
+    def corners(self, b: CarBuilder, axle: str, tie_rod: TieRodEnd) -> Iterator[Corner]:
+        """Add suspension and springs of the left side, then of the right one, then the anti-roll bar.
+
+        `axle`, `tie_rod`: as of `build`.
+        """
+        springs, corners = AxleSprings(self.spring, self.damper, self.stops), []
+        for corner in self.suspension.corners(b, axle, springs, tie_rod):
+            corners.append(corner)
+            yield corner
+        if self.anti_roll_bar is not None:
+            self.anti_roll_bar.build(b, axle, corners)
+
     def build(
         self, b: CarBuilder, axle: str, tie_rod: TieRodEnd, brake: Callable[[CarBuilder, Corner, Spin, float], None]
     ) -> dict[str, Spin]:
@@ -91,15 +103,11 @@ class Axle(Section):
         `axle`: "front" or "rear"; `tie_rod`: gives what the inner ends of the tie rods hang on; `brake`: adds the brake
         of a wheel, of which it is given the spin inertia, kg.m2.
         """
-        spins, corners = {}, []
-        springs = AxleSprings(self.spring, self.damper, self.stops)
-        for corner in self.suspension.corners(b, axle, springs, tie_rod):
-            corners.append(corner)
+        spins = {}
+        for corner in self.corners(b, axle, tie_rod):
             spin = self._wheel(b, corner)
             brake(b, corner, spin, self.wheel.spin_inertia)
             spins[corner.side.wheel] = spin
-        if self.anti_roll_bar is not None:
-            self.anti_roll_bar.build(b, axle, corners)
         return spins
 
     def _wheel(self, b: CarBuilder, corner: Corner) -> Spin:

@@ -21,13 +21,10 @@ from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changes import changed_content
-from mbs.vehicle.chassis.amplitudes import amplitude_outputs
-from mbs.vehicle.chassis.attachments import attachments
-from mbs.vehicle.chassis.build import build_chassis, stress_outputs
+from mbs.vehicle.chassis.flexible_chassis import amplitude_outputs, flexible_chassis, frame_of, stress_outputs
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
-from mbs.vehicle.chassis.frame_joints import JointFinder
-from mbs.vehicle.chassis.frame_mass import check_mass
 from mbs.vehicle.chassis.ground_contact import ground_contact
+from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.chassis.written import write_inertia
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
@@ -74,19 +71,7 @@ class Car(CarContent):
         ModelError
             The car has no flexible frame, or its files do not describe one that fits the car.
         """
-        frame = self.frame_section
-        structure = frame.structure(self._folder)
-        check_mass(structure.model, self.chassis)
-        points: dict[Coordinates, str] = {
-            point: self.chassis.key(f"accelerometers.{name}") for name, point in self.chassis.accelerometers.items()
-        }
-        for axle in (self.front, self.rear):
-            points |= {tuple(point): axle.suspension.points.key(name) for name, point in axle.suspension.points}
-        b = self._builder(None)
-        b.chassis = build_chassis(b.m, self.chassis, None, Fidelity.RIGID)
-        driven = ("front", "rear").index(self.drive.wheels)
-        joints = JointFinder(frame, structure, attachments(b, self.mechanism), points).joints(self.chassis, driven)
-        return FlexibleFrame(frame, self._folder, structure, joints)
+        return frame_of(self, self._builder(None), self.mechanism)
 
     @cached_property
     def misfit(self) -> str:
@@ -169,7 +154,10 @@ class Car(CarContent):
     ) -> None:
         """Add all parts of the car to an empty model."""
         m = b.m
-        b.chassis = build_chassis(m, self.chassis, flexible, fidelity)
+        if flexible is None:
+            b.chassis = rigid_chassis(m, self.chassis)
+        else:
+            b.chassis = flexible_chassis(m, self.chassis, flexible, fidelity)
         write_inertia(b, self.chassis)
         for name, payload in self.payload.items():
             payload.build(b, name, fidelity)

@@ -14,9 +14,7 @@ from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
 from mbs.vehicle.chassis.frames.frame_section import FrameSection
-from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.section import Chassis
-from mbs.vehicle.chassis.tubular_frame import TubularFrame
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.names import CarName, Name, Text
 from mbs.vehicle.payload import Payload
@@ -85,20 +83,6 @@ class CarContent(Section):
     def wheelbase(self) -> float:
         """Distance between the axles as drawn, m."""
         return self.front.wheel.centre[0] - self.rear.wheel.centre[0]
-
-    @property
-    def tubular_frame(self) -> TubularFrame:
-        """Tables of the frame.
-
-        Raises
-        ------
-        ModelError
-            The car has no frame of tubes.
-        """
-        frame = self.frame_section
-        if not isinstance(frame, TubesFrame):
-            raise ModelError(f"The frame of the car '{self.name}' is not of tubes.")
-        return TubularFrame(frame, self._folder)
 
     @property
     def frame_section(self) -> FrameSection:

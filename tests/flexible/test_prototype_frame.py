@@ -19,7 +19,7 @@ from mbs.flexible.recovery import gauge_rows, peak_tube_stress, section_force_fi
 from mbs.vehicle import load
 
 CAR = load("prototype")
-FRAME = CAR.tubular_frame
+FRAME = CAR.frame_section.tubular(CAR.folder)
 INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
 DYNAMIC_MODES = FRAME.section.dynamic_modes
 DAMPING = CAR.flexible_frame.damping

@@ -12,7 +12,7 @@ from tests.house.test_circles import PACKAGES
 MOST = {
     "build": 43320,
     "build --kernel": 395,
-    "car": 27443,
+    "car": 24180,
     "run": 3811,
     "run, all of it": 8115,
     "view": 756,

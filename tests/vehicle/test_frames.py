@@ -96,10 +96,10 @@ def test_mounts_may_be_named(small: Car) -> None:
 
 def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
     """As drawn."""
-    from mbs.vehicle.chassis.build import build_chassis
+    from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 
     b = car._builder(None)
-    mount = build_chassis(b.m, car.chassis, car.flexible_frame, Fidelity.DYNAMIC)
+    mount = flexible_chassis(b.m, car.chassis, car.flexible_frame, Fidelity.DYNAMIC)
     reference = np.array([c.reference for c in b.m.coordinates])
     z, x = (axis.value(reference) for axis in mount.drive_axes)
     return z, x
@@ -172,7 +172,7 @@ def _same_as_the_tubes(car: Car, fidelities: tuple[int, ...]) -> None:
 def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
     """Nodes with three freedoms: rotations, which carry no mass, are condensed out before the files are written."""
     pytest.importorskip("meshio", reason="extra 'fem'")
-    tubular, readings = small.tubular_frame, small.flexible_frame.structure.readings
+    tubular, readings = small.frame_section.tubular(small.folder), small.flexible_frame.structure.readings
     model = tubular.frame()[0].finite_element_model("lumped", rotary=False)
     moved, turned = model.dof[:, :3].ravel(), model.dof[:, 3:].ravel()
     K, M = model.K.toarray(), model.mass_matrix().toarray()

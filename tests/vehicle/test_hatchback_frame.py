@@ -68,7 +68,7 @@ def test_it_is_as_stiff_as_bodies_of_the_class() -> None:
 
 def test_a_finer_mesh_has_the_same_frequencies() -> None:
     """Those of the free frame that the gauges feel; halves of the elements move them by less than two parts in 1000."""
-    tubular = car().tubular_frame
+    tubular = car().frame_section.tubular(car().folder)
     coarse, fine = (natural_modes(tubular.frame(refinement=n)[0].finite_element_model(), 14)[0][6:] for n in (1, 2))
     np.testing.assert_allclose(coarse, fine, rtol=2e-3)
     assert (coarse >= fine * (1.0 - 1e-9)).all()
@@ -155,8 +155,8 @@ def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: 
     given = {"steering": 0.4, "throttle": 0.7}
     run = Simulation(compile(model)).run(2.0, 0.01, inputs=given, estimate_error=False)
     eta = amplitudes(part, run)
-    _, tubes = car().tubular_frame.frame()
-    for gauge in car().tubular_frame.strain_gauges(tubes):
+    tubular = car().frame_section.tubular(car().folder)
+    for gauge in tubular.strain_gauges(tubular.frame()[1]):
         ends = rows_of_stress(part, eta)[:, gauge.element]
         axial, about_y, about_z = np.moveaxis((1.0 - gauge.xi) * ends[:, 0] + gauge.xi * ends[:, 1], -1, 0)
         assert gauge.fibre is not None

@@ -53,7 +53,7 @@ def test_a_payload_bends_the_frame_like_masses_on_the_joints_that_share_it(fidel
     lines = [f"weight,{joint},{MASS / len(joints)}" for joint in joints if joint.endswith("L")]
     with (folder / "masses.csv").open("a") as file:
         file.write("\n".join(lines) + "\n")
-    data = {**chassis_of(PROTOTYPE.tubular_frame.__class__(PROTOTYPE.tubular_frame.section, folder))}
+    data = {**chassis_of(PROTOTYPE.frame_section.tubular(folder))}
     data["accelerometers"] = PROTOTYPE._data["chassis"]["accelerometers"]
     heavy = prototype_with(PROTOTYPE._data["chassis"]["frame"], folder, data, {"vehicle.mass": 597.0 + MASS})
     one, two, empty = (at_rest(car, fidelity) for car in (loaded, heavy, PROTOTYPE))

@@ -19,6 +19,7 @@ from viewer.scene import scene_errors
 NODES = ("TFL", "D3c", "S2R", "B3L")
 STRESS = 1e-6  # of the largest: the scene has 24 bits
 PLACE = 1e-9  # m
+TUBULAR = prototype_car.car().frame_section.tubular(prototype_car.car().folder)
 
 
 @pytest.fixture(scope="module")
@@ -41,8 +42,7 @@ def kerb_run(fidelity: int) -> Trajectory:
 
 def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
     """Half-bridge on top of a tube, from the bending stresses at both ends of its element."""
-    _, tubes = prototype_car.car().tubular_frame.frame()
-    (found,) = [g for g in prototype_car.car().tubular_frame.strain_gauges(tubes) if g.name == name]
+    (found,) = [g for g in TUBULAR.strain_gauges(TUBULAR.frame()[1]) if g.name == name]
     y, z = np.array(found.fibre) / np.hypot(*found.fibre)
     _, about_y, about_z = np.moveaxis(rows_of_stress(part, eta)[:, found.element], -1, 0)
     ends = z * about_y - y * about_z
@@ -55,7 +55,7 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
 ) -> None:
     run = kerb_run(3)
     eta = amplitudes(part, run)
-    frame, _ = prototype_car.car().tubular_frame.frame()
+    frame, _ = TUBULAR.frame()
     motion = motion_of(frame, prototype_car.car().flexible_frame.reduced(3), run.t, eta, 1.0)
     alone = frame_alone(run.recording(), 20e6).scene
     assert scene_errors(alone) == []

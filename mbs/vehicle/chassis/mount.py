@@ -9,7 +9,9 @@ from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import vector
+from mbs.model import Model
 from mbs.model.body import Body
+from mbs.vehicle.chassis.section import Chassis
 
 
 class LeverCarrier(Body):
@@ -67,3 +69,11 @@ class Mount:
     def lever_carrier(self) -> Body:
         """What levers of anti-roll bars turn on."""
         return self.body if self.body is self.frame else LeverCarrier(self.body, self.contact_frame[1])
+
+
+def rigid_chassis(m: Model, data: Chassis) -> Mount:
+    """Add the chassis as one rigid body."""
+    rigid = m.body("chassis", mass=data.mass, com=data.com, inertia=data.tensor)
+    axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
+    frame = rigid.point(rigid.com), [rigid.vector(v) for v in np.eye(3)], rigid.com
+    return Mount(rigid, rigid, rigid, data.reference, axes, frame)

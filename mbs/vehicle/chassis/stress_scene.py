@@ -12,7 +12,7 @@ from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model import Model
 from mbs.simulation.standing_system import StandingSystem
-from mbs.vehicle.chassis.amplitudes import COMPUTED, amplitude_names
+from mbs.vehicle.chassis.flexible_chassis import COMPUTED, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.side import Point
 

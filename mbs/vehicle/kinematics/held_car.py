@@ -16,11 +16,11 @@ from mbs.model.ends import End
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car
-from mbs.vehicle.chassis.build import build_chassis
+from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
+from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.linkages.standing_model import StandingModel
 from mbs.vehicle.side import Point, Side, sides
-from mbs.vehicle.springs import AxleSprings
 
 Array = NDArray[np.float64]
 
@@ -51,7 +51,10 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     m.floating = True
     steering = m.input("steering", min=-1.0, max=1.0)
     b = CarBuilder(m, m.road(PlaneRoad()), {"steering": steering})
-    b.chassis = build_chassis(m, car.chassis, None if fidelity is Fidelity.RIGID else car.flexible_frame, fidelity)
+    if fidelity is Fidelity.RIGID:
+        b.chassis = rigid_chassis(m, car.chassis)
+    else:
+        b.chassis = flexible_chassis(m, car.chassis, car.flexible_frame, fidelity)
 
     def fixed(side: Side, point: Point) -> End:
         return b.chassis.body, point
@@ -59,10 +62,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     steered = car.steering.build(b, car.rack_way)
     carriers: dict[str, tuple[Body, Point]] = {}
     for axle, data, rod in (("front", car.front, steered.tie_rod), ("rear", car.rear, fixed)):
-        springs = AxleSprings(data.spring, data.damper, data.stops)
-        corners = list(data.suspension.corners(b, axle, springs, rod))
-        if data.anti_roll_bar is not None:
-            data.anti_roll_bar.build(b, axle, corners)
+        corners = data.corners(b, axle, rod)
         carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
     return m, b, carriers
 

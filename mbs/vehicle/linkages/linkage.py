@@ -29,7 +29,6 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.mount import Mount
 from mbs.vehicle.linkages.standing_model import StandingModel
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.springs import AxleSprings
 from mbs.vehicle.steering.rack_section import rack_ends
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
@@ -98,13 +97,9 @@ class Linkage(StandingModel):
             rods.append(side.wheel)
             return steered(side, point)
 
-        springs = AxleSprings(self.data.spring, self.data.damper, self.data.stops)
-        corners = list(self.data.suspension.corners(b, axle, springs, end))
-        if self.data.anti_roll_bar is not None:
-            self.data.anti_roll_bar.build(b, axle, corners)
+        self._corners = list(self.data.corners(b, axle, end))
         m.start_in_equilibrium = False
         self.has_rod = bool(rods)
-        self._corners = corners
         elements = {e.name: e for e in m.elements}
         lines = [
             [AffineVector(tuple(elements[name].signals[:3])) for name in names]

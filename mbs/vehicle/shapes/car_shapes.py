@@ -53,8 +53,9 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links:
         steering_shapes(looks)
         powertrain_shapes(looks)
     occupant_shapes(looks)
-    tubes = isinstance(car.chassis.frame, TubesFrame)
-    if tubes:
-        tube_frame_shapes(looks, car.tubular_frame, bends=isinstance(b.chassis.body, FlexibleBody))
+    frame = car.chassis.frame
+    tubes = isinstance(frame, TubesFrame)
+    if isinstance(frame, TubesFrame):
+        tube_frame_shapes(looks, frame.tubular(car.folder), bends=isinstance(b.chassis.body, FlexibleBody))
     if car.chassis.body in ("clear", "closed") or (car.chassis.body == "auto" and not tubes):
         body_shell_shapes(looks, clear=car.chassis.body == "clear")

@@ -19,9 +19,13 @@ class TubesFrame(TubeTables):
     Names of joints end in L (mirrored to R) or c.
     """
 
+    def tubular(self, folder: Path) -> TubularFrame:
+        """Its tables. `folder`: of the car's file."""
+        return TubularFrame(self, folder)
+
     def structure(self, folder: Path) -> Structure:
         """Read the tables."""
-        tubular = TubularFrame(self, folder)
+        tubular = self.tubular(folder)
         frame, tubes = tubular.frame()
         gauges = tubular.strain_gauges(tubes)
         readings = [r for gauge in gauges for r in self.gauges[gauge.name].readings(gauge, frame)]
@@ -29,7 +33,7 @@ class TubesFrame(TubeTables):
 
     def check(self, folder: Path) -> None:
         """Read the tables and the places of the gauges, each of which must be on a tube."""
-        tubular = TubularFrame(self, folder)
+        tubular = self.tubular(folder)
         tubular.strain_gauges(tubular.frame()[1])
 
 

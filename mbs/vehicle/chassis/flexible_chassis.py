@@ -1,6 +1,8 @@
-"""Adds the chassis of any fidelity to a car, and its stresses."""
+"""Adds a flexible chassis to a car, with its stresses and amplitudes, the same outputs at every fidelity."""
 
 from __future__ import annotations
+
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -9,33 +11,49 @@ from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.ports import PortedBody
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.chassis.attachments import attachments
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
-from mbs.vehicle.chassis.mount import Mount
+from mbs.vehicle.chassis.frame_joints import JointFinder
+from mbs.vehicle.chassis.frame_mass import check_mass
+from mbs.vehicle.chassis.mount import Mount, rigid_chassis
 from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.side import Point
+
+COMPUTED = "stress.computed"
 
 
-def build_chassis(m: Model, data: Chassis, flexible: FlexibleFrame | None, fidelity: Fidelity) -> Mount:
-    """Add the chassis.
+def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
+    """The frame of a car on the joints where its parts hang. `b`: an empty model; `parts`: as of `attachments`.
 
-    `flexible`: needed from QUASI_STATIC on; `fidelity`: how much of it is modelled.
+    Raises
+    ------
+    ModelError
+        The car has no flexible frame, or its files do not describe one that fits the car.
     """
+    frame, chassis = car.frame_section, car.chassis
+    structure = frame.structure(car.folder)
+    check_mass(structure.model, chassis)
+    points: dict[Point, str] = {p: chassis.key(f"accelerometers.{name}") for name, p in chassis.accelerometers.items()}
+    for axle in (car.front, car.rear):
+        points |= {tuple(point): axle.suspension.points.key(name) for name, point in axle.suspension.points}
+    b.chassis = rigid_chassis(b.m, chassis)
+    driven = ("front", "rear").index(car.drive.wheels)
+    joints = JointFinder(frame, structure, attachments(b, parts), points).joints(chassis, driven)
+    return FlexibleFrame(frame, car.folder, structure, joints)
+
+
+def flexible_chassis(m: Model, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
+    """Add the chassis. `fidelity`: how much of it is modelled, from QUASI_STATIC on."""
     origin = data.reference
-    if fidelity.rigid or flexible is None:
-        rigid = _rigid(m, data)
-        axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))
-        frame = rigid.point(rigid.com), [rigid.vector(v) for v in np.eye(3)], rigid.com
-        return Mount(rigid, rigid, rigid, origin, axes, frame)
     if fidelity is Fidelity.QUASI_STATIC:
-        rigid = _rigid(m, data)
+        rigid = rigid_chassis(m, data).body
         ports = m.ported(rigid, {name: flexible.place(name) for name in flexible.interfaces})
         return Mount(ports, rigid, rigid, origin, _drive_axes(ports, flexible), _mean_frame(ports, flexible))
     body = m.flexible_body("chassis", flexible.reduced(fidelity))
     return Mount(body, body.frame, body, origin, _drive_axes(body, flexible), _mean_frame(body, flexible))
-
-
-def _rigid(m: Model, data: Chassis) -> Body:
-    return m.body("chassis", mass=data.mass, com=data.com, inertia=data.tensor)
 
 
 def _drive_axes(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, AffineVector]:
@@ -75,8 +93,8 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
 
 
 def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
-    """Moments and stresses at the gauges; zero for the rigid chassis, where `stress.computed` says so."""
-    note = "; zero where stress.computed is 0"
+    """Moments and stresses at the gauges; zero for the rigid chassis, where `COMPUTED` says so."""
+    note = f"; zero where {COMPUTED} is 0"
     for k, reading in enumerate(flexible.structure.readings):
         name, unit, text = reading.name, reading.unit, reading.description
         if fidelity.rigid:
@@ -92,4 +110,31 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
             m.sense_coordinate(name, body.combination(row), unit=unit, description=text + note)
     text = "1 where moments and stresses are computed; 0: they read zero"
     computed = not fidelity.rigid
-    m.sense_constant("stress.computed", float(computed), unit="1", description=text, whole=True, computed=computed)
+    m.sense_constant(COMPUTED, float(computed), unit="1", description=text, whole=True, computed=computed)
+
+
+def amplitude_names(flexible: FlexibleFrame) -> list[str]:
+    """Names of the outputs, one per mode."""
+    return [f"chassis.mode_{k + 1}" for k in range(flexible.drawn.n_modes)]
+
+
+def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
+    """Amplitudes of the modes of fidelity 3, with which `stress_scene` draws the chassis at any fidelity.
+
+    A flexible chassis with other modes gives the amplitudes that are nearest in the energy norm, the quasi-static one
+    those of the static deformation; the rigid chassis has none, they read 0.
+    """
+    drawn, body = flexible.drawn, mount.body
+    rows = flexible.drawn_amplitudes(body.reduced) if isinstance(body, FlexibleBody) else None
+    for k, (name, mode) in enumerate(zip(amplitude_names(flexible), drawn.mode_names, strict=True)):
+        unit = "m" if k < drawn.n_static else "1"
+        text = f"amplitude of mode '{mode}' of the chassis, for pictures; zero where {COMPUTED} is 0"
+        if isinstance(body, FlexibleBody):
+            assert rows is not None
+            m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)
+        elif isinstance(body, PortedBody):
+            m.sense_quasi_static(
+                name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
+            )
+        else:
+            m.sense_constant(name, 0.0, unit=unit, description=text, computed=False)
