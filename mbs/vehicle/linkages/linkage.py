@@ -97,7 +97,7 @@ class Linkage(StandingModel):
             rods.append(side.wheel)
             return steered(side, point)
 
-        self._corners = list(self.data.corners(b, axle, end))
+        self._corners = corners = list(self.data.corners(b, axle, end))
         m.start_in_equilibrium = False
         self.has_rod = bool(rods)
         elements = {e.name: e for e in m.elements}
