@@ -31,13 +31,7 @@ class _Lines:
 
 
 def bar(*things: Any, **options: Any) -> tqdm[Any]:
-    """A bar on the standard error stream, silent for two seconds.
-
-    Parameters
-    ----------
-    *things, **options
-        Of `tqdm.tqdm`.
-    """
+    """A bar on the standard error stream, silent for two seconds. `things`, `options`: of `tqdm.tqdm`."""
     from tqdm import tqdm
 
     options = {"delay": _DELAY} | options

@@ -8,12 +8,7 @@ from collections.abc import Container, Iterable, Sequence
 def in_columns(rows: Sequence[Sequence[str]], right: Container[int] = ()) -> list[str]:
     """A line for each row, its cells two blanks apart.
 
-    Parameters
-    ----------
-    rows : sequence of sequence of str
-        With as many cells each.
-    right : container of int
-        Columns whose cells are flush right, from 0.
+    `rows`: with as many cells each; `right`: columns whose cells are flush right, from 0.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     justified = [str.rjust if k in right else str.ljust for k in range(len(widths))]

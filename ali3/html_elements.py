@@ -21,13 +21,7 @@ _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 
 
 def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
-    """One element.
-
-    Parameters
-    ----------
-    **attributes : object
-        A trailing underscore is left out, others become hyphens.
-    """
+    """One element. `attributes`: a trailing underscore is left out, others become hyphens."""
     made = getattr(builder, tag.upper(), None)
     node = made() if made is not None else builder.E(tag)
     for key, value in attributes.items():
@@ -52,14 +46,8 @@ def table(
 ) -> HtmlElement:
     """A table that can be scrolled sideways; the first cell of a row is its header.
 
-    Parameters
-    ----------
-    caption : str
-        Above the table; without one a heading over it says what it is.
-    rows : iterable of sequence of HtmlElement or str
-        A row of one cell is a heading over the next ones; a cell that is itself a ``td`` is taken as it is.
-    kind : str, optional
-        Class of the table.
+    `caption`: above the table; without one a heading over it says what it is; `rows`: a row of one cell is a heading
+    over the next ones; a cell that is itself a ``td`` is taken as it is; `kind`: class of the table.
     """
     body = []
     for first, *others in rows:

@@ -34,13 +34,8 @@ class Gate:
 def lanes(track: Track, vehicle_width: float, x_start: float = 0.0) -> tuple[Gate, ...]:
     """The three lanes of a track; x runs along the middle of the first one.
 
-    Parameters
-    ----------
-    track : {"ISO 3888-1", "ISO 3888-2"}
-    vehicle_width : float
-        Without mirrors, m.
-    x_start : float
-        Where the first lane begins, m.
+    `track`: "ISO 3888-1" or "ISO 3888-2"; `vehicle_width`: without mirrors, m; `x_start`: where the first lane begins,
+    m.
 
     Notes
     -----

@@ -47,11 +47,8 @@ class Lost:
 class Isolated(Generic[T, R]):
     """A process that does one task after the other. After one that was lost, the next has a new process.
 
-    Parameters
-    ----------
-    work : callable
-        ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks, results, and what is
-        given to ``tell``; so it is of a module, not of the file that is run as a program.
+    `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks, results, and what
+    is given to ``tell``; so it is of a module, not of the file that is run as a program.
     """
 
     def __init__(self, work: Callable[[T, Tell], R]) -> None:

@@ -51,12 +51,7 @@ def phaseless_low_pass(values: ArrayLike, interval: float, frequency: float, pol
 def low_pass(values: ArrayLike, interval: float, frequency: float = 10.0) -> NDArray[np.float64]:
     """Butterworth filter of second order, forward and back, as measured signals are filtered before they are compared.
 
-    Parameters
-    ----------
-    values : array_like, shape (n,)
-    interval : float
-        Time between samples, s.
-    frequency : float
-        Where half of the power is left in each direction, Hz; below half the sampling frequency.
+    `values`: shape (n,); `interval`: time between samples, s; `frequency`: where half of the power is left in each
+    direction, Hz; below half the sampling frequency.
     """
     return phaseless_low_pass(values, interval, frequency, poles=4)

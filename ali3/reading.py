@@ -40,14 +40,8 @@ _MOST_DOTS = 200  # of a key: the time of the parser grows with their square
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
     """Refuse what is no regular file, or too large, before it is opened.
 
-    Parameters
-    ----------
-    largest : int
-        Bytes.
-    error : type of exception
-        What is raised, with one sentence.
-    name : str
-        How the sentence calls the file; by default its path.
+    `largest`: bytes; `error`: what is raised, with one sentence; `name`: how the sentence calls the file; by default
+    its path.
     """
     name = name or str(file)
     try:
@@ -105,14 +99,7 @@ def read_toml(
 def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     """Tables of the content of a TOML file: numbers are finite, whole ones have 64 bits.
 
-    Parameters
-    ----------
-    data : bytes
-        At most `LARGEST_TOML`.
-    error : type of exception
-        What is raised, with one sentence.
-    name : str
-        How the sentence calls the file.
+    `data`: at most `LARGEST_TOML`; `error`: what is raised, with one sentence; `name`: how the sentence calls the file.
     """
     text = _text(data, error, name)
     bare = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without texts and comments

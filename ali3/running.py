@@ -22,12 +22,8 @@ _prefix: str | None = None
 def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
     """Do the work of a command. SIGTERM and SIGHUP are met in it as Ctrl-C is, by a `KeyboardInterrupt`.
 
-    Parameters
-    ----------
-    work : callable
-        Gives the exit code.
-    errors : sequence of exception types
-        Besides `UserError` and `OSError`, what the user can put right: the message is shown, the exit code is 2.
+    `work`: gives the exit code; `errors`: besides `UserError` and `OSError`, what the user can put right: the message
+    is shown, the exit code is 2.
 
     Returns
     -------
@@ -55,13 +51,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
-    """What a user is told of an error; None where the error is not the user's.
-
-    Parameters
-    ----------
-    errors : sequence of exception types
-        See `run_command`.
-    """
+    """What a user is told of an error; None where the error is not the user's. `errors`: see `run_command`."""
     if isinstance(error, ModuleNotFoundError):
         from ali3.extras import missing_module
 

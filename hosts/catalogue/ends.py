@@ -12,10 +12,7 @@ ROLLED = math.radians(60.0)
 class Ends:
     """Ends a run, and tells why.
 
-    Parameters
-    ----------
-    stands : float
-        A car slower than this stands, m/s; 0: it does not end the run.
+    `stands`: a car slower than this stands, m/s; 0: it does not end the run.
 
     Attributes
     ----------

@@ -33,10 +33,7 @@ class GivenLimits:
     def judged(self, outcomes: Mapping[str, Mapping[str, Outcome]]) -> tuple[dict[str, dict[str, Outcome]], list[str]]:
         """The outcomes with these limits, and what is wrong with others of them, each in a sentence.
 
-        Parameters
-        ----------
-        outcomes : mapping of str to mapping of str to Outcome
-            By name of the test and label of the car.
+        `outcomes`: by name of the test and label of the car.
 
         Notes
         -----

@@ -24,10 +24,7 @@ _COLUMNS = ("test", "car", "measure", "value", "unit", "lowest", "highest", "kep
 def measures_csv(tests: Sequence[StandardTest], outcomes: Mapping[str, Mapping[str, Outcome]]) -> str:
     """A row for each measure, and for each test that was not done one without a measure, whose note says why.
 
-    Parameters
-    ----------
-    outcomes : mapping of str to mapping of str to Outcome
-        By name of the test and label of the car.
+    `outcomes`: by name of the test and label of the car.
     """
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")

@@ -36,14 +36,8 @@ class Pedals(Enum):
 class SteeredPilot:
     """Holds the speed until the car runs steadily, then steers by a table.
 
-    Parameters
-    ----------
-    speed : float
-        When the steering begins, m/s.
-    time, angle : ndarray of shape (n,)
-        s from the beginning, and angle of the steering wheel, rad; linear in between.
-    longest : float
-        Time the car has to come to its speed, s.
+    `speed`: when the steering begins, m/s; `time`, `angle`: s from the beginning, and angle of the steering wheel, rad;
+    linear in between, shape (n,); `longest`: time the car has to come to its speed, s.
 
     Attributes
     ----------

@@ -37,10 +37,7 @@ class SteppedRun:
 def stepped(run: SteeredRun, steady: tuple[float, float]) -> SteppedRun:
     """Evaluate a run.
 
-    Parameters
-    ----------
-    steady : tuple of float
-        Beginning and end of the window of the steady state, s after the beginning of the steering.
+    `steady`: beginning and end of the window of the steady state, s after the beginning of the steering.
     """
     t = run.time
     if not len(t) or t[-1] < steady[1] - 1e-6:

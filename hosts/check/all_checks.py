@@ -17,12 +17,8 @@ if TYPE_CHECKING:
 def check(task: tuple[Path, int, Mapping[str, Value]], tell: Callable[[Finding], None]) -> int:
     """Do all checks.
 
-    Parameters
-    ----------
-    task : tuple of Path, int and mapping of str to float, int, bool or str
-        The FMU, communication steps per run, and what is set in each instance before it starts.
-    tell : callable
-        Called with each finding at once.
+    `task`: the FMU, communication steps per run, and what is set in each instance before it starts; `tell`: called with
+    each finding at once.
 
     Returns
     -------

@@ -137,12 +137,7 @@ def remedies(
 ) -> list[str]:
     """What signals beyond their bounds would agree with, in sentences: another unit, sign, time or start.
 
-    Parameters
-    ----------
-    result, times, columns
-        Of `deviations`.
-    bad : sequence of Deviation
-        What it has found.
+    `result`, `times`, `columns`: of `deviations`; `bad`: what it has found.
     """
     used, rows = places(result, times)
     wanted = {d.name: columns[d.name][used] for d in bad}

@@ -41,14 +41,8 @@ def check_references(
 ) -> int:
     """Compare an FMU with a table, or with all tables in a folder, by name.
 
-    Parameters
-    ----------
-    cases : list of Case
-        Takes what was found, also before an error.
-    bounds : sequence of (str, float)
-        See `deviations`; each fits an output of one of the tables.
-    **how
-        Of `check_reference`.
+    `cases`: takes what was found, also before an error; `bounds`: see `deviations`; each fits an output of one of the
+    tables; `how`: of `check_reference`.
 
     Returns
     -------

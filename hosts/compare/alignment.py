@@ -53,12 +53,7 @@ class Alignment:
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
     """The delay and drift that signals have in common; of one signal, its own.
 
-    Parameters
-    ----------
-    pairs : sequence of (Signal, Curve)
-        Measured and simulated.
-    longest : float
-        Largest delay that is looked for, s.
+    `pairs`: measured and simulated; `longest`: largest delay that is looked for, s.
     """
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:

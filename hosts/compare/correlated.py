@@ -61,12 +61,8 @@ def effective_samples(residual: NDArray[np.float64]) -> float:
 def likeness(times: Sequence[NDArray[np.float64]], parts: Sequence[NDArray[np.float64]]) -> float:
     """By how much signals that differ alike raise the variance of a parameter; 1 of independent ones.
 
-    Parameters
-    ----------
-    times : sequence of ndarray of shape (n,)
-        Of each signal, equally spaced, s.
-    parts : sequence of ndarray of shape (n,)
-        What each residual of the signal moves the parameter by.
+    `times`: of each signal, equally spaced, s, shape (n,); `parts`: what each residual of the signal moves the
+    parameter by, shape (n,).
 
     Notes
     -----

@@ -30,13 +30,7 @@ class _Member:
 
 
 class Crew:
-    """Processes that drive stretches.
-
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
-    """
+    """Processes that drive stretches. `step`: communication step, s."""
 
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:
         self._stretches = list(stretches)

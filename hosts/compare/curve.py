@@ -65,10 +65,7 @@ class _Part:
 class SensedCurve(Curve):
     """A simulated signal as a sensor gives it: bias + gain * simulated((t - delay) / (1 + drift)).
 
-    Parameters
-    ----------
-    delay, drift, bias, gain : float
-        s; the unit of the signal.
+    `delay`, `drift`, `bias`, `gain`: s; the unit of the signal.
     """
 
     def __init__(

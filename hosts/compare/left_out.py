@@ -58,10 +58,7 @@ def parts_of(outputs: Mapping[str, Signal], stretches: Sequence[Stretch]) -> Par
 def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Array:
     """Covariance of parameters whose residuals may be alike within a part in any way, and between neighbours.
 
-    Parameters
-    ----------
-    jacobian : ndarray of shape (n, p)
-    residual : ndarray of shape (n,)
+    `jacobian`: shape (n, p); `residual`: shape (n,).
 
     Returns
     -------
@@ -84,10 +81,7 @@ def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Arra
 def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
     """Residuals of each part with the parameters that the other parts give, to first order, shape (n,).
 
-    Parameters
-    ----------
-    jacobian : ndarray of shape (n, p)
-    residual : ndarray of shape (n,)
+    `jacobian`: shape (n, p); `residual`: shape (n,).
     """
     found = residual.copy()
     for k, change in enumerate(_changes(jacobian, residual, parts, [[k] for k in range(len(parts.begins))])):
@@ -101,10 +95,7 @@ def folds(jacobian: Array, residual: Array, parts: Parts) -> Array:
 
     A fold is parts one after the other, as many in each as can be.
 
-    Parameters
-    ----------
-    jacobian : ndarray of shape (n, p)
-    residual : ndarray of shape (n,)
+    `jacobian`: shape (n, p); `residual`: shape (n,).
 
     Returns
     -------

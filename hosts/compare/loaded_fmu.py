@@ -57,10 +57,7 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
 class LoadedFmu:
     """An FMU and our names for its variables.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
+    `step`: communication step, s.
 
     Attributes
     ----------

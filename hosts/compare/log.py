@@ -83,12 +83,8 @@ def log_for(
 ) -> Log:
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
-    Parameters
-    ----------
-    why_missing : callable
-        Why the FMU does not have one of our names, in a sentence; empty where nothing is known.
-    chosen : collection of str
-        Parameters that are set or sought: the log does not drive them.
+    `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
+    parameters that are set or sought: the log does not drive them.
 
     Raises
     ------

@@ -16,9 +16,7 @@ _FINEST, _WIDEST = 1e-5, 0.02
 def measured_noise(values: NDArray[np.float64]) -> float:
     """Standard deviation of the white noise of a signal that is slow against its samples.
 
-    Parameters
-    ----------
-    values : ndarray of shape (n,)
+    `values`: shape (n,).
 
     Notes
     -----
@@ -31,9 +29,7 @@ def measured_noise(values: NDArray[np.float64]) -> float:
 def computed_noise(residuals: Residuals, p: NDArray[np.float64]) -> float:
     """Root mean square of the noise of the residuals that comes from the FMU's own iterations and rounding.
 
-    Parameters
-    ----------
-    p : ndarray of shape (p,)
+    `p`: shape (p,).
 
     Notes
     -----
@@ -53,11 +49,7 @@ def difference_steps(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Steps of central differences for which the errors by noise and by curvature are about equal.
 
-    Parameters
-    ----------
-    p : ndarray of shape (p,)
-    noise : float
-        Of `computed_noise`.
+    `p`: shape (p,); `noise`: of `computed_noise`.
 
     Returns
     -------

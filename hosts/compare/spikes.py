@@ -16,11 +16,7 @@ _LONGEST = 0.0201  # s between neighbours: over a longer time a pedal or a wheel
 def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which samples no neighbour supports.
 
-    Parameters
-    ----------
-    time : ndarray of shape (n,)
-        Increasing, s.
-    values : ndarray of shape (n,)
+    `time`: increasing, s, shape (n,); `values`: shape (n,).
 
     Returns
     -------

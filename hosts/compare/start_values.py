@@ -119,10 +119,7 @@ def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]
 def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tuple[float, float]) -> dict[str, Value]:
     """Start values of the origin of the car's drawing, from those that were measured of its reference point.
 
-    Parameters
-    ----------
-    point : tuple of float
-        Of `reference_point`.
+    `point`: of `reference_point`.
     """
     made = dict(start)
     yaw, rate = (float(start.get(f"initial.{n}", 0.0)) for n in ("yaw", "yaw_rate"))

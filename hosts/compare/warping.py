@@ -13,11 +13,7 @@ def warped(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Both signals along the path of the least sum of squared differences.
 
-    Parameters
-    ----------
-    y, x : ndarray of shape (n,)
-    window : float
-        Half width of the Sakoe-Chiba band as a part of n.
+    `y`, `x`: shape (n,); `window`: half width of the Sakoe-Chiba band as a part of n.
 
     Returns
     -------

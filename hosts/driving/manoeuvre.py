@@ -49,14 +49,8 @@ class Manoeuvre:
     def at(self, t: float, held: Collection[str] = (), before: bool = False) -> dict[str, float]:
         """Inputs at time `t`; outside the table its ends.
 
-        Parameters
-        ----------
-        t : float
-            s.
-        held : collection of str
-            Names of more inputs that keep the value of a row up to the next one, such as whole numbers.
-        before : bool
-            Whether, at a step, the value before it is meant, and not that behind it.
+        `t`: s; `held`: names of more inputs that keep the value of a row up to the next one, such as whole numbers;
+        `before`: whether, at a step, the value before it is meant, and not that behind it.
         """
         if not len(self.time):
             return {}

@@ -31,10 +31,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded
     with. A table that a run has written is read with the record beside it.
 
-    Parameters
-    ----------
-    known : collection of str, optional
-        Inputs that there are; columns of other names are not read. By default all columns are inputs.
+    `known`: inputs that there are; columns of other names are not read. By default all columns are inputs.
 
     Raises
     ------

@@ -23,10 +23,7 @@ class _NoOutputError(HostError, KeyError):
 class Senses(Mapping[str, float]):
     """The outputs after a step by name.
 
-    Parameters
-    ----------
-    all_rows : bool
-        Whether the outputs of each step are recorded, so that none is read later than the others.
+    `all_rows`: whether the outputs of each step are recorded, so that none is read later than the others.
     """
 
     def __init__(self, fmu: SimulatedFmu, names: Sequence[str], all_rows: bool) -> None:

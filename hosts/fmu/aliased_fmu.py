@@ -21,10 +21,7 @@ from hosts.fmu.variables import Variable
 class AliasedFmu:
     """An `Fmu` seen through aliases; with none of them it is the FMU as it is, to the last bit.
 
-    Parameters
-    ----------
-    fmu : Fmu
-        Its variables that have no alias keep their names and units.
+    `fmu`: its variables that have no alias keep their names and units.
 
     Attributes
     ----------

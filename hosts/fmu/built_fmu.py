@@ -82,10 +82,7 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
 def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
     """Build a native FMU, for this machine unless the options name other platforms.
 
-    Parameters
-    ----------
-    options : tuple of str
-        Of the command, that say what is built.
+    `options`: of the command, that say what is built.
 
     Raises
     ------

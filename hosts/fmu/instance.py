@@ -42,14 +42,8 @@ _NUMBERS: dict[int, dict[str, tuple[str, Any]]] = {
 class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; what FMI refuses is an `FMICallException` of FMPy.
 
-    Parameters
-    ----------
-    told : callable
-        Takes status, category and text of each message.
-    token : str, optional
-        In place of that of the description.
-    resources : str, optional
-        Their location, of FMI 2.0, in place of the right one.
+    `told`: takes status, category and text of each message; `token`: in place of that of the description; `resources`:
+    their location, of FMI 2.0, in place of the right one.
 
     Attributes
     ----------
@@ -240,12 +234,8 @@ class Instance:
 class _Arrays:
     """Values of arrays that are set by their elements: FMI sets all of them at once.
 
-    Parameters
-    ----------
-    variables : sequence of ScalarVariable
-        Elements of an array in their order.
-    read : callable
-        Gives the values that an array has in the FMU, after its start.
+    `variables`: elements of an array in their order; `read`: gives the values that an array has in the FMU, after its
+    start.
     """
 
     def __init__(self, variables: Sequence[ScalarVariable], read: Callable[[Place], list[Any]]) -> None:

@@ -46,10 +46,7 @@ def scalars(
 ) -> tuple[list[ScalarVariable], dict[str, Place]]:
     """All variables of a description, arrays in their elements, and the place of each scalar.
 
-    Parameters
-    ----------
-    names : mapping of str to sequence of str
-        Of elements, see `element_names`; the others are called ``position[1]``, ``matrix[1,2]``.
+    `names`: of elements, see `element_names`; the others are called ``position[1]``, ``matrix[1,2]``.
 
     Returns
     -------

@@ -49,11 +49,7 @@ def resample(
 def crossing(time: NDArray[np.float64], values: NDArray[np.float64], level: float, after: float = -np.inf) -> float:
     """When a signal first passes a level, by linear interpolation.
 
-    Parameters
-    ----------
-    time, values : ndarray of shape (n,)
-    after : float
-        Earlier passages do not count, s.
+    `time`, `values`: shape (n,); `after`: earlier passages do not count, s.
 
     Returns
     -------

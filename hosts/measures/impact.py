@@ -38,11 +38,7 @@ def fall_time(height: float, gravity: float) -> float:
 def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final: float, band: float) -> float:
     """When a signal enters a band around its final value for good.
 
-    Parameters
-    ----------
-    time, values : ndarray of shape (n,)
-    final, band : float
-        The band is `final` ± `band`.
+    `time`, `values`: shape (n,); `final`, `band`: the band is `final` ± `band`.
 
     Returns
     -------

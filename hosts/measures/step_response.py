@@ -48,12 +48,8 @@ def reference_time(
 ) -> float:
     """When the steering has passed half of its step.
 
-    Parameters
-    ----------
-    time, steering : ndarray of shape (n,)
-        s and the angle of the steering wheel.
-    before, steady : tuple of float
-        Begin and end, s, of the windows over which the angles before and after the step are averaged.
+    `time`, `steering`: s and the angle of the steering wheel, shape (n,); `before`, `steady`: begin and end, s, of the
+    windows over which the angles before and after the step are averaged.
 
     Returns
     -------
@@ -73,13 +69,8 @@ def step_response(
 ) -> StepResponse:
     """Measures of the response of one quantity.
 
-    Parameters
-    ----------
-    time, values : ndarray of shape (n,)
-    reference : float
-        Reference time, s.
-    before, steady : tuple of float
-        Beginning and end of the windows before the step and of the steady state, s.
+    `time`, `values`: shape (n,); `reference`: reference time, s; `before`, `steady`: beginning and end of the windows
+    before the step and of the steady state, s.
 
     Returns
     -------

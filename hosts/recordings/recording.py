@@ -191,15 +191,9 @@ class Recorder(Closing):
     def event(self, time: float, kind: str, text: str, *, epoch: int, **details: Any) -> None:
         """Record an event.
 
-        Parameters
-        ----------
-        time : float
-            Of the FMU, s.
-        epoch : int
-            The one that begins with it, or that it is in.
-        **details
-            What repeats it: `start` of `RESTARTS`, all values that were set before the new start; `back_to` and
-            `back_to_epoch` of a rewind, the row whose state was restored; `inputs` of a step that was refused.
+        `time`: of the FMU, s; `epoch`: the one that begins with it, or that it is in; `details`: what repeats it:
+        `start` of `RESTARTS`, all values that were set before the new start; `back_to` and `back_to_epoch` of a rewind,
+        the row whose state was restored; `inputs` of a step that was refused.
         """
         record = {"time": time, "kind": kind, "text": text, "epoch": epoch, **details}
         self._events.write(json.dumps(record, ensure_ascii=False, default=_plain) + "\n")

@@ -57,10 +57,7 @@ class Replayed:
 class Repeater(Closing):
     """An FMU that follows a recording row by row.
 
-    Parameters
-    ----------
-    fmu : Path, optional
-        By default the one that was recorded.
+    `fmu`: by default the one that was recorded.
 
     Raises
     ------

@@ -30,13 +30,7 @@ class Table(Protocol):
 
 
 class ParquetTable:
-    """A table in Parquet, of doubles but for `KEYS`.
-
-    Parameters
-    ----------
-    units : mapping of str to str
-        They stand in the file as metadata of the columns.
-    """
+    """A table in Parquet, of doubles but for `KEYS`. `units`: they stand in the file as metadata of the columns."""
 
     suffix = ".parquet"
 
@@ -90,10 +84,7 @@ class ParquetTable:
 class CsvTable:
     """A table as text, with every number to the last bit.
 
-    Parameters
-    ----------
-    units : mapping of str to str
-        Not written: the recording's description has them.
+    `units`: not written: the recording's description has them.
     """
 
     suffix = ".csv"

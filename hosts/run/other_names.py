@@ -20,10 +20,7 @@ from hosts.fmu.settings import Settings
 class OtherNames:
     """The FMU through an alias file.
 
-    Parameters
-    ----------
-    file : Path
-        Of ``--aliases``.
+    `file`: of ``--aliases``.
 
     Attributes
     ----------

@@ -25,14 +25,8 @@ def plot_page(
 ) -> None:
     """Draw the page.
 
-    Parameters
-    ----------
-    file : Path
-        PNG to be written.
-    rows : sequence of (str, str)
-        Summary shown beside the plots.
-    gates : ndarray of shape (gates, 4), optional
-        Drawn into the path; first and last x, right and left y of each, m.
+    `file`: PNG to be written; `rows`: summary shown beside the plots; `gates`: drawn into the path; first and last x,
+    right and left y of each, m, shape (gates, 4).
     """
     with plt.rc_context(STYLE):
         if all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz")):

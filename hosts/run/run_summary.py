@@ -35,12 +35,7 @@ _ERROR = "solver.energy_error"
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
     """Rows of the summary table; those whose variables the FMU lacks are left out.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
-    course : sequence of (str, str)
-        Rows of `hosts.run.course_result.passed`, where a driver followed a course.
+    `step`: communication step, s; `course`: rows of `hosts.run.course_result.passed`, where a driver followed a course.
 
     Returns
     -------

@@ -32,12 +32,7 @@ def write_slide(
 ) -> list[Path]:
     """Write a page as SVG and PNG.
 
-    Parameters
-    ----------
-    rows : sequence of sequence of str
-        At most `MOST_ROWS` are shown; a sentence below tells of the others.
-    plots : sequence of callable
-        At most `MOST_PLOTS`.
+    `rows`: at most `MOST_ROWS` are shown; a sentence below tells of the others; `plots`: at most `MOST_PLOTS`.
     """
     plots, subtitle = plots[:MOST_PLOTS], textwrap.shorten(subtitle, _SUBTITLE, placeholder=" ...")
     with plt.rc_context(_STYLE):

@@ -113,11 +113,8 @@ class Car(Closing):
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
         """What inputs are to become.
 
-        Parameters
-        ----------
-        values : mapping of str to (float, float)
-            Input to its value, limited to the range of the model description, and its largest change per second of
-            simulated time; infinite: at once, which whole numbers always do.
+        `values`: input to its value, limited to the range of the model description, and its largest change per second
+        of simulated time; infinite: at once, which whole numbers always do.
 
         Raises
         ------

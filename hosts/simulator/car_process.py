@@ -103,10 +103,7 @@ def _end_with_parent(flags: Any, folder: Path) -> None:
 class Loop:
     """Commands in, steps at their times, values out.
 
-    Parameters
-    ----------
-    link : Connection
-        Brings what is too large for the shared memory: new start values.
+    `link`: brings what is too large for the shared memory: new start values.
     """
 
     def __init__(

@@ -23,12 +23,7 @@ STALLED = 2.0
 class ConnectedPage:
     """What the server keeps of a page.
 
-    Parameters
-    ----------
-    number : int
-        From 1, for names of its sources.
-    now : callable
-        Seconds of a clock that never goes back.
+    `number`: from 1, for names of its sources; `now`: seconds of a clock that never goes back.
     """
 
     def __init__(self, number: int, connection: ServerConnection, now: Callable[[], float] = time.monotonic) -> None:

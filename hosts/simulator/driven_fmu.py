@@ -35,12 +35,7 @@ class Told:
 class DrivenFmu:
     """An instance of an FMU with its time, its inputs and its past.
 
-    Parameters
-    ----------
-    start : mapping of str to float, int, bool or str
-        Parameters and start values.
-    step : float
-        Communication step, s.
+    `start`: parameters and start values; `step`: communication step, s.
 
     Attributes
     ----------

@@ -37,12 +37,8 @@ class Hands:
 
     For each input the source that moved last, by more than `MOVED`, has the word. May be called from several threads.
 
-    Parameters
-    ----------
-    car_want : callable
-        Takes inputs as of `Wanted`; those that nobody wants stay as they are.
-    inputs : collection of str
-        Of the car; wishes for others are passed over.
+    `car_want`: takes inputs as of `Wanted`; those that nobody wants stay as they are; `inputs`: of the car; wishes for
+    others are passed over.
     """
 
     def __init__(self, car_want: Callable[[Wanted], None], inputs: Collection[str]) -> None:
@@ -53,12 +49,8 @@ class Hands:
     def want(self, source: str, values: Wanted) -> None:
         """A source says what it wants; it may say so as often as it likes.
 
-        Parameters
-        ----------
-        source : str
-            Such as ``page 1 keys`` or ``device Wheel``.
-        values : mapping of str to (float, float)
-            Value, and largest change per simulated second; infinite: at once.
+        `source`: such as ``page 1 keys`` or ``device Wheel``; `values`: value, and largest change per simulated second;
+        infinite: at once.
         """
         with self._lock:
             passed = {}

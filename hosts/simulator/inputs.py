@@ -11,12 +11,7 @@ from numpy.typing import NDArray
 class Inputs:
     """Values of the inputs, and where they are going.
 
-    Parameters
-    ----------
-    start : sequence of float
-        Values at every new start.
-    whole : sequence of bool
-        Which can only have whole numbers: these change at once.
+    `start`: values at every new start; `whole`: which can only have whole numbers: these change at once.
 
     Attributes
     ----------

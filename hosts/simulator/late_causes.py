@@ -13,13 +13,7 @@ CAUSES = ("work", "others", "stolen")
 
 
 class LateCauses:
-    """Tells which cause took the longest.
-
-    Parameters
-    ----------
-    clock : Clock
-        Its `spent` is what the system tells of the calling thread.
-    """
+    """Tells which cause took the longest. `clock`: its `spent` is what the system tells of the calling thread."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock

@@ -18,10 +18,7 @@ _COUNT, _RESIDUAL = "solver.capped_steps", "solver.capped_residual"
 class Notices:
     """Collects them over a second of wall time.
 
-    Parameters
-    ----------
-    times : TimesRecord
-        Where steps that were cut short are counted, also those of which nothing is said.
+    `times`: where steps that were cut short are counted, also those of which nothing is said.
     """
 
     def __init__(self, names: Sequence[str], clock: Clock, times: TimesRecord) -> None:

@@ -22,12 +22,7 @@ class Pace:
     move the schedule: the next ones follow without a pause until it is caught up. Later than `MOST_LATE`, the schedule
     is moved to now; the deadlines in between count as missed and the time as lost.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
-    paced : bool
-        Without, a step begins as soon as the one before is done, and none is late.
+    `step`: communication step, s; `paced`: without, a step begins as soon as the one before is done, and none is late.
 
     Attributes
     ----------

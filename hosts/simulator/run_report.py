@@ -21,10 +21,7 @@ _KEPT_EVENTS = 1000
 class RunReport:
     """Sentences for the terminal, and figures of the run.
 
-    Parameters
-    ----------
-    begin : float
-        When the command was started, by `time.monotonic`.
+    `begin`: when the command was started, by `time.monotonic`.
     """
 
     def __init__(self, begin: float) -> None:

@@ -49,10 +49,7 @@ class _Saved:
 class SavedStates:
     """States every half second of simulated time, for the last 30 s, and the inputs of every step since the oldest.
 
-    Parameters
-    ----------
-    step : float
-        Communication step, s.
+    `step`: communication step, s.
     """
 
     def __init__(self, fmu: SavesStates, inputs: int, step: float) -> None:

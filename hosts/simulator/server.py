@@ -41,10 +41,7 @@ _LONGEST_REASON = 120  # a close frame takes 123 bytes
 class Server:
     """Serves pages.
 
-    Parameters
-    ----------
-    tell : callable
-        Takes kind and text of what happens, for the terminal.
+    `tell`: takes kind and text of what happens, for the terminal.
 
     Attributes
     ----------

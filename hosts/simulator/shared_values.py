@@ -41,11 +41,8 @@ class TwoSlots:
     A reader takes the slot that was finished last. It is torn only if the writer began twice meanwhile; after a few
     such attempts the reader keeps the record it had.
 
-    Parameters
-    ----------
-    counters : ndarray of shape (2,)
-        int64, zero at first: numbers of the last record that was begun and that was finished.
-    slots : ndarray of shape (2, n)
+    `counters`: int64, zero at first: numbers of the last record that was begun and that was finished, shape (2,);
+    `slots`: shape (2, n).
     """
 
     def __init__(self, counters: NDArray[np.int64], slots: NDArray[np.float64]) -> None:
@@ -85,11 +82,7 @@ class TwoSlots:
 class Ring:
     """Rows from one writer to one reader; without room they are counted and left out.
 
-    Parameters
-    ----------
-    counters : ndarray of shape (2,)
-        int64, zero at first: rows written and read.
-    rows : ndarray of shape (capacity, n)
+    `counters`: int64, zero at first: rows written and read, shape (2,); `rows`: shape (capacity, n).
     """
 
     def __init__(self, counters: NDArray[np.int64], rows: NDArray[np.float64]) -> None:
@@ -121,12 +114,7 @@ class Ring:
 class ByteRing:
     """Messages of any length from one writer to one reader; without room they are counted by the caller.
 
-    Parameters
-    ----------
-    counters : ndarray of shape (2,)
-        int64, zero at first: bytes written and read.
-    data : ndarray of shape (n,)
-        uint8.
+    `counters`: int64, zero at first: bytes written and read, shape (2,); `data`: uint8, shape (n,).
     """
 
     _HEAD = 4
@@ -177,10 +165,7 @@ class Sizes:
 class SharedValues:
     """Views of the shared memory.
 
-    Parameters
-    ----------
-    name : str, optional
-        Of memory that another process has made; without it, it is made.
+    `name`: of memory that another process has made; without it, it is made.
 
     Attributes
     ----------

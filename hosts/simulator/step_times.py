@@ -34,13 +34,7 @@ def bin_of(seconds: float) -> int:
 
 
 class TimesRecord:
-    """Where the car's loop adds a step; only it writes.
-
-    Parameters
-    ----------
-    values : ndarray of shape (TIMES_SIZE,)
-        Zero at first.
-    """
+    """Where the car's loop adds a step; only it writes. `values`: zero at first, shape (TIMES_SIZE,)."""
 
     def __init__(self, values: NDArray[np.float64]) -> None:
         self._values = memoryview(values.data).cast("B").cast("d")

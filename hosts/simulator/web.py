@@ -64,15 +64,7 @@ def _bound(address: str, port: int) -> socket.socket:
 
 
 class Web:
-    """Answers requests.
-
-    Parameters
-    ----------
-    page : str
-        HTML.
-    world : mapping
-        JSON of the drawing of the world.
-    """
+    """Answers requests. `page`: HTML; `world`: JSON of the drawing of the world."""
 
     def __init__(self, guard: Guard, page: str, world: Mapping[str, Any]) -> None:
         self._guard = guard

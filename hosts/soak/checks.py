@@ -46,14 +46,7 @@ class Counts:
 class Watch:
     """Looks at the outputs after each step.
 
-    Parameters
-    ----------
-    outputs : sequence of str
-        Names; what is not among them is not looked at.
-    step : float
-        s.
-    largest_balance : float
-        Of `solver.energy_balance`.
+    `outputs`: names; what is not among them is not looked at; `step`: s; `largest_balance`: of `solver.energy_balance`.
     """
 
     def __init__(self, outputs: Sequence[str], step: float, largest_balance: float = LARGEST_BALANCE) -> None:

@@ -100,10 +100,7 @@ def jump_heights() -> tuple[NDArray[np.float64], tuple[Target, ...]]:
 def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
     """Make the road file with ramps, by ``ali3 road``.
 
-    Parameters
-    ----------
-    centre : (float, float)
-        Of the square, m.
+    `centre`: of the square, m.
 
     Raises
     ------

@@ -29,13 +29,7 @@ class _Part(NamedTuple):
 
 
 class Stretch:
-    """Keeps what led to the present state.
-
-    Parameters
-    ----------
-    step : float
-        s.
-    """
+    """Keeps what led to the present state. `step`: s."""
 
     def __init__(self, fmu: Fmu, names: Sequence[str], inputs: Sequence[str], step: float) -> None:
         self._fmu, self._names, self._inputs, self._step = fmu, list(names), list(inputs), step

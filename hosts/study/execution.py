@@ -34,13 +34,7 @@ class SchedulerLostError(Exception):
 
 
 class Execution:
-    """The runs of a study that are in progress.
-
-    Parameters
-    ----------
-    progress : callable
-        See `Progress`.
-    """
+    """The runs of a study that are in progress. `progress`: see `Progress`."""
 
     def __init__(
         self,
@@ -62,10 +56,7 @@ class Execution:
     def run(self, missing: Iterator[list[int]]) -> None:
         """Make the runs.
 
-        Parameters
-        ----------
-        missing : iterator of list of int
-            Runs, chunk by chunk.
+        `missing`: runs, chunk by chunk.
 
         Raises
         ------

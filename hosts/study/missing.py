@@ -16,12 +16,7 @@ _LOOK = 100_000  # runs that are looked at a time
 class ChunkSize:
     """How many runs make a chunk, from the time they take.
 
-    Parameters
-    ----------
-    seconds : float
-        Of a run, as far as is known.
-    most : int
-        Runs of a chunk, by the memory their results need.
+    `seconds`: of a run, as far as is known; `most`: runs of a chunk, by the memory their results need.
     """
 
     def __init__(self, seconds: float, workers: int, most: int = _MOST) -> None:
@@ -40,11 +35,7 @@ class ChunkSize:
 def missing_runs(done: NDArray[np.bool_], size: ChunkSize) -> Iterator[list[int]]:
     """Rising indices of runs that are not done, chunk by chunk.
 
-    Parameters
-    ----------
-    done : ndarray of shape (runs,)
-    size : ChunkSize
-        Asked before each chunk.
+    `done`: shape (runs,); `size`: asked before each chunk.
     """
     left = int(len(done) - np.count_nonzero(done))
     ready: list[int] = []

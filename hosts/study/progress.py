@@ -18,13 +18,7 @@ _TOLD = 5
 
 
 class StudyProgress(Closing):
-    """Counts runs.
-
-    Parameters
-    ----------
-    runs, done : int
-        In all, and those that are done already.
-    """
+    """Counts runs. `runs`, `done`: in all, and those that are done already."""
 
     def __init__(self, runs: int, done: int) -> None:
         self.failed = 0

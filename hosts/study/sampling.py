@@ -21,13 +21,7 @@ class Sampler(Protocol):
 
 
 class Grid:
-    """All combinations; the last dimension runs fastest.
-
-    Parameters
-    ----------
-    lengths : sequence of int
-        Values of each dimension.
-    """
+    """All combinations; the last dimension runs fastest. `lengths`: values of each dimension."""
 
     def __init__(self, lengths: Sequence[int]) -> None:
         self._lengths = tuple(lengths)

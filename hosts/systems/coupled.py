@@ -122,10 +122,7 @@ class CoupledFmus(Closing):
     def initialise(self, **start: Value) -> None:
         """Start all parts at the time 0, each with what those before it give; once more after steps, too.
 
-        Parameters
-        ----------
-        **start : float, int, str
-            Parameters and inputs as ``part.variable``.
+        `start`: parameters and inputs as ``part.variable``.
 
         Raises
         ------

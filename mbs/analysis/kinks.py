@@ -26,10 +26,7 @@ class LinearisationWarning(UserWarning):
 def smooth_side(evaluator: Evaluator, side: int | None) -> State:
     """The state about which to take differences: beside its kinks in the velocities.
 
-    Parameters
-    ----------
-    side : {1, -1} or None
-        Rising or falling velocities; None takes rising ones and warns.
+    `side`: 1 or -1: rising or falling velocities; None takes rising ones and warns.
 
     Warns
     -----

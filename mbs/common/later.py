@@ -13,10 +13,7 @@ _ONE_AT_A_TIME = threading.RLock()
 class Later(Generic[T]):
     """A value that takes time and is not always wanted: the first call makes it, later ones return it.
 
-    Parameters
-    ----------
-    make : callable
-        Makes the value; called once, or again where it has raised.
+    `make`: makes the value; called once, or again where it has raised.
     """
 
     def __init__(self, make: Callable[[], T]) -> None:

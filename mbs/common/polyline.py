@@ -11,14 +11,8 @@ from numpy.typing import NDArray
 def needed_points(n: int, off: Callable[[int, int], NDArray[np.float64]], least: float) -> list[int]:
     """Indices of points without which straight lines would miss others (Ramer 1972, Douglas and Peucker 1973).
 
-    Parameters
-    ----------
-    n : int
-        Number of points; the first and the last are kept.
-    off : callable
-        Gives how far the straight line between two points misses each one between them.
-    least : float
-        Up to which a point is not needed.
+    `n`: number of points; the first and the last are kept; `off`: gives how far the straight line between two points
+    misses each one between them; `least`: up to which a point is not needed.
     """
     keep, waiting = {0, n - 1}, [(0, n - 1)]  # no recursion, which a staircase of many points would exhaust
     while waiting:

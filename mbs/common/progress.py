@@ -17,14 +17,8 @@ _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"
 class Progress:
     """A bar on the standard error stream, or lines; silent until `delay` seconds have passed.
 
-    Parameters
-    ----------
-    delay : float
-        Seconds before the bar appears.
-    clock : callable
-        Seconds, monotone.
-    everywhere : bool
-        The bar also where the stream is no terminal, such as a file, which it fills with control characters.
+    `delay`: seconds before the bar appears; `clock`: seconds, monotone; `everywhere`: the bar also where the stream is
+    no terminal, such as a file, which it fills with control characters.
     """
 
     def __init__(

@@ -12,10 +12,7 @@ E = TypeVar("E", bound=Hashable)
 def blocks_of(around: Mapping[V, Iterable[tuple[E, V]]]) -> list[list[E]]:
     """The edges of each block: largest sets of which any two edges lie on a ring (biconnected components).
 
-    Parameters
-    ----------
-    around : mapping of vertex to (edge, vertex)
-        Edges at each vertex, with the vertex at their other end; several may join the same two.
+    `around`: edges at each vertex, with the vertex at their other end; several may join the same two.
 
     Returns
     -------

@@ -18,12 +18,7 @@ Index = NDArray[np.int64]
 class RowArrays:
     """The row arrays of the System file by name in `arrays`, with coefficients as written by the joints until `scale`.
 
-    Parameters
-    ----------
-    rows : sequence of RowTerms
-        Over z before the elimination order.
-    new : ndarray
-        New number of each coordinate of z.
+    `rows`: over z before the elimination order; `new`: new number of each coordinate of z.
     """
 
     def __init__(self, rows: Sequence[RowTerms], new: Index) -> None:

@@ -52,12 +52,8 @@ def sine_cosine(vectors: Array, turned: NDArray[np.bool_]) -> tuple[Array, Array
 def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_], x: Array) -> Way | None:
     """Follow the motion from x until it comes back; None if it has not one freedom or does not come back.
 
-    Parameters
-    ----------
-    offset, slope : ndarray
-        The vectors of the angles, ``offset + slope x``.
-    turned : ndarray of bool
-        Angles from the perpendicular of their second arm.
+    `offset`, `slope`: the vectors of the angles, ``offset + slope x``; `turned`: angles from the perpendicular of their
+    second arm.
     """
 
     def angles(at: Array) -> tuple[Array, Array]:

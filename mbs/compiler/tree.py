@@ -47,14 +47,8 @@ def tree_arrays(
 ) -> tuple[dict[str, Any], str]:
     """The `tree_` arrays; all empty, with the reason in words, where the model has no tree.
 
-    Parameters
-    ----------
-    signals : Signals
-        Takes the frames of the bodies.
-    remaining : sequence of int
-        Natural coordinates that are z.
-    new : ndarray of int
-        Place of each z in elimination order.
+    `signals`: takes the frames of the bodies; `remaining`: natural coordinates that are z; `new`: place of each z in
+    elimination order.
     """
     try:
         if model.tabled:

@@ -8,7 +8,7 @@ from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
     from mbs.flexible import scene_part as scene_part
-    from mbs.flexible.attachment_modes import InertiaRelief, inertia_relief
+    from mbs.flexible.attachment_modes import inertia_relief
     from mbs.flexible.calculix import read_calculix
     from mbs.flexible.component_modes import craig_bampton
     from mbs.flexible.damping import RayleighDamping
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from mbs.flexible.frame import Beam, Frame
     from mbs.flexible.frequencies import natural_modes
     from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
+    from mbs.flexible.inertia_relief import InertiaRelief
     from mbs.flexible.load_paths import interface_loads, load_path_modes
     from mbs.flexible.material import Material
     from mbs.flexible.matrix_files import external_model, read_matrix, read_model
@@ -31,7 +32,7 @@ _LAZY = {
     "Beam": "mbs.flexible.frame",
     "FiniteElementModel": "mbs.flexible.fe_model",
     "Frame": "mbs.flexible.frame",
-    "InertiaRelief": "mbs.flexible.attachment_modes",
+    "InertiaRelief": "mbs.flexible.inertia_relief",
     "Interface": "mbs.flexible.fixed_interface",
     "InterfaceModes": "mbs.flexible.reduced_body",
     "Material": "mbs.flexible.material",

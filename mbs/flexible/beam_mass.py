@@ -23,10 +23,7 @@ def beam_mass_points(
     products of the cubic interpolation exactly. With `rotary` each station is four points of the section at
     sqrt(2) times the radii of gyration, which carry its inertia about all three axes.
 
-    Parameters
-    ----------
-    shear : tuple of float
-        Shear parameters for deflections along y and z.
+    `shear`: shear parameters for deflections along y and z.
 
     Returns
     -------

@@ -15,7 +15,6 @@ from mbs.flexible.sparse import Sparse
 SYMMETRY = 1e-6  # of the largest entry: matrices printed with seven digits pass
 GROUNDED = 1e-5  # of the stiffness times the size: printed matrices pass, a spring to the ground does not
 MECHANISM = 1e-13  # of the scaled stiffness, whose largest eigenvalue is of order 1
-ON_A_LINE = 1e-12  # second moment of mass across, share of that along
 MASS_RANGE = (1e-6, 1e5)  # kg
 SIZE_RANGE = (1e-4, 1e3)  # m
 AXIS_WORDS = ("along x", "along y", "along z", "about x", "about y", "about z")
@@ -111,18 +110,3 @@ def _check_mechanism(model: FiniteElementModel, held: np.ndarray) -> None:
 
 def _named(model: FiniteElementModel, nodes: np.ndarray) -> str:
     return f"{'node' if nodes.size == 1 else 'nodes'} {some_of((repr(model.names[i]) for i in nodes), NAMED)}"
-
-
-def check_turning_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
-    """Refuse a body whose mass lies on a line: nothing resists its turning about that line.
-
-    `positions`: mass points, m, shape (n, 3); `masses`: in kg, shape (n,).
-    """
-    x = positions - masses @ positions / masses.sum()
-    moments, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", masses, x, x))
-    if moments[1] <= ON_A_LINE * moments[2]:
-        line = ", ".join(f"{v:.3g}" for v in axes[:, 2] * np.sign(axes[np.abs(axes[:, 2]).argmax(), 2]))
-        raise ModelError(
-            f"All mass of the flexible body '{name}' lies on a line along ({line}): its inertia about that line is "
-            "zero, so it cannot be simulated. Give its beams their rotary inertia: finite_element_model(rotary=True)."
-        )

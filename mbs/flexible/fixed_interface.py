@@ -27,12 +27,8 @@ class Interface:
 class FixedInterface:
     """Model with the reference and the interface degrees of freedom held; the inner stiffness is factorised once.
 
-    Parameters
-    ----------
-    reference : str, int or three of them
-        Node that carries the floating frame, or three nodes where nodes have no rotations.
-    interfaces : sequence of Interface, str or int
-        A plain node stands for its translations.
+    `reference`: node that carries the floating frame, or three nodes where nodes have no rotations; `interfaces`: a
+    plain node stands for its translations.
 
     Attributes
     ----------

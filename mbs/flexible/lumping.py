@@ -17,12 +17,7 @@ def lumped_masses(M: Sparse, positions: np.ndarray, dof: np.ndarray) -> MassPoin
     Row sums are used where none is negative (bars, beams, linear solids); otherwise the diagonal is scaled to the
     total (Hinton, Rock and Zienkiewicz 1976), which quadratic elements need. Rotary inertia is left out.
 
-    Parameters
-    ----------
-    M : sparse array, shape (n_dof, n_dof)
-    positions : ndarray, shape (n, 3)
-    dof : ndarray of int, shape (n, 6)
-        As in `FiniteElementModel`.
+    `M`: shape (n_dof, n_dof); `positions`: shape (n, 3); `dof`: as in `FiniteElementModel`, shape (n, 6).
     """
     n_dof, translation = int(M.shape[0]), dof[:, :3]
     unit = np.zeros((n_dof, 3))

@@ -43,12 +43,8 @@ class MassPoints:
 def nodal_mass_points(positions: np.ndarray, masses: np.ndarray, translation: np.ndarray, n_dof: int) -> MassPoints:
     """Masses at nodes; nodes without mass are left out.
 
-    Parameters
-    ----------
-    positions : ndarray, shape (n, 3)
-    masses : ndarray, shape (n,)
-    translation : ndarray of int, shape (n, 3)
-        Numbers of the translations of each node among the `n_dof` degrees of freedom.
+    `positions`: shape (n, 3); `masses`: shape (n,); `translation`: numbers of the translations of each node among the
+    `n_dof` degrees of freedom, shape (n, 3).
     """
     heavy = np.flatnonzero(masses)
     rows = np.arange(3 * heavy.size)

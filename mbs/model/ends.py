@@ -24,10 +24,7 @@ def body_and_point(
 ) -> tuple[Body, ArrayLike]:
     """The body and the place of an end that does not slide.
 
-    Parameters
-    ----------
-    end : pair of Body and array_like, or Body
-        A body alone stands for its centre of mass.
+    `end`: a body alone stands for its centre of mass.
 
     Returns
     -------

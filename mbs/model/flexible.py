@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
-from mbs.flexible.fe_model_checks import check_turning_inertia
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.model.body import SAME_PLACE, Body
@@ -23,6 +22,7 @@ from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, Product
 from mbs.model.joints.joint import Joint
 
+ON_A_LINE = 1e-12  # second moment of mass across, share of that along
 NO_MOTION = 1e-12
 """Displacements per unit amplitude below this part of the largest are round-off."""
 
@@ -56,7 +56,7 @@ class FlexibleBody(Body):
         start: int,
     ) -> None:
         super().__init__(model, name, origin + axes @ reduced.origin, start)
-        check_turning_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
+        _check_turning_inertia(name, reduced.mass_positions @ axes.T, reduced.masses)
         self.reduced = reduced
         self.axes = axes
         self.integrals = _turned(shape_integrals(reduced), axes)
@@ -369,3 +369,18 @@ def _turned(s: ShapeIntegrals, R: NDArray[np.float64]) -> ShapeIntegrals:
         c=np.einsum("ia,ajb,kb->ijk", R, s.c, R),
         T=np.einsum("ia,jlab,kb->jlik", R, s.T, R),
     )
+
+
+def _check_turning_inertia(name: str, positions: np.ndarray, masses: np.ndarray) -> None:
+    """Refuse a body whose mass lies on a line: nothing resists its turning about that line.
+
+    `positions`: mass points, m, shape (n, 3); `masses`: in kg, shape (n,).
+    """
+    x = positions - masses @ positions / masses.sum()
+    moments, axes = np.linalg.eigh(np.einsum("k,ki,kj->ij", masses, x, x))
+    if moments[1] <= ON_A_LINE * moments[2]:
+        line = ", ".join(f"{v:.3g}" for v in axes[:, 2] * np.sign(axes[np.abs(axes[:, 2]).argmax(), 2]))
+        raise ModelError(
+            f"All mass of the flexible body '{name}' lies on a line along ({line}): its inertia about that line is "
+            "zero, so it cannot be simulated. Give its beams their rotary inertia: finite_element_model(rotary=True)."
+        )

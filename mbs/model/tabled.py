@@ -49,14 +49,8 @@ class SmoothTable:
 def smooth_table(axes: object, values: object, functions: tuple[int, ...], what: str) -> SmoothTable:
     """The table of values at points.
 
-    Parameters
-    ----------
-    axes : sequence of array_like
-        One or two, equally spaced and rising, four points or more each.
-    values : array_like, shape (n0, *functions) or (n0, n1, *functions)
-        Functions at the points.
-    functions : tuple of int
-        Nothing for one function, else how many there must be.
+    `axes`: one or two, equally spaced and rising, four points or more each; `values`: functions at the points,
+    shape (n0, *functions) or (n0, n1, *functions); `functions`: nothing for one function, else how many there must be.
 
     Raises
     ------

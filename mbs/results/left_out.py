@@ -15,14 +15,8 @@ PICKLED = "a run that was pickled has what was read of it before. Read the senso
 class LeftOut:
     """Columns of a run that it did not compute.
 
-    Parameters
-    ----------
-    compute : callable or None
-        Takes of how many samples one is wanted, and returns the columns by name; None where nothing can.
-    reason : str
-        Why nothing can.
-    every : int
-        One of so many samples of the run is wanted.
+    `compute`: takes of how many samples one is wanted, and returns the columns by name; None where nothing can;
+    `reason`: why nothing can; `every`: one of so many samples of the run is wanted.
     """
 
     def __init__(

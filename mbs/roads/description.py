@@ -183,13 +183,7 @@ def grid_road(
     friction_range: Range | None = None,
     **mesh: Any,
 ) -> GridRoad:
-    """A grid from files; what is given here goes before what the files say.
-
-    Parameters
-    ----------
-    **mesh
-        `scale` and `up` of `mesh_road`.
-    """
+    """A grid from files; what is given here goes before what the files say. `mesh`: `scale` and `up` of `mesh_road`."""
     for limits, what, file in ((height_range, "heights", heights), (friction_range, "frictions", frictions)):
         if limits is not None and Path(str(file)).suffix.lower() != PICTURE:
             raise RoadFileError(

@@ -39,14 +39,8 @@ class Grid:
 def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] | None, what: str) -> Grid:
     """A grid from a file.
 
-    Parameters
-    ----------
-    path : path
-        ``.csv`` or ``.txt``, ``.npy``, ``.npz`` or ``.png``.
-    picture_range : (float, float), optional
-        What black and white of a picture mean.
-    what : str
-        "heights" or "frictions".
+    `path`: ``.csv`` or ``.txt``, ``.npy``, ``.npz`` or ``.png``; `picture_range`: what black and white of a picture
+    mean; `what`: "heights" or "frictions".
 
     Raises
     ------

@@ -35,12 +35,8 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     beside them in their cross section, and the reference line begins at the origin along x. Beyond the border its
     heights go on.
 
-    Parameters
-    ----------
-    path : path
-        ``.crg``, in any of the forms of the standard.
-    spacing : (float, float), optional
-        Of the grid, m; by default that of the file where the road is straight along x, else the smaller of its two.
+    `path`: ``.crg``, in any of the forms of the standard; `spacing`: of the grid, m; by default that of the file where
+    the road is straight along x, else the smaller of its two.
 
     Raises
     ------

@@ -83,10 +83,7 @@ def between(road: GridRoad) -> tuple[Values, Values]:
 def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
     """The road with its difference from the surface that it was taken from.
 
-    Parameters
-    ----------
-    known : iterable of (places, heights)
-        x and y (n, 2) and heights (n,) of the surface, m; NaN beside it.
+    `known`: x and y (n, 2) and heights (n,) of the surface, m; NaN beside it.
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0

@@ -86,12 +86,8 @@ class SharedWriter:
     def tile(self, heights: Float, frictions: Float | None) -> None:
         """Add the next tile, the values of which were checked.
 
-        Parameters
-        ----------
-        heights : ndarray, shape (32, 32), or at most (8, 8)
-            m, or coefficients.
-        frictions : ndarray, shape (32, 32) or (1, 1)
-            None where the file has one.
+        `heights`: m, or coefficients, shape (32, 32); `frictions`: None where the file has one, shape (32, 32) or (1,
+        1).
         """
         self._add(record_bytes(heights, frictions))
 
@@ -125,9 +121,7 @@ def _whole(values: Float) -> Float:
 def polynomial_values(c: Float) -> Float:
     """Heights of the points of a tile by its coefficients, in the order of the kernel: the same bits.
 
-    Parameters
-    ----------
-    c : ndarray, shape (rows, columns)
+    `c`: shape (rows, columns).
 
     Returns
     -------
@@ -175,14 +169,7 @@ def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
 
 
 def record_bytes(heights: Float, frictions: Float | None) -> bytes:
-    """A tile as it stands in the file.
-
-    Parameters
-    ----------
-    heights : ndarray, shape (32, 32), or at most (8, 8)
-        m, or coefficients.
-    frictions : ndarray, shape (32, 32), optional
-    """
+    """A tile as it stands in the file. `heights`: m, or coefficients, shape (32, 32); `frictions`: shape (32, 32)."""
     levels, behind = 0, b""
     if frictions is not None:
         levels, behind = _friction_bytes(frictions)

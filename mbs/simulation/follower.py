@@ -33,10 +33,7 @@ def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
 class Follower:
     """The model with ports that follows a simulation.
 
-    Parameters
-    ----------
-    asked : str
-        Name of a sensor that it is for.
+    `asked`: name of a sensor that it is for.
 
     Raises
     ------
@@ -71,12 +68,7 @@ class Follower:
 class Readings(dict[str, float]):
     """Sensor values of a state by name; those that the System leaves out are found when one is first read.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Those that the System computes.
-    instance : Instance
-        At the state; it may go on.
+    `values`: those that the System computes; `instance`: at the state; it may go on.
     """
 
     def __init__(self, values: Mapping[str, float], system: System, instance: Instance) -> None:

@@ -29,10 +29,7 @@ class BendingWarning(UserWarning):
 class BendingWatch:
     """Largest turn of a node in its floating frame over the states that were shown.
 
-    Parameters
-    ----------
-    frames : Frames or None
-        None, or one without flexible bodies, watches nothing.
+    `frames`: None, or one without flexible bodies, watches nothing.
     """
 
     def __init__(self, frames: Frames | None) -> None:

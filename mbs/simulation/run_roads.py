@@ -15,12 +15,7 @@ from mbs.system.system import System
 def run_roads(system: System, instance: Instance, files: Mapping[int, str]) -> dict[int, Road | str]:
     """Roads by their numbers; of a file its path.
 
-    Parameters
-    ----------
-    instance : Instance
-        With the values of the parameters.
-    files : mapping of int to str
-        Paths of files in place of roads; empty: none.
+    `instance`: with the values of the parameters; `files`: paths of files in place of roads; empty: none.
     """
     a = system.arrays
     found: dict[int, Road | str] = {k: path for k, path in files.items() if path}

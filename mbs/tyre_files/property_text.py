@@ -46,10 +46,7 @@ class PropertyText:
     def numbers(self, expected: Container[str] = ()) -> dict[str, float]:
         """All numbers by their keys.
 
-        Parameters
-        ----------
-        expected : container of str
-            Keys whose values must be numbers.
+        `expected`: keys whose values must be numbers.
 
         Raises
         ------

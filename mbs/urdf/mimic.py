@@ -22,10 +22,7 @@ class Follower:
 def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -> dict[str, Follower]:
     """The joints that follow others, by their names, each after those that it follows.
 
-    Parameters
-    ----------
-    given : collection of str
-        Joints that the user places or moves.
+    `given`: joints that the user places or moves.
 
     Raises
     ------

@@ -27,14 +27,8 @@ class Aerodynamics(Section):
     def build(self, b: CarBuilder, centre: Point, axles: Mapping[str, Axle], wind: Wind | None = None) -> None:
         """Add the drag and the lift of the axles that have one.
 
-        Parameters
-        ----------
-        centre : tuple of float
-            Where the drag acts, m.
-        axles : mapping of str to Axle
-            "front" and "rear".
-        wind : Wind, optional
-            How the air moves; by default it is still.
+        `centre`: where the drag acts, m; `axles`: "front" and "rear"; `wind`: how the air moves; by default it is
+        still.
         """
         drag = b.m.drag(
             "drag",

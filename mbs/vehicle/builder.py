@@ -148,14 +148,8 @@ class CarBuilder:
     ) -> None:
         """Write what was tied into the model.
 
-        Parameters
-        ----------
-        order : callable
-            Place of a key path in the file's type.
-        works : mapping of str to (float, float)
-            By key path, between which values the car works.
-        late : bool
-            Those that come late, in place of all others.
+        `order`: place of a key path in the file's type; `works`: by key path, between which values the car works;
+        `late`: those that come late, in place of all others.
         """
 
         def place(item: tuple[str, _Tied]) -> int:

@@ -31,6 +31,7 @@ from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.checks.working import working_ranges
 from mbs.vehicle.constants import vehicle_constants
 from mbs.vehicle.corner import TieRodEnd
+from mbs.vehicle.driver_inputs import driver_inputs
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
@@ -45,7 +46,7 @@ from mbs.vehicle.outputs import (
     wheel_poses,
     work_outputs,
 )
-from mbs.vehicle.port_parts import driver_inputs, force_ports, port_outputs, road_ports, torque_ports, wind_port
+from mbs.vehicle.port_parts import force_ports, port_outputs, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within
 from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.side import Point as Coordinates

@@ -13,7 +13,7 @@ from mbs.common.errors import ModelError
 from mbs.vehicle.aerodynamics import Aerodynamics
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.brakes import Brakes
-from mbs.vehicle.chassis.frames.frame_section import FrameSection
+from mbs.vehicle.chassis.frames import Frame
 from mbs.vehicle.chassis.section import Chassis
 from mbs.vehicle.drives import Drive
 from mbs.vehicle.names import CarName, Name, Text
@@ -85,7 +85,7 @@ class CarContent(Section):
         return self.front.wheel.centre[0] - self.rear.wheel.centre[0]
 
     @property
-    def frame_section(self) -> FrameSection:
+    def frame_section(self) -> Frame:
         """Description of the flexible frame.
 
         Raises

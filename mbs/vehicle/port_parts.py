@@ -17,12 +17,11 @@ from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.wind import Wind
 from mbs.model import Model
 from mbs.model.carried import Spin
-from mbs.model.records import Ahead, Input
+from mbs.model.records import Ahead
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.drives import Drive
-from mbs.vehicle.ports import Ports
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -31,37 +30,14 @@ LARGEST_FORCE, LARGEST_MOMENT = 1e5, 1e5  # N, N m, on the chassis
 FASTEST_WIND = 100.0  # m/s
 
 
-def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
-    """The inputs of a driver, without those of the parts that ports replace."""
-    inputs = {}
-    if ports.steering != "rack_position":
-        inputs["steering"] = m.input("steering", min=-1.0, max=1.0, description="steering, positive to the left")
-    if ports.torque is None:
-        inputs["throttle"] = m.input("throttle", min=0.0, max=1.0, description="throttle pedal")
-    if ports.brakes is None:
-        inputs["brake"] = m.input("brake", min=0.0, max=1.0, description="brake pedal")
-    text = "hand brake on the rear wheels"
-    inputs["hand_brake"] = m.input("hand_brake", min=0.0, max=1.0, description=text)
-    if ports.torque is None:
-        text = "selector: -1 reverse, 0 neutral, 1 drive"
-        inputs["selector"] = m.input("selector", start=1.0, min=-1.0, max=1.0, description=text, whole=True)
-    return inputs
-
-
 def torque_ports(
     b: CarBuilder, spins: Mapping[str, Spin], drive: Drive, kind: Literal["half_shafts", "hub_motors"]
 ) -> None:
     """Torques on the wheels in place of a drive.
 
-    Parameters
-    ----------
-    spins : mapping of str to Spin
-        Of the wheels, by their names.
-    drive : Drive
-        What they replace; with half shafts its parts that turn with the wheels stay.
-    kind : {"half_shafts", "hub_motors"}
-        With half shafts the reaction is about the lateral axis of the chassis, as that of `drive` is; with hub motors
-        about the axis of the wheel on its carrier.
+    `spins`: of the wheels, by their names; `drive`: what they replace; with half shafts its parts that turn with the
+    wheels stay; `kind`: "half_shafts" or "hub_motors": with half shafts the reaction is about the lateral axis of the
+    chassis, as that of `drive` is; with hub motors about the axis of the wheel on its carrier.
     """
     taker = "chassis" if kind == "half_shafts" else "carrier of the wheel"
     text = f"torque on the wheel about its axis, positive forward, with its reaction on the {taker}"
@@ -76,10 +52,7 @@ def torque_ports(
 def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"]) -> None:
     """Forces and torques of other programs on the chassis, and how its points there move.
 
-    Parameters
-    ----------
-    axes : {"earth", "vehicle"}
-        Of forces and torques.
+    `axes`: "earth" or "vehicle": of forces and torques.
     """
     m = b.m
     frame = [AffineVector.constant(v) for v in np.eye(3)] if axes == "earth" else b.chassis.contact_frame[1]

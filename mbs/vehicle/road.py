@@ -44,14 +44,8 @@ class RoadSection(Section):
     ) -> None:
         """What a user may set of the road.
 
-        Parameters
-        ----------
-        road : Road, RoadFile or None
-            Under it; None: `default`.
-        hold_at : str
-            The frictions at which the curves of the tyres hold, for the description.
-        works : mapping of str to (float, float)
-            By key path, between which values the car works.
+        `road`: under it; None: `default`; `hold_at`: the frictions at which the curves of the tyres hold, for the
+        description; `works`: by key path, between which values the car works.
         """
         own = self.default() if road is None else road.road if isinstance(road, RoadOfFile) else road
         target = ("road", ground)

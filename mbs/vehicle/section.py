@@ -36,18 +36,13 @@ class Section(BaseModel):
         for name in texts.keys() & cls.__annotations__.keys():
             given = cls.__dict__.get(name, ...)
             if not isinstance(given, FieldInfo):  # else it has a text of its own
-                text = _without_unit(texts[name], eval(cls.__annotations__[name], known))
+                text = _without_unit(" ".join(texts[name].split()), eval(cls.__annotations__[name], known))
                 setattr(cls, name, Field(given, description=text))
 
     def element(self, kind: type[Element], **more: Any) -> Element:
         """An element that has the numbers of this table in its fields of the same names.
 
-        Parameters
-        ----------
-        kind : type
-            Its class.
-        **more
-            Its other fields, and those that are not as in the file.
+        `kind`: its class; `more`: its other fields, and those that are not as in the file.
         """
         own = {name: getattr(self, name) for name in signature(kind).parameters if name in type(self).model_fields}
         return kind(**(own | more))

@@ -195,10 +195,7 @@ def spring_and_damper(
 ) -> ElementRecord:
     """Add the spring of a wheel with its damper and stops between two ends; its numbers are tied to the file's.
 
-    Parameters
-    ----------
-    lower, upper : (Body, point)
-        The ends as drawn, m.
+    `lower`, `upper`: the ends as drawn, m.
     """
     return _between(b, name, lower, upper, springs.spring, springs.damper, springs.stops)
 
@@ -212,10 +209,7 @@ def spring_beside_damper(
 ) -> None:
     """Add the spring of a wheel with its stops, and its damper at other points.
 
-    Parameters
-    ----------
-    spring, damper : pair of (Body, point)
-        Lower and upper end as drawn, m.
+    `spring`, `damper`: lower and upper end as drawn, m.
     """
     _between(b, f"spring {wheel}", *spring, springs.spring, None, springs.stops)
     _between(b, f"damper {wheel}", *damper, None, springs.damper, None)
@@ -230,12 +224,7 @@ def spring_of_length(
 ) -> None:
     """Add the spring of a wheel with damper and stops by their lengths in place of their ends.
 
-    Parameters
-    ----------
-    spring : (Affine, float)
-        Length and the same as drawn, m.
-    damper : (Affine, float) or None
-        Of a damper beside it.
+    `spring`: length and the same as drawn, m; `damper`: of a damper beside it.
     """
     own = springs.damper if damper is None else None
     _on_line(b, f"spring {wheel}", *_standing(*spring), springs.spring, own, springs.stops)

@@ -48,10 +48,7 @@ def summary(car: Car) -> str:
 def grip_row(car: Car, axle: str) -> tuple[str, str]:
     """Coefficients that the tyres of an axle reach on the car's road, and the factor on the forces of the file.
 
-    Parameters
-    ----------
-    axle : {"front", "rear"}
-        Which.
+    `axle`: "front" or "rear".
     """
     tyre = (car.front if axle == "front" else car.rear).tyre
     scale = car.road.grip_of(tyre)

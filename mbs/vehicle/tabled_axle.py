@@ -35,14 +35,8 @@ JOINTS = frozenset({"spherical", "distance", "point_on_line", "cylindrical", "re
 class TabledParts:
     """A model for templates of suspensions, which makes tables of their parts.
 
-    Parameters
-    ----------
-    m : Model
-        Gets the tabled bodies; all that is no part or joint goes to it.
-    compressions : mapping of str to Coordinate
-        Of the springs, by wheel.
-    rack : Coordinate or None
-        Travel of the rack, m, where it steers.
+    `m`: gets the tabled bodies; all that is no part or joint goes to it; `compressions`: of the springs, by wheel;
+    `rack`: travel of the rack, m, where it steers.
     """
 
     def __init__(

@@ -59,12 +59,8 @@ def weight(layer: Layer, excess: Float) -> Float:
 class CourseLayer:
     """A course on the ground.
 
-    Parameters
-    ----------
-    ground : callable
-        Heights of what lies below, which a course without heights of its own follows.
-    heights, widths, banks : ndarray, shape (n,), optional
-        At the points of the line, of a course from a file.
+    `ground`: heights of what lies below, which a course without heights of its own follows; `heights`, `widths`,
+    `banks`: at the points of the line, of a course from a file, shape (n,).
     """
 
     def __init__(

@@ -31,14 +31,7 @@ def soft_rise(t: Float) -> Float:
 def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings: Sequence[float]) -> Float:
     """Heights of a line through vertices, with a parabola at each; level before the first and behind the last.
 
-    Parameters
-    ----------
-    s : ndarray
-        Stations, m.
-    vertices : sequence of (float, float)
-        Station, rising, and height, m.
-    roundings : sequence of float
-        Length of the parabola at each vertex, m.
+    `s`: stations, m; `vertices`: station, rising, and height, m; `roundings`: length of the parabola at each vertex, m.
 
     Returns
     -------
@@ -59,12 +52,7 @@ def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings:
 def steps(s: Float, vertices: Sequence[tuple[float, float]]) -> Float:
     """Values at stations, between them by soft rises, constant outside.
 
-    Parameters
-    ----------
-    s : ndarray
-        Stations, m.
-    vertices : sequence of (float, float)
-        Station, rising, and value.
+    `s`: stations, m; `vertices`: station, rising, and value.
     """
     value = np.full(np.shape(s), float(vertices[0][1]))
     for (a, before), (b, after) in itertools.pairwise(vertices):

@@ -31,10 +31,7 @@ class Terrain:
     Heights on courses, areas and their shoulders are computed at each place; elsewhere they are those of a C2 spline
     through the points of a lattice of about 1 m, where they are computed.
 
-    Parameters
-    ----------
-    folder : Path
-        Of the files it names.
+    `folder`: of the files it names.
     """
 
     def __init__(self, world: WorldDescription, folder: Path) -> None:
@@ -101,10 +98,7 @@ class Terrain:
     def on_grid(self, x: Float, y: Float) -> tuple[Float, NDArray[np.uint8], Float]:
         """Heights, surfaces as places in `names`, and how far they go on, at all pairs of rising coordinates.
 
-        Parameters
-        ----------
-        x, y : ndarray, shapes (n,) and (m,)
-            m.
+        `x`, `y`: m.
 
         Returns
         -------

@@ -10,22 +10,22 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 43320,
+    "build": 43110,
     "build --kernel": 395,
-    "car": 24180,
-    "run": 3811,
-    "run, all of it": 8115,
-    "view": 756,
-    "simulator": 8484,
-    "simulator, all of it": 15278,
-    "check": 3516,
-    "check --reference": 5632,
-    "catalogue": 8001,
-    "compare": 9262,
-    "study": 5647,
-    "study --run": 7856,
-    "study, all of it": 14558,
-    "road": 668,
+    "car": 22450,
+    "run": 3745,
+    "run, all of it": 8015,
+    "view": 746,
+    "simulator": 8345,
+    "simulator, all of it": 15071,
+    "check": 3473,
+    "check --reference": 5557,
+    "catalogue": 7888,
+    "compare": 9142,
+    "study": 5564,
+    "study --run": 7778,
+    "study, all of it": 14414,
+    "road": 658,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300

@@ -51,10 +51,7 @@ class Picture:
 def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
     """All plots of a test.
 
-    Parameters
-    ----------
-    plots_by_car : mapping of str to sequence of Plot
-        By label of the car, in the order of the cars; plots of the same title are one picture.
+    `plots_by_car`: by label of the car, in the order of the cars; plots of the same title are one picture.
     """
     by_title: dict[str, dict[int, tuple[str, Plot]]] = {}
     for k, (label, plots) in enumerate(plots_by_car.items()):
@@ -97,10 +94,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
 def draw_plot(axes: Axes, title: str, plots_by_car: Mapping[str, Sequence[Plot]]) -> None:
     """Draw the plot of a title, as `pictures_of` does, into axes that stand somewhere else.
 
-    Parameters
-    ----------
-    plots_by_car : mapping of str to sequence of Plot
-        By label of the car.
+    `plots_by_car`: by label of the car.
     """
     found = {
         k: (label, _displayed(plot))

@@ -32,13 +32,7 @@ def write_summary(
     labels: Sequence[str],
     records: Mapping[str, Mapping[str, TestRecord | str]],
 ) -> list[Path]:
-    """Write the slide.
-
-    Parameters
-    ----------
-    records : mapping of str to mapping of str to TestRecord or str
-        By name of the test and label of the car.
-    """
+    """Write the slide. `records`: by name of the test and label of the car."""
     rows: list[list[str]] = []
     draws: list[Callable[[Axes], object]] = []
     broken = judged = 0

@@ -11,12 +11,7 @@ from hosts.driving.pilots.pilot import Pilot
 class FixedSteering:
     """From a time on the steering does not change; pedals stay with the other pilot.
 
-    Parameters
-    ----------
-    fixed_at : float
-        s.
-    mean_over : float
-        Time before that, s; the steering is the mean over it.
+    `fixed_at`: s; `mean_over`: time before that, s; the steering is the mean over it.
 
     Attributes
     ----------

@@ -11,13 +11,7 @@ from hosts.common.errors import HostError
 
 
 class ConstantSteering:
-    """Steering that does not change.
-
-    Parameters
-    ----------
-    value : float
-        In the unit of the input.
-    """
+    """Steering that does not change. `value`: in the unit of the input."""
 
     def __init__(self, value: float, name: str = "steering") -> None:
         self.value = value
@@ -31,12 +25,8 @@ class ConstantSteering:
 class SteeringTable:
     """Steering over time.
 
-    Parameters
-    ----------
-    time : array_like of shape (n,)
-        s, not decreasing; of two equal times the later value is taken.
-    values : array_like of shape (n,)
-        In the unit of the input, linear in between, constant outside.
+    `time`: s, not decreasing; of two equal times the later value is taken, shape (n,); `values`: in the unit of the
+    input, linear in between, constant outside, shape (n,).
 
     Raises
     ------

@@ -11,10 +11,7 @@ from hosts.driving.pilots.pilot import Pilot
 class Together:
     """Pilots that share a car, such as one who steers and one who holds the speed.
 
-    Parameters
-    ----------
-    *pilots : Pilot
-        Where two act on an input the later one does.
+    `pilots`: where two act on an input the later one does.
     """
 
     def __init__(self, *pilots: Pilot) -> None:

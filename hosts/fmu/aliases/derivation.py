@@ -17,10 +17,7 @@ _ROWS = 3
 class Derivation:
     """Computes derived variables.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Of the values that are there, ours where they have one.
+    `names`: of the values that are there, ours where they have one.
 
     Attributes
     ----------
@@ -42,11 +39,7 @@ class Derivation:
     def record(self, time: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
         """Of a whole run; rates are central differences.
 
-        Parameters
-        ----------
-        time : array_like of shape (n,)
-            s.
-        values : array_like of shape (n, number of names)
+        `time`: s, shape (n,); `values`: shape (n, number of names).
 
         Returns
         -------
@@ -62,11 +55,7 @@ class Derivation:
     def live(self, time: float, values: ArrayLike) -> NDArray[np.float64]:
         """Of one row while a car is driven; rates are those of the last three rows, NaN in the first.
 
-        Parameters
-        ----------
-        time : float
-            s; with an earlier one than before the past is forgotten.
-        values : array_like of shape (number of names,)
+        `time`: s; with an earlier one than before the past is forgotten; `values`: shape (number of names,).
 
         Returns
         -------

@@ -27,13 +27,7 @@ MOVE = (
 
 
 class Calibration:
-    """Two stages: at first everything is let go, then moved.
-
-    Parameters
-    ----------
-    mapping : DeviceMapping
-        Which axis drives which input.
-    """
+    """Two stages: at first everything is let go, then moved. `mapping`: which axis drives which input."""
 
     def __init__(self, mapping: DeviceMapping) -> None:
         self._mapping = mapping

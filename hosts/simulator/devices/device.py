@@ -24,12 +24,8 @@ BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
 class Device:
     """A device.
 
-    Parameters
-    ----------
-    id, label : str
-        For programs and for people; each device has its own.
-    inputs : collection of str
-        That the car has, in the words of mappings.
+    `id`, `label`: for programs and for people; each device has its own; `inputs`: that the car has, in the words of
+    mappings.
     """
 
     def __init__(

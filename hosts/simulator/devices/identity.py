@@ -14,10 +14,7 @@ class Identities:
     A device that was pulled out and comes back has its old one. Two of a model are told apart by serial number, else by
     the place they are plugged in at, else by their order.
 
-    Parameters
-    ----------
-    kept_serial : callable
-        Serial number that is kept in the file of an `id`, else empty.
+    `kept_serial`: serial number that is kept in the file of an `id`, else empty.
     """
 
     def __init__(self, kept_serial: Callable[[str], str]) -> None:

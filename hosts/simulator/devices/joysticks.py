@@ -60,13 +60,7 @@ class Joystick:
 
 
 class Joysticks:
-    """All devices. One thread calls this.
-
-    Parameters
-    ----------
-    sdl : module
-        Started.
-    """
+    """All devices. One thread calls this. `sdl`: started."""
 
     def __init__(self, sdl: Any) -> None:
         self._sdl = sdl

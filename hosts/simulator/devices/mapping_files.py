@@ -34,13 +34,7 @@ def configuration_folder() -> Path:
 
 
 class MappingFiles:
-    """The files in a folder, one for each device.
-
-    Parameters
-    ----------
-    folder : path
-        Made when something is written.
-    """
+    """The files in a folder, one for each device. `folder`: made when something is written."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

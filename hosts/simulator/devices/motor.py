@@ -17,10 +17,7 @@ _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
 class Motor:
     """A device that can push. One thread calls this.
 
-    Parameters
-    ----------
-    joystick : pointer
-        Of SDL; it stays open until this is closed.
+    `joystick`: of SDL; it stays open until this is closed.
 
     Raises
     ------

@@ -44,12 +44,7 @@ class HandsLike(Protocol):
 class Reader:
     """Reads devices while it runs.
 
-    Parameters
-    ----------
-    inputs : list of str
-        That devices can drive, in the words of mappings.
-    torque : callable or None
-        As of `Devices`.
+    `inputs`: that devices can drive, in the words of mappings; `torque`: as of `Devices`.
 
     Attributes
     ----------

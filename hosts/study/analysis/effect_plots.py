@@ -80,10 +80,7 @@ def failed_share(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Share of failed runs in classes of a parameter.
 
-    Parameters
-    ----------
-    x : ndarray of shape (n,)
-    failed : ndarray of bool, shape (n,)
+    `x`: shape (n,); `failed`: shape (n,).
 
     Returns
     -------

@@ -84,12 +84,7 @@ def saltelli_indices(
 def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
     """Indices of a full grid whose levels are equally likely: exact, by sums of squares; or why there are none.
 
-    Parameters
-    ----------
-    names : sequence of str, length d
-    x : ndarray of shape (n, d)
-    y : ndarray of shape (n,)
-        Finite.
+    `x`: shape (n, d); `y`: finite, shape (n,).
     """
     codes = [np.unique(column, return_inverse=True) for column in x.T]
     shape = tuple(len(levels) for levels, _ in codes)
@@ -114,12 +109,7 @@ def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.flo
 def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:
     """First-order indices of any design that fills its space, by RBD-FAST; or why there are none.
 
-    Parameters
-    ----------
-    names : sequence of str, length d
-    x : ndarray of shape (n, d)
-    y : ndarray of shape (n,)
-        Finite.
+    `x`: shape (n, d); `y`: finite, shape (n,).
 
     Notes
     -----

@@ -25,10 +25,7 @@ _INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLE
 class Instance:
     """A State of a System and the work space to step it. A refused call leaves the last accepted state.
 
-    Parameters
-    ----------
-    system : LoadedSystem
-        Kept alive by the instance.
+    `system`: kept alive by the instance.
     """
 
     def __init__(self, system: LoadedSystem) -> None:
@@ -109,12 +106,8 @@ class Instance:
     def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
         """The same from tables, without a call of Python.
 
-        Parameters
-        ----------
-        tables : mapping of int to (times, values)
-            Per number of an input two contiguous float64 buffers of equal length; times do not decrease.
-        tolerance : float
-            Times this near to a jump are at it, s.
+        `tables`: per number of an input two contiguous float64 buffers of equal length; times do not decrease;
+        `tolerance`: times this near to a jump are at it, s.
         """
         alive = {i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()}
         rows = [InputTable(i, len(a[0]), *(ctypes.cast(x, _DOUBLES) for x in a)) for i, a in alive.items()]

@@ -36,10 +36,7 @@ def widest_lanes() -> int:
 class Many:
     """Memory to advance several instances of a System together, a lane each.
 
-    Parameters
-    ----------
-    width : int
-        Lanes: 2, 4 or 8, at most `widest_lanes`.
+    `width`: lanes: 2, 4 or 8, at most `widest_lanes`.
     """
 
     def __init__(self, system: LoadedSystem, width: int) -> None:
@@ -69,12 +66,7 @@ class Many:
     ) -> list[Ended]:
         """`n` steps of `h` seconds of each instance, as `Instance.run` makes them.
 
-        Parameters
-        ----------
-        instances : sequence of Instance
-            At most `width`, with the same settings.
-        out, positions : sequence of writable buffers of float64 or None
-            Per instance, as of `Instance.run`.
+        `instances`: at most `width`, with the same settings; `out`, `positions`: per instance, as of `Instance.run`.
 
         Returns
         -------

@@ -208,12 +208,7 @@ def equal_vectors(name: str, kind: str, a: AffineVector, b: AffineVector) -> lis
 def point_pair(point: PointPair, dimension: int, what: str, thing: str = "point") -> tuple[Vector, Vector]:
     """A point, or an axis, of each body of a joint.
 
-    Parameters
-    ----------
-    point : array_like, shape (dimension,), or pair of them
-        A pair where the drawing does not close.
-    dimension : int
-        2 or 3.
+    `point`: a pair where the drawing does not close, shape (dimension,); `dimension`: 2 or 3.
 
     Returns
     -------

@@ -94,14 +94,7 @@ def replay(
 ) -> Replay:
     """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
 
-    Parameters
-    ----------
-    system : System
-        Of `build`.
-    h : float or tuple of float
-        s; one step, or one for each stage.
-    estimate_error : bool, optional
-        As of `Simulation.run`.
+    `system`: of `build`; `h`: s; one step, or one for each stage; `estimate_error`: as of `Simulation.run`.
 
     Raises
     ------

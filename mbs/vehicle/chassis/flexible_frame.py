@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible.attachment_modes import InertiaRelief, inertia_relief
+from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.vehicle.chassis.frame_joints import FrameJoints
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
@@ -27,12 +28,7 @@ MOST_FORCE = 1e6  # N
 class FlexibleFrame:
     """A frame as the chassis of a car.
 
-    Parameters
-    ----------
-    folder : Path
-        Of the file and its tables.
-    structure : Structure
-        Its finite elements and gauges.
+    `folder`: of the file and its tables; `structure`: its finite elements and gauges.
 
     Attributes
     ----------

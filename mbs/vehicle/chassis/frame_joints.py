@@ -41,10 +41,7 @@ class FrameJoints:
 class JointFinder:
     """Matches hard points and joints by place, and derives what the file leaves out.
 
-    Parameters
-    ----------
-    keys : mapping of tuple to str
-        Key paths of hard points and accelerometers, for messages.
+    `keys`: key paths of hard points and accelerometers, for messages.
     """
 
     def __init__(

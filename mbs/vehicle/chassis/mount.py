@@ -20,10 +20,7 @@ class LeverCarrier(Body):
     What a lever does to the axes loads the frame as forces at the joints of the suspension. The floating frame is one
     node, and a node at the lever alone would take the torque of the bar, which its bushes do not have.
 
-    Parameters
-    ----------
-    axes : list of AffineVector
-        x, y and z axis.
+    `axes`: x, y and z axis.
     """
 
     is_flexible = True

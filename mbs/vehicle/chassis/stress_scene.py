@@ -23,12 +23,8 @@ OVER_REST = 2.0
 def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point) -> list[dict[str, Any]]:
     """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`.
 
-    Parameters
-    ----------
-    model : Model
-        The car with fidelity `Fidelity.DYNAMIC`.
-    reference_point : tuple of float
-        Origin of the frame "chassis" of the scene, which has the axes of the car, m.
+    `model`: the car with fidelity `Fidelity.DYNAMIC`; `reference_point`: origin of the frame "chassis" of the scene,
+    which has the axes of the car, m.
 
     Raises
     ------

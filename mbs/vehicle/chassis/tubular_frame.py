@@ -95,10 +95,7 @@ class TubularFrame:
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
         """The gauges on the elements of a frame of any refinement.
 
-        Parameters
-        ----------
-        tubes : tuple of FrameTube
-            From `frame`.
+        `tubes`: from `frame`.
 
         Raises
         ------

@@ -142,10 +142,7 @@ def _rows(spring: Spring) -> tuple[np.ndarray, np.ndarray]:
 def _of_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
     """Ranges of the areas and of the density of the air.
 
-    Parameters
-    ----------
-    loads : mapping of str to (float, float)
-        Load of each axle and how much more it can carry, N, by "front" and "rear".
+    `loads`: load of each axle and how much more it can carry, N, by "front" and "rear".
     """
     pressure = 0.5 * air.air_density * FAST**2
     spans = {"drag_area": (0.0, sum(load for load, _ in loads.values()) / pressure)}

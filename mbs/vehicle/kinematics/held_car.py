@@ -70,10 +70,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
 class HeldCar(StandingModel):
     """The car in equilibrium with the contact centres at the heights of the drawing.
 
-    Parameters
-    ----------
-    car : Car
-        Without faults.
+    `car`: without faults.
 
     Attributes
     ----------

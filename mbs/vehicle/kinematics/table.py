@@ -63,13 +63,7 @@ def rows(found: Kinematics) -> list[tuple[str, str, str, str, str]]:
 
 
 def text(lines: Sequence[tuple[str, str, str, str, str]]) -> str:
-    """Rows as text.
-
-    Parameters
-    ----------
-    lines : sequence of (str, str, str, str, str)
-        As `rows` gives them.
-    """
+    """Rows as text. `lines`: as `rows` gives them."""
     lines = [("", "front", "rear", "", ""), *lines]
     headings = [bool(line[0]) and not any(line[1:]) for line in lines]
     return "\n".join("\n" * heading + line for heading, line in zip(headings, in_columns(lines, (1, 2)), strict=True))

@@ -110,12 +110,7 @@ def _march(
 def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
     """Coordinates (nq,) near a start at compressions of both springs and a travel of the rack.
 
-    Parameters
-    ----------
-    compression : (float, float)
-        Of the left and the right spring from the drawing, m.
-    rack : float
-        m.
+    `compression`: of the left and the right spring from the drawing, m; `rack`: m.
 
     Raises
     ------

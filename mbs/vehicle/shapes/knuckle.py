@@ -14,12 +14,7 @@ HUB = 0.055, 0.030  # m: length and radius of the hub of a small car
 def knuckle(looks: Looks, side: Side, carrier: Body, joints: Sequence[Anchor], arm: Anchor | None) -> None:
     """Draw hub and arms on the carrier; a wheel has its brake disc.
 
-    Parameters
-    ----------
-    joints : sequence of (body, point)
-        Of the carrier, from the lowest to the highest.
-    arm : (body, point) or None
-        Outer end of the rod that steers it.
+    `joints`: of the carrier, from the lowest to the highest; `arm`: outer end of the rod that steers it.
     """
     axle = getattr(looks.car, side.axle)
     centre = side.point(axle.wheel.centre)

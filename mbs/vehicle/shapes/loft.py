@@ -14,12 +14,8 @@ Triangles = NDArray[np.int64]
 def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Positions, Triangles]:
     """Both sides of a surface through the left halves of cross-sections.
 
-    Parameters
-    ----------
-    sections : sequence of array of shape (n, 3)
-        Each from its lower outer edge to the plane of symmetry, y = 0; from the rear to the front.
-    ends : bool
-        Whether the first and the last section are closed by a flat cap.
+    `sections`: each from its lower outer edge to the plane of symmetry, y = 0; from the rear to the front,
+    shape (n, 3); `ends`: whether the first and the last section are closed by a flat cap.
 
     Returns
     -------
@@ -50,12 +46,7 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
 def interpolated(table: Sequence[tuple[float, ...]], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """Columns of a table at values of its first one, by cubics without overshoot, shape (n, columns - 1).
 
-    Parameters
-    ----------
-    table : sequence of tuple of float
-        Rows, the first number rising.
-    at : array of shape (n,)
-        Values of the first column.
+    `table`: rows, the first number rising; `at`: values of the first column, shape (n,).
     """
     from scipy.interpolate import PchipInterpolator
 

@@ -12,13 +12,7 @@ LONGEST = 0.42  # m: longer springs are drawn with a seat on the tube of the dam
 
 
 def spring_and_damper(looks: Looks, name: str, lower: Anchor, upper: Anchor) -> None:
-    """A coil spring around its damper.
-
-    Parameters
-    ----------
-    lower, upper : (body, point)
-        Its ends.
-    """
+    """A coil spring around its damper. `lower`, `upper`: its ends."""
     damper(looks, lower, upper)
     length = math.dist(lower[1], upper[1])
     coil(looks, name, lower, upper, seat=max(length - LONGEST, 0.0))

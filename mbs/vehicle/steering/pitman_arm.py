@@ -141,13 +141,7 @@ class PitmanArm(SteeringSection):
         return self.idler_pivot or (x, -y, z), self.idler_joint or (u, -v, w)
 
     def in_plane(self, point: Coordinates) -> complex:
-        """A point in the plane of the linkage, m, ahead as the real part.
-
-        Parameters
-        ----------
-        point : tuple of float
-            m, as drawn.
-        """
+        """A point in the plane of the linkage, m, ahead as the real part. `point`: m, as drawn."""
         ahead, left = self.plane
         return complex(ahead @ np.array(point), left @ np.array(point))
 

@@ -25,12 +25,8 @@ class RackTable:
     Between the rows a monotone cubic. It is stretched along the angle so that at straight ahead it has the travel per
     turn of the file or of the parameter.
 
-    Parameters
-    ----------
-    rows : rows of (float, float)
-        Without faults: angle, deg, and travel, mm, of one side from (0, 0) on.
-    per_radian : float
-        Travel per radian at straight ahead, m/rad.
+    `rows`: without faults: angle, deg, and travel, mm, of one side from (0, 0) on; `per_radian`: travel per radian at
+    straight ahead, m/rad.
     """
 
     def __init__(self, rows: Rows, per_radian: float) -> None:

@@ -82,10 +82,7 @@ class Compliance(Section):
     def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
         """What the table of a wheel stands on, and the share of its carrier's mass that the table keeps.
 
-        Parameters
-        ----------
-        centre : (float, float, float)
-            Of the left wheel, m.
+        `centre`: of the left wheel, m.
         """
         chassis, slide = b.chassis.frame, self.longitudinal_per_longitudinal_force
         lean, way = -self.camber_per_lateral_force, self.lateral_per_lateral_force

@@ -68,13 +68,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return f"{_IN_FILE.get(field, field)} of {super().key('file')}"
 
     def tyre(self, side: str) -> MagicTyre:
-        """The tyre of the engine.
-
-        Parameters
-        ----------
-        side : {"left", "right"}
-            Of the car.
-        """
+        """The tyre of the engine. `side`: "left" or "right": of the car."""
         assert self._read is not None, "the file is opened with the car"
         more = {name: getattr(self, name) for name in FACTORS}
         made = self._read.tyre(

@@ -59,14 +59,8 @@ class TubeGauge(Section):
     ) -> StrainGauge:
         """The gauge on the elements of its tube.
 
-        Parameters
-        ----------
-        ends : pair of ndarray, shape (3,)
-            First and last joint of the tube, m.
-        radius : float
-            Outer radius of the tube, m.
-        elements : range
-            Of the tube, first joint first.
+        `ends`: first and last joint of the tube, m, shape (3,); `radius`: outer radius of the tube, m; `elements`: of
+        the tube, first joint first.
 
         Raises
         ------
