@@ -168,13 +168,12 @@ class Car(CarContent):
             self.drive.build(b, spins, neutral=guide is not None)
         else:
             torque_ports(b, spins, self.drive, self.ports.torque)
-        axles = {"front": self.front, "rear": self.rear}
         if self.ports.forces is not None:
             force_ports(b, self, self.ports.forces)
-        self.aerodynamics.build(b, self.vehicle.reference_point, axles, wind_port(b))
+        self.aerodynamics.build(b, self.vehicle.reference_point, self.axles, wind_port(b))
         works = working_ranges(self)
         b.parameters(self.order, works)
-        frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in axles.items())
+        frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
         if self.ports.road is None:
             self.road.parameters(m, road, b.road, ", ".join(frictions), works)
         self._outputs(b, steered, spins, fidelity)
@@ -239,7 +238,7 @@ class Car(CarContent):
         from mbs.vehicle.tabled_axle import tabled_axle
 
         b.rack = steered.travel()
-        for name, axle in (("front", self.front), ("rear", self.rear)):
+        for name, axle in self.axles.items():
             if axle.suspension.linked:
                 yield steered, tabled_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
             else:

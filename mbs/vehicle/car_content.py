@@ -80,6 +80,11 @@ class CarContent(Section):
         return self._folder
 
     @property
+    def axles(self) -> dict[str, Axle]:
+        """Both axles."""
+        return {"front": self.front, "rear": self.rear}
+
+    @property
     def wheelbase(self) -> float:
         """Distance between the axles as drawn, m."""
         return self.front.wheel.centre[0] - self.rear.wheel.centre[0]

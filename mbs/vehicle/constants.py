@@ -27,7 +27,7 @@ def vehicle_constants(m: Model, car: CarContent) -> None:
         ),
     ):
         m.constant(f"vehicle.{name}", value, unit, text)
-    for name, axle in (("front", car.front), ("rear", car.rear)):
+    for name, axle in car.axles.items():
         tyre = axle.tyre
         m.constant(
             f"vehicle.tyre_friction_{name}",

@@ -21,7 +21,7 @@ def summary(car: Car) -> str:
         ("wheelbase", f"{car.wheelbase:.3f} m"),
         ("length, width", f"{car.vehicle.length:g} m, {car.vehicle.width:g} m"),
     ]
-    for name, axle in (("front", car.front), ("rear", car.rear)):
+    for name, axle in car.axles.items():
         rows += [
             (f"{name} axle", f"{axle.suspension.kind}, track {axle.track:.3f} m, {load[name]:.0f} N"),
             (

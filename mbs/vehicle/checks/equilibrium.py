@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from mbs.compiler.model_to_system import to_system
 from mbs.model import Model
 from mbs.simulation.standing_system import StandingSystem
-from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 
 ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
@@ -37,7 +36,7 @@ class Rest:
     def faults(self, car: CarContent) -> Iterator[str]:
         """A sentence for each axle far from where it is drawn."""
         yield from self._moved(car, TOO_FAR, math.inf)
-        for name, axle in _axles(car):
+        for name, axle in car.axles.items():
             free, length = axle.spring.free_length, self.spring_length[name]
             if length < LEAST_LENGTH * free:
                 yield (
@@ -48,7 +47,7 @@ class Rest:
     def oddities(self, car: CarContent) -> Iterator[str]:
         """A sentence for each difference from the drawing."""
         yield from self._moved(car, ODD, TOO_FAR)
-        for name, axle in _axles(car):
+        for name, axle in car.axles.items():
             drawn, found = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
             if abs(found - drawn) > ODD_DEFLECTION:
                 yield (
@@ -64,7 +63,7 @@ class Rest:
             )
 
     def _moved(self, car: CarContent, low: float, high: float) -> Iterator[str]:
-        for name, axle in _axles(car):
+        for name, axle in car.axles.items():
             travel = self.travel[name]
             if low < abs(travel) <= high:
                 spring = axle.spring
@@ -92,7 +91,7 @@ def settled(model: Model, car: CarContent) -> Rest:
         return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
     def means(name: str) -> dict[str, float]:
-        return {axle: mean(name, axle) for axle, _ in _axles(car)}
+        return {axle: mean(name, axle) for axle in car.axles}
 
     return Rest(
         means("wheel_{}.travel"),
@@ -102,7 +101,3 @@ def settled(model: Model, car: CarContent) -> Rest:
         means("spring_{}.length"),
         at_rest["chassis.roll"],
     )
-
-
-def _axles(car: CarContent) -> tuple[tuple[str, Axle], tuple[str, Axle]]:
-    return ("front", car.front), ("rear", car.rear)

@@ -21,7 +21,7 @@ def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     The motion ratio of a spring is the load that it carries, wheel load less unsprung weight, over its force: virtual
     work at rest.
     """
-    for name, axle in (("front", car.front), ("rear", car.rear)):
+    for name, axle in car.axles.items():
         unsprung = axle.wheel.mass + sum(part.mass for part in parts_of(axle))
         carried = rest.load[name] - GRAVITY * unsprung
         force = abs(rest.spring_force[name])

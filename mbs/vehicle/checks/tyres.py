@@ -21,7 +21,7 @@ def tyre_faults(car: CarContent) -> Iterator[str]:
 
 def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     """A sentence for each thing that is odd."""
-    for axle, wheels in ((car.front, "front"), (car.rear, "rear")):
+    for wheels, axle in car.axles.items():
         road, tyre = car.road, axle.tyre
         reached = min(tyre.friction) * road.grip_of(tyre)
         if reached < GRIPPED:

@@ -38,7 +38,7 @@ def working_ranges(car: CarContent) -> Ranges:
     found: Ranges = {}
     loads: dict[str, tuple[float, float]] = {}
     radii: list[float] = []
-    for name, axle in (("front", car.front), ("rear", car.rear)):
+    for name, axle in car.axles.items():
         tyre = axle.tyre
         load = tyre.stiffness * (tyre.radius - axle.wheel.centre[2])
         if load <= 0.0:

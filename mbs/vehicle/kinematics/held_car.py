@@ -84,9 +84,7 @@ class HeldCar(StandingModel):
         m, b, carriers = held_model(car, fidelity)
         super().__init__(m)
         as_set = {
-            side.wheel: tuple(data.alignment.axes(side))
-            for axle, data in (("front", car.front), ("rear", car.rear))
-            for side in sides(axle)
+            side.wheel: tuple(data.alignment.axes(side)) for axle, data in car.axles.items() for side in sides(axle)
         }
         self._carriers = {
             name: (

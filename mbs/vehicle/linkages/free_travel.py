@@ -25,7 +25,7 @@ def notes_without_stops(car: Car) -> Iterator[str]:
 
 
 def _of_the_springs(car: Car) -> Iterator[str]:
-    for name, axle in (("front", car.front), ("rear", car.rear)):
+    for name, axle in car.axles.items():
         if axle.stops is not None:
             continue
         if isinstance(axle.suspension, Curves):

@@ -44,7 +44,7 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links:
         if isinstance(spin.carrier, TabledBody):
             spin.carrier.outputs = tuple(f"wheel_{wheel}.{part}" for part in (*POSE, "angle"))
     looks = Looks(b, car, spins, rack_of(b, car) if linked else b.chassis.frame)
-    for name, axle in (("front", car.front), ("rear", car.rear)):
+    for name, axle in car.axles.items():
         if linked:
             SUSPENSIONS[axle.suspension.kind](looks, name, axle)
             anti_roll_bar_shapes(looks, name, axle)
