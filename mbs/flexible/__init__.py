@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from mbs.flexible.frame import Beam, Frame
     from mbs.flexible.frequencies import natural_modes
     from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
-    from mbs.flexible.inertia_relief import InertiaRelief
     from mbs.flexible.load_paths import interface_loads, load_path_modes
     from mbs.flexible.material import Material
     from mbs.flexible.matrix_files import external_model, read_matrix, read_model
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
     from mbs.flexible.nastran import read_nastran
     from mbs.flexible.recovery import StrainGauge, gauge_rows, section_forces, stress_field
     from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
+    from mbs.flexible.relief_matrices import InertiaRelief
     from mbs.flexible.section import Section, rectangle, round_bar, tube
 
 # imported when they are first asked for: who reads a model of beams needs no reader of matrices
@@ -32,7 +32,7 @@ _LAZY = {
     "Beam": "mbs.flexible.frame",
     "FiniteElementModel": "mbs.flexible.fe_model",
     "Frame": "mbs.flexible.frame",
-    "InertiaRelief": "mbs.flexible.inertia_relief",
+    "InertiaRelief": "mbs.flexible.relief_matrices",
     "Interface": "mbs.flexible.fixed_interface",
     "InterfaceModes": "mbs.flexible.reduced_body",
     "Material": "mbs.flexible.material",

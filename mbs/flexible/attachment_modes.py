@@ -10,7 +10,7 @@ from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
-from mbs.flexible.inertia_relief import InertiaRelief
+from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.flexible.sparse import Sparse
 
 

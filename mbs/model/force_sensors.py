@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from mbs.common.checks import instance_of, number, one_of, shown, whole
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.flexible.inertia_relief import InertiaRelief
+from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.ports import PortedBody
 from mbs.model.sensor import Sensor

@@ -12,8 +12,8 @@ from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.inertia_relief import InertiaRelief
 from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.vehicle.chassis.frame_joints import FrameJoints
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.fidelity import Fidelity
