@@ -87,6 +87,7 @@ def _list() -> int:
 
 
 def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
+    from ali3.columns import some_of
     from ali3.files import check_writable
     from hosts.catalogue.cars import cars_of
     from hosts.catalogue.kept import kept
@@ -103,8 +104,10 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     tests = [standard_test(name) for name in dict.fromkeys(names)]
     given = _test_settings(options.test_setting, [test.name for test in tests])
     settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
-    limits = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
-    limits = limits.of_tests(list(settings))
+    asked = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
+    limits = asked.of_tests(list(settings))
+    if left := [name for name in asked.entries if name not in limits.entries]:
+        print(f"{options.limits}: not judged are limits of tests that --tests leaves out: {some_of(left)}", flush=True)
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
     fmus = [fmu_file(path) for path in options.fmus]

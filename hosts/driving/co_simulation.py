@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.driving.missed_jumps import missed_end, missed_jumps
+from hosts.driving.missed_jumps import late_begin, missed_end, missed_jumps
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
@@ -118,6 +118,7 @@ def run(
     set_inputs, follow = _setter(fmu, used), _line_follower(fmu, straight)
     steps = max(1, round(manoeuvre.stop_time / step))
     end = missed_end(manoeuvre.stop_time, steps, step) if until is None else None
+    late = late_begin(manoeuvre, acts)
     rows = RecordedRows(
         senses,
         _at_start(fmu, inputs, start),
@@ -173,7 +174,7 @@ def run(
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         rows.jumps,
         lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
-        missed=[told for told in (missed_jumps(manoeuvre, step, straight, whole, acts), end) if told is not None],
+        missed=[told for told in (late, missed_jumps(manoeuvre, step, straight, whole, acts), end) if told is not None],
         start=dict(manoeuvre.start),
     )
 

@@ -181,6 +181,8 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
 
 def _alone(options: argparse.Namespace, begin: float) -> int:
     """Without a page; the run ends by itself."""
+    from hosts.driving.missed_jumps import late_begin
+    from hosts.driving.pilots.pilot import ACTS
     from hosts.simulator.aliased_car import AliasedCar
     from hosts.simulator.headless import headless_driver, manoeuvre_of, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
@@ -190,6 +192,8 @@ def _alone(options: argparse.Namespace, begin: float) -> int:
     report = RunReport(begin)
     prepared = prepare(with_start_of(_asked(options), manoeuvre), report.tell)
     report.prepared(prepared, options.step)
+    if manoeuvre is not None and (late := late_begin(manoeuvre, ACTS if manoeuvre.driver else ())):
+        report.tell(": ".join(late))
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
     with _started(options, prepared) as started:
         car = AliasedCar(started, prepared.aliases)

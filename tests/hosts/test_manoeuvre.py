@@ -17,6 +17,7 @@ from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.missed_jumps import late_begin
 from hosts.driving.run_checks import check_columns
 from hosts.driving.write_manoeuvre import write_manoeuvre, write_table
 from hosts.fmu.fmu import Fmu
@@ -75,6 +76,15 @@ def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
     assert 3 * 0.1 != 0.3
     assert manoeuvre.at(0.1 + 0.2)["u"] == 1.0
     assert manoeuvre.at(np.nextafter(0.3, 0.0))["u"] == 1.0
+
+
+def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path) -> None:
+    late = load_manoeuvre(written(tmp_path, '"time","u","v"\n0.5,3,-1\n1,0,0\n'))
+    assert late.at(0.0) == {"u": 3.0, "v": -1.0}
+    assert late_begin(late) == ("begin of the table", "at 0.5 s; before, its first row holds u at 3, v at -1")
+    assert late_begin(late, ("u",)) == ("begin of the table", "at 0.5 s; before, its first row holds v at -1")
+    assert late_begin(late, ("u", "v")) is late_begin(load_manoeuvre(written(tmp_path, GOOD))) is None
+    assert late_begin(load_manoeuvre("double_lane_change")) is None
 
 
 def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:
