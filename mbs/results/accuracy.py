@@ -29,7 +29,6 @@ SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.s
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 UNRESOLVED = 0.5  # missed share above which a period of what changes the velocities has less than six steps
-CLOSE = 0.01  # of the range: two runs that do not resolve it are hardly so near to each other by chance
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
