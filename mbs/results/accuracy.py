@@ -27,6 +27,7 @@ WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel'
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
+ABRUPT = 0.01  # the same where steps were divided at abrupt forces: half the step is then off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 UNRESOLVED = 0.5  # missed share above which a period of what changes the velocities has less than six steps
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this

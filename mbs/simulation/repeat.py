@@ -221,6 +221,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     try:
         known = repeats.finer(parts)
         least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
+        least = min(least, accuracy.ABRUPT) if report.divisions else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
         if not repeats.twin and least < (known.error or 0.0) < most:
             known = repeats.decided(repeats.finer(2 * parts), 4 * parts)
