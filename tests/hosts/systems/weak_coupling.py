@@ -106,7 +106,7 @@ def car_fmu(car: str, ports: str | None) -> Path:
 
 
 def parts_of(name: str, inputs: Inputs = "held") -> dict[str, Path]:
-    """The FMUs of a case in turn; a road whose planes are followed comes first, so that they go from answer to answer."""
+    """The FMUs of a case in turn; a road that is followed comes first, so that planes go from answer to answer."""
     case, partner = CASES[name], partner_fmu(CASES[name].partner)
     if name == "trailer":
         return trailer.fmus() | {"partner": partner}
