@@ -1,4 +1,4 @@
-"""What a run has otherwise than its table: jumps and an end inside a communication step, a begin after 0 s."""
+"""Jumps of inputs, and an end of the run, that fall inside a communication step: the FMU cannot have them there."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ from collections.abc import Collection, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.columns import some_of
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 
-# Parts of a communication step that are tried as a shorter one.
-_MOST_PARTS = 100
+_MOST_PARTS = 100  # of a communication step that are tried as a shorter one
 _SAME_END = 1e-3  # of a step
 
 
@@ -59,14 +57,6 @@ def missed_end(stop_time: float, steps: int, step: float) -> tuple[str, str] | N
     fits = stop_time / math.ceil(stop_time / step)
     ended = f"at {steps * step:g} s, a whole number of steps of {step:g} s, in place of {stop_time:g} s"
     return "end of the run", f"{ended}; --step {fits:.9g} ends there"
-
-
-def late_begin(manoeuvre: Manoeuvre, acts: Collection[str] = ()) -> tuple[str, str] | None:
-    """What inputs are before the first row of a table that begins late. `acts`: inputs that a driver overrules."""
-    held = [f"{name} at {values[0]:g}" for name, values in manoeuvre.inputs.items() if name not in acts]
-    if not held or manoeuvre.time[0] <= ON_TIME:
-        return None
-    return "begin of the table", f"at {manoeuvre.time[0]:g} s; before, its first row holds {some_of(held)}"
 
 
 def counted(names: Iterable[str], times: NDArray[np.float64]) -> str:

@@ -17,7 +17,6 @@ from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
-from hosts.driving.missed_jumps import late_begin
 from hosts.driving.run_checks import check_columns
 from hosts.driving.write_manoeuvre import write_manoeuvre, write_table
 from hosts.fmu.fmu import Fmu
@@ -81,10 +80,10 @@ def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
 def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path) -> None:
     late = load_manoeuvre(written(tmp_path, '"time","u","v"\n0.5,3,-1\n1,0,0\n'))
     assert late.at(0.0) == {"u": 3.0, "v": -1.0}
-    assert late_begin(late) == ("begin of the table", "at 0.5 s; before, its first row holds u at 3, v at -1")
-    assert late_begin(late, ("u",)) == ("begin of the table", "at 0.5 s; before, its first row holds v at -1")
-    assert late_begin(late, ("u", "v")) is late_begin(load_manoeuvre(written(tmp_path, GOOD))) is None
-    assert late_begin(load_manoeuvre("double_lane_change")) is None
+    assert late.late_begin() == ("begin of the table", "at 0.5 s; before, its first row holds u at 3, v at -1")
+    assert late.late_begin(("u",)) == ("begin of the table", "at 0.5 s; before, its first row holds v at -1")
+    assert late.late_begin(("u", "v")) is load_manoeuvre(written(tmp_path, GOOD)).late_begin() is None
+    assert load_manoeuvre("double_lane_change").late_begin() is None
 
 
 def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:

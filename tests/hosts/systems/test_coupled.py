@@ -281,7 +281,7 @@ def test_planes_of_a_road_that_is_stepped_before_the_car_go_from_answer_to_answe
     load, _, messages = coupled("road", 0.01, inputs="followed")
     assert load < 5e-3
     assert not messages
-    monkeypatch.setattr(weak_coupling, "parts_of", lambda name, inputs: parts_of(name))
+    monkeypatch.setattr(weak_coupling, "parts_of", lambda name, _="held": parts_of(name))
     load, _, messages = coupled("road", 0.01, inputs="followed")
     assert load > 2e-2
     assert any("the last one was off by" in text for text in messages)
