@@ -103,8 +103,10 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     tests = [standard_test(name) for name in dict.fromkeys(names)]
     given = _test_settings(options.test_setting, [test.name for test in tests])
     settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
-    limits = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
-    limits = limits.of_tests(list(settings))
+    asked = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
+    limits = asked.of_tests(list(settings))
+    if others := ", ".join(name for name in asked.entries if name not in limits.entries):
+        print(f"{options.limits}: not judged are limits of tests that --tests leaves out: {others}", flush=True)
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
     fmus = [fmu_file(path) for path in options.fmus]
@@ -209,11 +211,9 @@ def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str
     if undone:
         print(f"{undone} of {len(found)} tests could not be done, for the reasons above.")
     if broken:
-        words = (
-            "1 measure does not keep its limit; it is"
-            if len(broken) == 1
-            else (f"{len(broken)} measures do not keep their limits; they are")
-        )
+        words = "1 measure does not keep its limit; it is"
+        if len(broken) > 1:
+            words = f"{len(broken)} measures do not keep their limits; they are"
         print(f"{words} marked (!).")
     for fault in faults:
         print(fault)

@@ -144,7 +144,7 @@ def check_reference(
     if left:
         print(f"not compared, for {path.name} has no such output: {', '.join(left)}")
     if times[0] > 0.0 and manoeuvre is None:
-        print(f"{file} begins at {times[0]:g} s: its first row drives the FMU from 0 s, and it is compared from there")
+        print(f"{file} begins at {times[0]:g} s and is compared from there")
     if result.late:
         print(f"inputs that were held, and late by {500.0 * step:.3g} ms on average: {', '.join(result.late)}")
     for missed in result.missed:

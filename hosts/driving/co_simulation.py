@@ -7,7 +7,6 @@ import time as clock
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
@@ -100,7 +99,7 @@ def run(
     check_columns(fmu, manoeuvre)
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     outputs = fmu.names("output")
-    whole = {n for n in manoeuvre.inputs if _is_whole(fmu.variables[n])}
+    whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
     senses = Senses(fmu, outputs, every == 1)
 
     start = {**manoeuvre.start, **manoeuvre.initial(whole)}
@@ -157,6 +156,7 @@ def run(
         if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin
+    jumps = missed_jumps(manoeuvre, step, straight, whole, acts)
     progress(rows.done)
     recorded, values = rows.close(last)
     names = inputs + outputs
@@ -173,13 +173,9 @@ def run(
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         rows.jumps,
         lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
-        missed=[told for told in (missed_jumps(manoeuvre, step, straight, whole, acts), end) if told is not None],
+        missed=[told for told in (manoeuvre.late_begin(acts), jumps, end) if told is not None],
         start=dict(manoeuvre.start),
     )
-
-
-def _is_whole(variable: ScalarVariable) -> bool:
-    return bool(variable.variability == "discrete" or variable.type == "Integer")
 
 
 def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> NDArray[np.float64]:

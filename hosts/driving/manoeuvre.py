@@ -46,14 +46,19 @@ class Manoeuvre:
             return {name: float(values[0]) for name, values in self.inputs.items()}
         return self.at(0.0, held)
 
+    def late_begin(self, acts: Collection[str] = ()) -> tuple[str, str] | None:
+        """What is told of a table that begins after 0 s. `acts`: inputs that a driver overrules."""
+        held = [f"{name} at {values[0]:g}" for name, values in self.inputs.items() if name not in acts]
+        if not held or self.time[0] <= ON_TIME:
+            return None
+        return "begin of the table", f"at {self.time[0]:g} s; before, its first row holds {', '.join(held)}"
+
     def at(self, t: float, held: Collection[str] = (), before: bool = False) -> dict[str, float]:
         """Inputs at time `t`; outside the table its ends.
 
         `t`: s; `held`: names of more inputs that keep the value of a row up to the next one, such as whole numbers;
         `before`: whether, at a step, the value before it is meant, and not that behind it.
         """
-        if not len(self.time):
-            return {}
         held = {*held, *self.held}
         # Times add up with rounding errors; a step must not be missed for them.
         side: Literal["left", "right"] = "left" if before else "right"

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 
-# Parts of a communication step that are tried as a shorter one.
-_MOST_PARTS = 100
+_MOST_PARTS = 100  # of a communication step that are tried as a shorter one
 _SAME_END = 1e-3  # of a step
 
 

@@ -114,19 +114,14 @@ def _check(options: argparse.Namespace) -> None:
             raise HostError(missing_package(package))
     if not 0.0 < options.step <= 1.0:
         raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
-    recorded = {"--replay": options.replay, "--save-manoeuvre": options.save_manoeuvre}
-    given = [
-        name
-        for name, value in {**recorded, "--from": options.begin, "--to": options.end}.items()
-        if value not in (None, False)
-    ]
-    if given:
+    recorded = {"--replay": options.replay or None, "--save-manoeuvre": options.save_manoeuvre}
+    recorded |= {"--from": options.begin, "--to": options.end}
+    if given := [name for name, value in recorded.items() if value is not None]:
         raise HostError(f"{given[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
     alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
-    given = [name for name, value in alone.items() if value is not None]
-    if given and not options.headless:
+    if not options.headless and (given := [name for name, value in alone.items() if value is not None]):
         raise HostError(f"{given[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C.")
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
@@ -186,8 +181,8 @@ def _alone(options: argparse.Namespace, begin: float) -> int:
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
-    manoeuvre = manoeuvre_of(options.manoeuvre)
     report = RunReport(begin)
+    manoeuvre = manoeuvre_of(options.manoeuvre, report.tell)
     prepared = prepare(with_start_of(_asked(options), manoeuvre), report.tell)
     report.prepared(prepared, options.step)
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0

@@ -20,8 +20,7 @@ from hosts.simulator.preparation import Asked
 
 _PERIOD = 0.005
 _BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
-_STILL = 10.0
-"""A car that computes no step for so long, s, is given up."""
+_STILL = 10.0  # s: a car that computes no step for so long is given up
 
 
 class HeadlessDriver(Protocol):
@@ -48,8 +47,7 @@ class OfManoeuvre:
     """
 
     def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:
-        unknown = next((name for name in manoeuvre.inputs if name not in car.inputs), None)
-        if unknown is not None:
+        if (unknown := next((name for name in manoeuvre.inputs if name not in car.inputs), None)) is not None:
             raise HostError(
                 f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input of this FMU; the "
                 f"simulator moves inputs only: {', '.join(car.inputs) or 'none'}."
@@ -67,9 +65,12 @@ class OfManoeuvre:
         return found if self._driver is None else {**found, **self._driver.act(time, senses)}
 
 
-def manoeuvre_of(given: str | None) -> Manoeuvre | None:
+def manoeuvre_of(given: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
     """The manoeuvre that ``--manoeuvre`` names, if it was given; see `load_manoeuvre`."""
-    return None if given is None else load_manoeuvre(given)
+    manoeuvre = None if given is None else load_manoeuvre(given)
+    if manoeuvre is not None and (late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ())):
+        tell(": ".join(late))
+    return manoeuvre
 
 
 def with_start_of(asked: Asked, manoeuvre: Manoeuvre | None) -> Asked:
@@ -134,6 +135,5 @@ def run_headless(
 
 def _act(car: AliasedCar, driver: HeadlessDriver, places: Sequence[tuple[str, int]]) -> None:
     moment = car.latest()
-    wanted = driver.act(moment.time, {name: float(moment.values[k]) for name, k in places})
-    if wanted:
+    if wanted := driver.act(moment.time, {name: float(moment.values[k]) for name, k in places}):
         car.want({name: (value, math.inf) for name, value in wanted.items()})

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from mbs.results.accuracy import CLOSE, UNRESOLVED, Accuracy, missed_share
+from mbs.results.accuracy import UNRESOLVED, Accuracy, missed_share
 from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
@@ -31,12 +31,12 @@ HOPELESS = 0.7  # of the range: two runs that differ by more are not compared on
 
 
 def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, run: Report) -> tuple[Glance, ...]:
-    """The coarser runs in turn that resolve the motion, else the last; too long steps miss forces and what sticks."""
-    if settings.method not in LIMITED or settings.step_iterations:
+    """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks."""
+    if METHOD_TABLE[settings.method].order > 2:
         return TWICE
-    chosen = FORCES if "N" in groups else TWICE if states else QUICK
-    resolved = tuple(glance for glance in chosen if glance.times * missed_share(run) <= UNRESOLVED)
-    return resolved or (replace(chosen[-1], difference=CLOSE),)
+    limited = settings.method in LIMITED and not settings.step_iterations
+    chosen = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
+    return tuple(glance for glance in chosen if glance.times * missed_share(run) <= UNRESOLVED)
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

@@ -111,8 +111,15 @@ class Repeats:
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
 
+    @property
+    def coarse(self) -> bool:
+        """Whether the last finer run has less than twelve steps in a period of what changes the velocities."""
+        report = self._finer[-1][0].report
+        return report is not None and 2.0 * accuracy.missed_share(report) > accuracy.UNRESOLVED
+
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
-        """After two finer runs: where what the last two differ by may change the verdict, by a third, then a fourth.
+        """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
+        third, then a fourth.
 
         Of these two the one that says more counts: behind abrupt forces they are off to both sides.
 
@@ -123,7 +130,8 @@ class Repeats:
         """
         for times in (1, 2):
             first, second = map(self._table, self._finer[-2:])
-            if not unsure(known, accuracy.differences(first, second, self.groups, self.before)[0]):
+            apart = accuracy.differences(first, second, self.groups, self.before)[0]
+            if not (self.coarse or unsure(known, apart)):
                 break
             last, known = known, self.finer(times * parts)
             tables = [self._table(self.run), second, self._table(self._finer[-1])]
@@ -212,8 +220,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     parts = accuracy.divisor(report.steps, report.halvings)
     try:
         known = repeats.finer(parts)
-        least, most = accuracy.NEAR_LIMIT
-        least = accuracy.CLOSE if accuracy.missed_share(report) > accuracy.UNRESOLVED else least
+        least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
+        least = min(least, accuracy.ABRUPT) if report.divisions else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
         if not repeats.twin and least < (known.error or 0.0) < most:
             known = repeats.decided(repeats.finer(2 * parts), 4 * parts)

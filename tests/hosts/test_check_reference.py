@@ -145,10 +145,10 @@ def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
 
 
 def test_a_table_that_begins_later_is_told(fmu: Path, tmp_path: Path) -> None:
-    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n0.5,0,0\n1,0,0\n')
-    assert (
-        "begins at 0.5 s: its first row drives the FMU" in run(main, fmu, "--reference", tmp_path / "table.csv").stdout
-    )
+    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n0.5,2,0\n1,0,0\n')
+    said = run(main, fmu, "--reference", tmp_path / "table.csv").stdout
+    assert "table.csv begins at 0.5 s and is compared from there\n" in said
+    assert "begin of the table: at 0.5 s; before, its first row holds pull at 2\n" in said
 
 
 def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:

@@ -77,6 +77,15 @@ def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
     assert manoeuvre.at(np.nextafter(0.3, 0.0))["u"] == 1.0
 
 
+def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path) -> None:
+    late = load_manoeuvre(written(tmp_path, '"time","u","v"\n0.5,3,-1\n1,0,0\n'))
+    assert late.at(0.0) == {"u": 3.0, "v": -1.0}
+    assert late.late_begin() == ("begin of the table", "at 0.5 s; before, its first row holds u at 3, v at -1")
+    assert late.late_begin(("u",)) == ("begin of the table", "at 0.5 s; before, its first row holds v at -1")
+    assert late.late_begin(("u", "v")) is load_manoeuvre(written(tmp_path, GOOD)).late_begin() is None
+    assert load_manoeuvre("double_lane_change").late_begin() is None
+
+
 def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:
     text = "# start: initial.speed=15, initial.yaw=0.1\n" + GOOD
     manoeuvre = load_manoeuvre(written(tmp_path, text, "[run]\nstop_time = 7\n[start]\ninitial.yaw = 0.2\n"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ import pytest
 import mbs
 from benchmarks.methods import random_mechanisms
 from benchmarks.references.cases import system_of
-from mbs.elements.spring_damper import EndStops
-from mbs.results.accuracy import CLOSE, Accuracy, missed_share
+from mbs.elements import ContactPoints, EndStops, PlaneRoad
+from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.glance import FORCES, QUICK, TWICE, difference_from, glances
 
 
@@ -107,6 +108,47 @@ def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
         mbs.simulate(system, 1.25, h, progress=False)
 
 
+@pytest.mark.parametrize(
+    ("rate", "h", "gap", "steps", "error"),
+    [
+        (330.3695, 0.01, 0.267577, 194, 0.26),
+        (1844.962, 0.001, 0.0297127, 191, 0.078),
+        (774.38958, 0.005, 0.59697745, 196, 0.061),
+    ],
+    ids=["twice the step", "half", "half and a quarter"],
+)
+def test_runs_that_do_not_resolve_an_impact_agree_by_chance(rate, h, gap, steps, error) -> None:
+    """With a run that is wrong by so much they agree within 1 %; what resolves it tells."""
+    run = mbs.simulate(ball(rate**2, gap), steps * h, h, estimate_error=False, progress=False)
+    truth = place(rate**2, gap, run.t)
+    assert np.abs(run["x"] - truth).max() / np.ptp(truth) == pytest.approx(error, rel=0.05)
+    with pytest.warns(mbs.AccuracyWarning, match="off by about"):
+        mbs.simulate(ball(rate**2, gap), steps * h, h, progress=False)
+
+
+def test_half_a_step_is_off_alike_behind_abrupt_forces() -> None:
+    """A box that falls on its edges: its load is 5.8 % off, of which half the step tells 1.5 % and a quarter 3.8."""
+    m, mass, half = mbs.Model("box", gravity=(0.0, 0.0, -9.81)), 16.588, np.array([0.1276, 0.1647, 0.3659])
+    m.floating, com = True, np.array([0.0, 0.0, 1.8044])
+    road = m.road(PlaneRoad(friction=0.5449))
+    box = m.body("box", mass=mass, com=com, inertia=mass / 3.0 * (half @ half - half**2))
+    corners = com + half * list(product((-1.0, 1.0), repeat=3))
+    contact = ContactPoints.for_mass(mass, depth=0.01333, onset=0.00604, loss=0.30255)
+    m.contact_points("feet", box, corners, road=road, contact=contact)
+    m.initial_velocity(box, linear=(-0.7123, -1.0302, 0.7981), angular=(0.1641, -0.186, -0.1413))
+    m.sense_position("z", box, None, "z")
+    m.sense_element("load", "feet", "normal_force")
+    system, span, h = mbs.compile(m), 1.45, 0.01
+    run, half_run, fine = (
+        mbs.simulate(system, span, h / n, every=n, estimate_error=False, progress=False) for n in (1, 2, 32)
+    )
+    size = np.abs(fine["load"]).max()
+    assert np.abs(run["load"] - fine["load"]).max() > 0.055 * size
+    assert np.abs(run["load"] - half_run["load"]).max() < 0.015 * size
+    with pytest.warns(mbs.AccuracyWarning, match="off by about 5.* sensor 'load'"):
+        mbs.simulate(system, span, h, progress=False)
+
+
 def test_a_sample_that_one_in_two_leaves_out_is_compared() -> None:
     """A contact that one sample sees; of 39 steps from one to the next 20 longer ones are made, not 39 in two."""
     stiffness, gap, h, every = 4e4, 0.5, 0.001, 39
@@ -128,5 +170,9 @@ def test_which_coarser_runs_are_made() -> None:
     assert glances(settings, moves, True, still) == TWICE
     assert glances(settings, {**moves, "N": ["force"]}, False, still) == FORCES
     assert glances(settings, moves, False, run.report) == QUICK[1:]
-    assert glances(settings, moves, False, abrupt) == (replace(QUICK[-1], difference=CLOSE),)
+    assert (
+        glances(settings, moves, False, abrupt)
+        == glances(mbs.Settings(method="energy_momentum"), moves, False, abrupt)
+        == ()
+    )
     assert glances(mbs.Settings(method="radau_5"), moves, False, abrupt) == TWICE

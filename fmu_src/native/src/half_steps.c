@@ -22,6 +22,7 @@ void slave_half_steps_begin(slave *s) {
   ali3_report report;
   t->alone = t->alone || t->left > 0.0 || t->apart > 0.0;
   t->left = t->apart = 0.0;
+  t->begins = false;
   t->abrupt = ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.abrupt_steps : 0;
 }
 
@@ -147,9 +148,12 @@ slave_status slave_halve_steps(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
-  const bool abrupt = report.abrupt_steps > t->abrupt, rests = !(t->left > 0.0);
+  // tyres that are driven from the start on slip at once, where long steps miss it
+  const bool begins = t->begins && parts_of(s->made.h) == MOST && ali3_contact_forces(s->fidelity.kernel, 1, NULL) > 0,
+             abrupt = report.abrupt_steps > t->abrupt || begins, rests = !(t->left > 0.0);
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
+  t->begins = false;
   t->driven += length;
   t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
   if (abrupt && (t->spent > FREE + SHARE * t->driven || !allocate(s))) {

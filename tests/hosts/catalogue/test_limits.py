@@ -110,11 +110,13 @@ def test_the_command_says_which_measure_is_outside(
     task = Task("drop", TestedCar(prototype_fmu.stem, prototype_fmu), settings_of_test(standard_test("drop"), {}))
     keep(task, record(2001.0), tmp_path)
     monkeypatch.setattr(command, "_report", lambda *_: [])
-    file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}').file
+    file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"kerb.peak" = {max = 1}').file
     drop = [str(prototype_fmu), "--tests", "drop", "--no-runs", "--out", str(tmp_path)]
     assert command.main(drop) == 0
     assert command.main([*drop, "--limits", str(file)]) == 1
-    assert "1 measure does not keep its limit; it is marked (!)." in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "1 measure does not keep its limit; it is marked (!)." in said
+    assert "not judged are limits of tests that --tests leaves out: kerb.peak\n" in said
     (test,) = json.loads((tmp_path / "measures.json").read_text())["tests"]
     peak = test["cars"][prototype_fmu.stem]["measures"]["peak"]
     assert peak["limit"] == {"lowest": None, "highest": 2000.0, "source": "limits.toml"}

@@ -194,10 +194,11 @@ def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
 
 
 def test_a_refused_step_ends_the_run_with_the_words_of_the_fmu(fmus, told, tmp_path):
-    (tmp_path / "pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
+    (tmp_path / "pull.csv").write_text('"time","pull"\n0.1,0\n1.1,10\n')
     arguments = ("--headless", "-m", tmp_path / "pull.csv", "--stop-time", 5, "--step", 0.01)
     code, out, _ = told(fmus["reach"], *arguments, "--json", tmp_path / "r")
     assert code == 1
+    assert "begin of the table: at 0.1 s; before, its first row holds pull at 0\n" in out
     report = json.loads((tmp_path / "r").read_text())
     assert report["event counts"]["refused"] == 1
     assert report["steps"]["simulated"] < 1.0

@@ -105,20 +105,21 @@ def car_fmu(car: str, ports: str | None) -> Path:
         return fmu_of_car(str(file), lambda text: None, ports=ports)
 
 
-def parts_of(name: str) -> dict[str, Path]:
-    """The FMUs of a case."""
+def parts_of(name: str, inputs: Inputs = "held") -> dict[str, Path]:
+    """The FMUs of a case in turn; a road that is followed comes first, so that planes go from answer to answer."""
     case, partner = CASES[name], partner_fmu(CASES[name].partner)
     if name == "trailer":
         return trailer.fmus() | {"partner": partner}
-    return {"car": car_fmu(case.car, case.ports), "partner": partner}
+    both = {"car": car_fmu(case.car, case.ports), "partner": partner}
+    return dict(reversed(both.items())) if (name, inputs) == ("road", "followed") else both
 
 
 def start_of(name: str, order: Order = "at once", inputs: Inputs = "held") -> dict[str, float]:
-    """Start values of the parts of a case; a road is asked for the end of the step in which its answer is held."""
+    """Start values of the parts of a case; a road is asked for the end of the step in which its answer holds."""
     case = CASES[name]
     movable = [part for part in ("car", "trailer") if part in parts_of(name)]
     start = {f"{part}.initial.speed": SPEED for part in movable} | {f"car.{n}": x for n, x in case.inputs.items()}
-    lead = 0.0 if inputs != "held" else 1.0 if order == "in turn" else 2.0
+    lead = 0.0 if inputs == "repeated" else 1.0 if order == "in turn" else 2.0
     return start | ({"car.ports.road_lead": lead} if name == "road" else {})
 
 
@@ -157,7 +158,7 @@ def coupled(
 ) -> tuple[float, float, list[str]]:
     """Error of the wheel loads, rms over their mean, and of the path over its length; what was said."""
     case = CASES[name]
-    with CoupledFmus(parts_of(name), case.wires, step=step, order=order, inputs=inputs) as system:
+    with CoupledFmus(parts_of(name, inputs), case.wires, step=step, order=order, inputs=inputs) as system:
         system.initialise(**start_of(name, order, inputs))
         rows = system.run(TIME, (*case.loads, *case.path))
         messages = system.messages
