@@ -71,6 +71,20 @@ def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, qual
     assert blue["wet"] > blue["asphalt"] + 0.1
 
 
+@pytest.mark.parametrize("quality", ["draft", "low"])
+def test_between_two_surfaces_of_one_channel_there_is_no_third(drawn, quality):
+    """Gravel and concrete: between them their channel is that of neither, which is asphalt, at single points at most."""
+    ground = level(0.0)
+    classes = np.repeat(np.array([3, 1], np.uint8), 160)[None].repeat(320, axis=0)
+    surface = {"origin": [-39.9, -39.9], "spacing": [0.25, 0.25], "shape": [320, 320], "classes": octets(classes)}
+    ground["surface"] |= surface
+    drawn.show(world(roads=[ground], extent=20.0), at(0, 0, 0), camera="chase", quality=quality)
+    picture = drawn.picture()[:, :, 0]
+    below = [drawn.project((x, 0.0, 0.0)) for x in np.linspace(3.0, 39.0, 400)]
+    seen = [picture[round(v) - 1 : round(v) + 2, round(u) - 1 : round(u) + 2].min() for u, v in below]
+    assert min(seen) > 0.7 * np.median(seen)
+
+
 def test_the_ground_is_as_high_as_its_points(drawn):
     """Of a ball whose middle lies on the ground the upper half is seen, of one below the ground nothing."""
     drawn.show(world(shapes=[ball(radius=0.5)], extent=12.0), camera="side")
