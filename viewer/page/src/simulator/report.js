@@ -89,7 +89,7 @@ export class Report {
       ["", "median · p99 · p99.9 · largest"],
       ["cost of a step", spread(cost)],
       ["late by", spread(lateness)],
-    ].map(([name, words]) => el("tr", {}, el("th", {}, name), el("td", {}, words)));
+    ].map(([name, words]) => el("tr", {}, el(name ? "th" : "td", {}, name), el("td", {}, words)));
     return this._body.replaceChildren(histogram(cost.bins, step), el("table", {}, ...rows));
   }
 }
