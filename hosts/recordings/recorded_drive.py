@@ -107,12 +107,9 @@ class RecordedDrive:
         count = -1
         for rows in blocks_of(self.folder, self.names):
             counts = np.r_[count, rows.steps]
-            falls = np.flatnonzero(np.diff(counts) < 0)
-            if len(falls):
-                raise HostError(
-                    f"{self.folder}: step {counts[falls[0] + 1]} stands after step {counts[falls[0]]}: its table was "
-                    "put together in another order, or of several recordings."
-                )
+            for k in np.flatnonzero(np.diff(counts) < 0):
+                places = f"step {counts[k + 1]} stands after step {counts[k]}"
+                raise HostError(f"{self.folder}: {places}: its parts are out of order.")
             count = int(counts[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
             if len(missing):

@@ -48,13 +48,9 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
         every *= 2
     rows = drive.rows(every)
     due = every * min(drive.every[len(drive.inputs) :], default=1)
-    gaps = np.flatnonzero((np.diff(rows.epoch) == 0) & (np.diff(rows.steps) > due))
-    if len(gaps):
-        begin, end = rows.time[gaps[0]], rows.time[gaps[0] + 1]
-        told.append(
-            f"Rows of {folder} are missing, the first between {begin:g} s and {end:g} s; what is drawn goes straight "
-            "there."
-        )
+    for k in np.flatnonzero((np.diff(rows.epoch) == 0) & (np.diff(rows.steps) > due))[:1]:
+        gap = f"first from {rows.time[k]:g} s to {rows.time[k + 1]:g} s"
+        told.append(f"Rows of {folder} are missing, {gap}; it is drawn straight there.")
     if every > 1:
         told.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
     source = geometry or Path(drive.meta["fmu"])

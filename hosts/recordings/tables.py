@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import islice, zip_longest
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -68,15 +68,7 @@ def joined(blocks: Sequence[Rows], columns: int) -> Rows:
 
 
 def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
-    """The rows of a recording, whether it was closed or not.
-
-    `names`: columns behind `KEYS` that its description names.
-
-    Raises
-    ------
-    HostError
-        There is no table, or one that cannot be read or has other columns; with the file and the reason.
-    """
+    """The rows of a recording, closed or not; `HostError` with file and reason. `names`: of columns behind `KEYS`."""
     whole, text = folder / f"{TABLE}.parquet", folder / f"{TABLE}.csv"
     if whole.is_file():
         yield from parquet_blocks(whole, names)
@@ -106,15 +98,9 @@ def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
 
 def _check_names(file: Path, found: Sequence[str], names: Sequence[str]) -> None:
     """Refuse a table of another recording."""
-    named = (*KEYS, *names)
-    if len(found) != len(named):
-        raise HostError(f"{file} has {len(found)} columns; the description of the recording names {len(named)}.")
-    for theirs, ours in zip(found, named, strict=True):
+    for theirs, ours in zip_longest(found, (*KEYS, *names), fillvalue="no column"):
         if theirs != ours:
-            raise HostError(
-                f"{file} is the table of another recording: it has a column {brief(theirs)} where this one's "
-                f"description names {brief(ours)}."
-            )
+            raise HostError(f"{file} is of another recording: it has {brief(theirs)}, its description {brief(ours)}.")
 
 
 def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:

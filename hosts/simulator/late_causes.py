@@ -1,8 +1,7 @@
 """What makes a step late: that it ran too long, other programs in its place, or a processor that stood still.
 
-A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. What a
-thread ran, and how long it was ready while others ran, is told by Linux without the time that the host tells to have
-taken. What it does not tell, and interrupts, are in the time that the thread ran.
+A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. Linux
+tells what a thread ran, with interrupts and what a host takes untold, and how long it was ready while others ran.
 """
 
 from __future__ import annotations

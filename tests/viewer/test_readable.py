@@ -196,6 +196,8 @@ def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
 @pytest.mark.parametrize("colours", ["light", "dark"])
 def test_axe_finds_nothing(shown: Any, kind: str, colours: str) -> None:
     use_colours(shown, kind, colours)
+    if kind == "simulator" or colours == "dark":  # scroll bars and fields too
+        assert "dark" in shown.evaluate("bar => getComputedStyle(document.querySelector(bar)).colorScheme", BARS[kind])
     assert findings(shown) == []
     shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(true)")
     assert findings(shown) == [], "with the list of keys over it"

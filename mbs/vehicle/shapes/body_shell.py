@@ -76,18 +76,14 @@ class BodyShell:
 
     @property
     def height(self) -> float:
-        """Of the roof, m: that of the highest point that may touch the ground, if the file has one up there.
-
-        Else by the length or by the wheels, whichever is lower: long cars are no higher than short ones.
-        """
+        """Of the roof, m: of the highest point that may touch the ground if up there, else by length and wheels."""
         contact = self.car.chassis.ground_contact
         points = (
             [p[2] + contact.radius for p in contact.points if not isinstance(p, str)] if contact is not None else []
         )
         highest = max(points, default=0.0)
-        if highest > 0.25 * self.car.vehicle.length:
-            return highest
-        return min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
+        guess = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
+        return highest if highest > 0.25 * self.car.vehicle.length else guess
 
     @property
     def rear_end(self) -> float:
