@@ -114,13 +114,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         rows = [PAGES[name](chromium, fmu, folder, options.seconds) for name in watched(options.only)]
         version = chromium.version
         chromium.close()
-    numbers = ("median", "worst", "longest_ms", "calls", "triangles", "steps", "late", "work", "others", "stolen")
+    numbers = ("median", "worst", "longest_ms", "calls", "triangles", "steps", "late", "ran", "others", "stolen")
     columns = {"page": "", **dict.fromkeys(numbers, ".0f"), "factor": ".3f"}
     rows = [dict.fromkeys(columns) | row for row in rows]
     print_table(rows, columns)
     print(
-        f"\n{SIZE[0]} x {SIZE[1]}, {options.seconds:g} s; median, worst: pictures in a second; work, others, stolen: "
-        "late steps because of their own work, other programs, a processor that stood still\nChromium " + version
+        f"\n{SIZE[0]} x {SIZE[1]}, {options.seconds:g} s; median, worst: pictures in a second; ran, others, stolen: "
+        "late steps while the step ran, other programs ran, the processor stood still\nChromium " + version
     )
     save_rows(
         options.json, {**describe("driven_pages", chromium=version), "size": SIZE, "seconds": options.seconds}, rows

@@ -15,7 +15,9 @@ from viewer.errors import SceneError
 from viewer.scene import read_scene
 
 
-def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[str, Any] | None:
+def scene_from(
+    path: Path, settings: Mapping[str, Value] | None = None, world: str | None = None
+) -> dict[str, Any] | None:
     """The scene of an FMU, or of a JSON file; see `scene_of`."""
     if not path.is_file():
         raise HostError(no_file(path))
@@ -24,4 +26,4 @@ def scene_from(path: Path, settings: Mapping[str, Value] | None = None) -> dict[
             return read_scene(path)
         except SceneError as error:
             raise HostError(f"{path} is neither an FMU nor a scene: {error}") from None
-    return scene_of(path, settings)
+    return scene_of(path, settings, world)

@@ -103,13 +103,14 @@ class RecordedDrive:
         return read_bytes(file, LARGEST_STATE, HostError) if file.is_file() else None
 
     def blocks(self) -> Iterator[Rows]:
-        """All rows, some thousands at a time."""
-        columns = len(self.names)
-        for rows in blocks_of(self.folder):
-            if rows.values.shape[1] != columns:
-                raise HostError(
-                    f"{self.folder}: a row has {rows.values.shape[1]} values; {DESCRIPTION} names {columns} columns."
-                )
+        """All rows, some thousands at a time; their counts never fall."""
+        count = -1
+        for rows in blocks_of(self.folder, self.names):
+            counts = np.r_[count, rows.steps]
+            for k in np.flatnonzero(np.diff(counts) < 0):
+                places = f"step {counts[k + 1]} stands after step {counts[k]}"
+                raise HostError(f"{self.folder}: {places}: its parts are out of order.")
+            count = int(counts[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
             if len(missing):
                 row, place = missing[0]
@@ -127,8 +128,8 @@ class RecordedDrive:
             if len(gaps):
                 count, lost = int(counts[gaps[0]]), int(np.diff(counts)[gaps[0]]) - 1
                 raise HostError(
-                    f"{self.folder}: {lost} rows are missing after step {count}, since they could not be written in "
-                    "time; what follows cannot be repeated."
+                    f"{self.folder}: {lost} rows are missing after step {count}, as where they could not be written "
+                    "in time; what follows cannot be repeated."
                 )
             before = int(epochs[-1]), int(counts[-1])
             yield rows

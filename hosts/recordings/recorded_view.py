@@ -10,12 +10,16 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
-from hosts.fmu.geometry import scene_of
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.recorded_drive import read_recording
 from viewer.recording import Recording
 
 _MOST_VALUES = 8_000_000  # that are read: 64 MB
+
+
+def other_build(fmu: Path, name: str) -> str:
+    """The sentence that an FMU is not what made a result."""
+    return f"{fmu} is another FMU than that of {name}, or was built again since; what is drawn is its own."
 
 
 def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tuple[Recording, list[str]]:
@@ -43,19 +47,21 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     while count * len(drive.names) > every * _MOST_VALUES:
         every *= 2
     rows = drive.rows(every)
+    due = every * min(drive.every[len(drive.inputs) :], default=1)
+    for k in np.flatnonzero((np.diff(rows.epoch) == 0) & (np.diff(rows.steps) > due))[:1]:
+        gap = f"first from {rows.time[k]:g} s to {rows.time[k + 1]:g} s"
+        told.append(f"Rows of {folder} are missing, {gap}; it is drawn straight there.")
     if every > 1:
         told.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
-    if geometry is not None:
-        scene = scene_from(geometry, drive.meta["start"])
-    else:
-        fmu = Path(drive.meta["fmu"])
-        if not (fmu.is_file() and zipfile.is_zipfile(fmu)):
-            raise HostError(f"{folder} names the FMU {fmu}, which is not there any more; name it by --geometry FMU.")
-        scene = scene_of(fmu, drive.meta["start"], drive.meta.get("world"))
-        if described(fmu).guid != drive.meta["guid"]:
-            told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
+    source = geometry or Path(drive.meta["fmu"])
+    is_fmu = source.is_file() and zipfile.is_zipfile(source)
+    if geometry is None and not is_fmu:
+        raise HostError(f"{folder} names the FMU {source}, which is not there any more; name it by --geometry FMU.")
+    scene = scene_from(source, drive.meta["start"], drive.meta.get("world"))
+    if is_fmu and described(source).guid != drive.meta["guid"]:
+        told.append(other_build(source, name))
     if scene is None:
-        told.append(f"{geometry or drive.meta['fmu']} does not say what there is to draw; signals can be plotted.")
+        told.append(f"{source} does not say what there is to draw; signals can be plotted.")
     # As the driver had it: it goes on where the car was reset or rewound.
     time, whole = drive.step * np.asarray(rows.steps, dtype=np.float64), set(drive.meta.get("whole", ()))
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import islice, zip_longest
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ali3.files import reason
 from ali3.tables import TextTable
-from ali3.words import one_line
+from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 
 TABLE = "inputs_outputs"
@@ -67,26 +67,20 @@ def joined(blocks: Sequence[Rows], columns: int) -> Rows:
     return Rows(*(np.concatenate(parts) for parts in zip(*blocks, strict=True)))
 
 
-def blocks_of(folder: Path) -> Iterator[Rows]:
-    """The rows of a recording, whether it was closed or not.
-
-    Raises
-    ------
-    HostError
-        There is no table, or one that cannot be read; with the file and the reason.
-    """
+def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
+    """The rows of a recording, closed or not; `HostError` with file and reason. `names`: of columns behind `KEYS`."""
     whole, text = folder / f"{TABLE}.parquet", folder / f"{TABLE}.csv"
     if whole.is_file():
-        yield from parquet_blocks(whole)
+        yield from parquet_blocks(whole, names)
     elif text.is_file():
-        yield from _csv_blocks(text)
+        yield from _csv_blocks(text, names)
     elif (folder / PARTS).is_dir():
         read = 0
         for part in sorted((folder / PARTS).glob("*.parquet")):
             if whole.is_file() and not part.is_file():  # joined meanwhile
-                yield from _after(parquet_blocks(whole), read)
+                yield from _after(parquet_blocks(whole, names), read)
                 return
-            for rows in parquet_blocks(part):
+            for rows in parquet_blocks(part, names):
                 read += len(rows)
                 yield rows
     else:
@@ -102,7 +96,14 @@ def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
         count = left
 
 
-def parquet_blocks(file: Path) -> Iterator[Rows]:
+def _check_names(file: Path, found: Sequence[str], names: Sequence[str]) -> None:
+    """Refuse a table of another recording."""
+    for theirs, ours in zip_longest(found, (*KEYS, *names), fillvalue="no column"):
+        if theirs != ours:
+            raise HostError(f"{file} is of another recording: it has {brief(theirs)}, its description {brief(ours)}.")
+
+
+def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
     """The rows of a Parquet file; see `blocks_of`."""
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -111,8 +112,7 @@ def parquet_blocks(file: Path) -> Iterator[Rows]:
         with pq.ParquetFile(file) as table:
             if not all(pa.types.is_floating(f.type) or pa.types.is_integer(f.type) for f in table.schema_arrow):
                 raise HostError(f"{file} is no table of a recording: a column does not hold numbers.")
-            if len(table.schema_arrow) < len(KEYS):
-                raise HostError(f"{file} is no table of a recording: it has no columns {', '.join(KEYS)}.")
+            _check_names(file, table.schema_arrow.names, names)
             for batch in table.iter_batches(_BLOCK):
                 time, count, epoch, *values = (column.to_numpy(zero_copy_only=False) for column in batch.columns)
                 yield Rows(time, count, epoch, np.column_stack(values) if values else np.zeros((len(time), 0)))
@@ -121,10 +121,9 @@ def parquet_blocks(file: Path) -> Iterator[Rows]:
         raise HostError(f"{file} cannot be read as Parquet: {one_line(words).rstrip('.')}.") from None
 
 
-def _csv_blocks(file: Path) -> Iterator[Rows]:
+def _csv_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
     table = TextTable(file, HostError, whole=True)
-    if table.width < len(KEYS):
-        raise HostError(f"{file} has {table.width} columns; a recording has {', '.join(KEYS)} and signals.")
+    _check_names(file, table.names, names)
     rows = table.rows()
     keys = len(KEYS)
     full = (row._replace(cells=row.cells[:keys] + [cell or "nan" for cell in row.cells[keys:]]) for row in rows)

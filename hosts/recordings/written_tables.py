@@ -57,7 +57,7 @@ class ParquetTable:
             """The rows of several parts at a time: groups of rows that are read at once should not be small."""
             held: list[Rows] = []
             for k, part in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
-                held += parquet_blocks(part)
+                held += parquet_blocks(part, self._schema.names[len(KEYS) :])
                 if sum(map(len, held)) >= _ROW_GROUP:
                     yield joined(held, 0)
                     held = []

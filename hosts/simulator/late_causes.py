@@ -1,15 +1,15 @@
-"""What makes a step late: its own work, other programs in its place, or a processor that stood still.
+"""What makes a step late: that it ran too long, other programs in its place, or a processor that stood still.
 
-A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. What a
-thread ran, and how long it was ready while others ran, is told by Linux without the time that the host took.
+A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. Linux
+tells what a thread ran, with interrupts and what a host takes untold, and how long it was ready while others ran.
 """
 
 from __future__ import annotations
 
 from hosts.simulator.clock import Clock
 
-CAUSES = ("work", "others", "stolen")
-"""The step's own work; programs that ran while it was ready; the processor stood still or woke the thread late."""
+CAUSES = ("ran", "others", "stolen")
+"""The step ran; programs ran while it was ready; the processor stood still or woke the thread late."""
 
 
 class LateCauses:

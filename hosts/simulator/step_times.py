@@ -196,10 +196,10 @@ class StepTimes:
                 f"missed deadlines: {self.missed} of {deadlines} ({100.0 * self.missed / deadlines:.3g} %)",
             ]
             if any(self.missed_by.values()):
-                work, others, stolen = (self.missed_by[name] for name in CAUSES)
+                ran, others, stolen = (self.missed_by[name] for name in CAUSES)
                 rows.append(
-                    f"  because of the work of a step: {work}; other programs: {others}; the processor stood still, as "
-                    f"where the host of a virtual machine takes it: {stolen}"
+                    f"  while the step ran, by its work, interrupts or a host untold: {ran}; other programs: {others}; "
+                    f"the processor stood still, as where the host of a virtual machine takes it: {stolen}"
                 )
             if self.skipped:
                 rows.append(

@@ -15,7 +15,7 @@ from hosts.common.options import Wishes
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.format import is_recording
-from hosts.recordings.recorded_view import recorded_view
+from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.recorded import Table, read_table
 from viewer.recording import Recording
 
@@ -117,31 +117,35 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     record = _record(record_file) if record_file.is_file() else None
     units: dict[str, str] = dict(table.units)
     told: list[str] = []
+    source: Path | None = None
     scene: dict[str, Any] | None = None
     settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
-    if geometry is None and record is None and record_file.is_file():
-        geometry = record_file  # a scene, as it is read below
-    if geometry is not None:
-        scene = scene_from(geometry, settings)
-        if scene is None:
-            told.append(_foreign(geometry))
-    elif record is not None:
-        fmu = _fmu_of(record, record_file)
-        described, same = _units(fmu, str(record.get("token", "")))
-        units = described | units
+    if record is not None:
+        source = geometry or _fmu_of(record, record_file)
+        scene = scene_from(source, settings, record.get("world"))
+        if zipfile.is_zipfile(source):
+            described, same = _units(source, str(record.get("token", "")))
+            units = described | units
+            if not same:
+                told.append(other_build(source, name))
         _add_names_of_fmu(table, units, record, record_file)
-        scene = scene_of(fmu, settings, record.get("world"))
-        if scene is None:
-            told.append(_foreign(fmu))
-        else:
+        if scene is not None:
             scene = _with_marks(_with_course(scene, record, record_file), record, record_file)
-        if not same:
-            told.append(f"{fmu} was built again since {name} was recorded; what is drawn is that of the new build.")
+    elif geometry is not None or record_file.is_file():
+        source = geometry or record_file  # a scene
+        scene = scene_from(source)
+        if scene is not None and scene.get("roads") and zipfile.is_zipfile(source):
+            told.append(
+                f"{table_file} has no record {record_file.name} beside it that says where it ran: what is drawn of the "
+                f"ground is that of {source} as it was built."
+            )
     else:
         told.append(
             f"{table_file} has no record {record_file.name} beside it that names its FMU, and no scene of that name: "
             "its signals can be plotted, and nothing is drawn; --geometry FILE names an FMU or a scene."
         )
+    if source is not None and scene is None:
+        told.append(_foreign(source))
     recording = Recording(scene, table.t, table.columns, units, name)
     if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:
         why = recording.missing[-1]["why"].rstrip(".") if recording.missing else "no shape has a pose"

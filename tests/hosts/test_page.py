@@ -190,6 +190,32 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     assert f"{of_world} is the record of another line.road than that beside it" in notes_of([recording])[0]
 
 
+def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: Path, tmp_path: Path) -> None:
+    """As the sentence about an FMU that has moved asks for; without a record the ground is not known, which is said."""
+    level = {"kind": "plane", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}
+    fmu = changed(tuned, tmp_path, same, DRAWING | {"up": [0, 0, 1], "planar": False, "roads": [level]})
+    result = tmp_path / "drive.csv"
+    result.write_text("time,height\n0,1\n1,2\n")
+    circle = {"kind": "circle", "centre": [0.0, 0.0], "radius": 10.0}
+    course = {"track": "ISO 3888-1", "vehicle_width": 1.8}
+    record = {"fmu": "gone.fmu", "set": [], "token": "{another}", "marks": [circle], "course": course}
+    result.with_suffix(".json").write_text(json.dumps(record))
+
+    def drawn() -> tuple[list[str], list[str]]:
+        (recording,), told = recordings_of([result], fmu, RunWishes(None, None, None, Wishes([], [])))
+        assert recording.scene is not None
+        return [item["kind"] for item in recording.scene.get("scenery", [])], told
+
+    kinds, (sentence,) = drawn()
+    assert kinds.count("cone") == 34
+    assert "line" in kinds
+    assert sentence == f"{fmu} is another FMU than that of drive, or was built again since; what is drawn is its own."
+    result.with_suffix(".json").unlink()
+    kinds, (sentence,) = drawn()
+    assert kinds == []
+    assert sentence.startswith(f"{result} has no record drive.json beside it that says where it ran: ")
+
+
 def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned: Path, tmp_path: Path) -> None:
     fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
     results = []

@@ -61,6 +61,15 @@ def test_the_scene_of_a_car_is_one(car: str) -> None:
     assert not [shape for shape in found["shapes"] if shape["kind"] == "wheel" and not 0.2 < shape["radius"] < 0.4]
 
 
+def test_a_long_car_is_no_higher_than_its_wheels_let_it_be() -> None:
+    """Of the 320i no height is known."""
+    car = load("commonroad_320i")
+    long = car.changed({"vehicle.length": 5.5})
+    heights = [BodyShell(made).height for made in (car, long)]
+    assert heights[0] == heights[1] == pytest.approx(1.51, abs=0.05)
+    assert BodyShell(car.changed({"vehicle.length": 3.5})).height == pytest.approx(1.26)
+
+
 @pytest.mark.parametrize("car", [name for name in car_names() if load(name).linked])
 def test_rods_springs_and_wheels_are_at_the_hard_points(car: str) -> None:
     made = load(car)

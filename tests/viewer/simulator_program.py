@@ -14,6 +14,13 @@ from viewer.simulator_page import simulator_html
 
 ADDRESS = "http://simulator.test"
 RUNNING, REFUSED, BEHIND = 1, 2, 4
+_BINS = [[2e-5, 3], [5e-5, 4000], [1e-4, 900], [8e-4, 12], [1.9e-3, 1], [4e-3, 2]]
+_SPREAD = {"median": 6e-5, "p99": 2e-4, "p999": 9e-4, "largest": 4e-3, "bins": _BINS}
+REPORT: dict[str, Any] = {
+    **{"type": "report", "step": 0.002, "steps": 4918, "simulated": 9.836, "wall": 9.84, "missed": 2},
+    **{"missed_by": {"ran": 1, "others": 0, "stolen": 1}, "cost": _SPREAD, "lateness": _SPREAD},
+}
+"""Times of the steps."""
 _HEADER = struct.Struct("<4I10d")
 
 

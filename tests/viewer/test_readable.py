@@ -21,7 +21,7 @@ from hosts.view.command import main as view
 from tests.in_browser import axe_findings, wait_until, with_axe
 from tests.viewer.bars import check_bar
 from tests.viewer.hand_scenes import crank
-from tests.viewer.simulator_program import Program
+from tests.viewer.simulator_program import REPORT, Program
 from viewer.page_file import write_page
 from viewer.recording import Recording
 
@@ -79,6 +79,7 @@ def open_simulator(page: Any) -> None:
     program = Program(page, crank(np.linspace(0.0, 1.0, 11)), world=world)
     program.open()
     program.send(0.5, 0)
+    program.say(REPORT)
 
 
 def use_colours(page: Any, kind: str, colours: str) -> None:
@@ -195,6 +196,8 @@ def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
 @pytest.mark.parametrize("colours", ["light", "dark"])
 def test_axe_finds_nothing(shown: Any, kind: str, colours: str) -> None:
     use_colours(shown, kind, colours)
+    if kind == "simulator" or colours == "dark":  # scroll bars and fields too
+        assert "dark" in shown.evaluate("bar => getComputedStyle(document.querySelector(bar)).colorScheme", BARS[kind])
     assert findings(shown) == []
     shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(true)")
     assert findings(shown) == [], "with the list of keys over it"

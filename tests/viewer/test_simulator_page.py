@@ -10,7 +10,7 @@ import pytest
 
 from benchmarks.car import manoeuvres
 from tests.in_browser import picture_of_simulator, wait_until
-from tests.viewer.simulator_program import BEHIND, REFUSED, RUNNING, Program
+from tests.viewer.simulator_program import BEHIND, REFUSED, REPORT, RUNNING, Program
 from viewer.recording import Recording
 
 PLACES = [{"name": "start", "x": 0.0, "y": -60.0, "yaw": 0.0}, {"name": "hill_20", "x": 120.0, "y": 80.0, "yaw": 0.0}]
@@ -451,11 +451,8 @@ class TestOnePage:
         shared.page.wait_for_timeout(50)
         assert {"type": "report"} in shared.heard
         assert {"type": "watch devices", "on": True} in shared.heard
-        bins = [[2e-5, 3], [5e-5, 4000], [1e-4, 900], [8e-4, 12], [1.9e-3, 1], [4e-3, 2]]
-        spread = {"median": 6e-5, "p99": 2e-4, "p999": 9e-4, "largest": 4e-3, "bins": bins}
-        times = {"step": 0.002, "steps": 4918, "simulated": 9.836, "wall": 9.84, "missed": 2}
-        times["missed_by"] = {"work": 1, "others": 0, "stolen": 1}
-        shared.say({"type": "report", **times, "cost": spread, "lateness": spread})
+        bins = REPORT["cost"]["bins"]
+        shared.say(REPORT)
         shared.page.wait_for_selector('[data-a3="histogram"] rect')
         bars = shared.ask(
             "[...document.querySelectorAll('[data-a3=\"histogram\"] rect')].map(r => r.getAttribute('fill'))"
@@ -463,7 +460,7 @@ class TestOnePage:
         assert len(bars) == len(bins)
         assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
         assert "0.06 · 0.2 · 0.9 · 4 ms" in shared.text("report")
-        assert "work 1 · other programs 0 · processor taken 1" in shared.text("report")
+        assert "the step ran 1 · other programs ran 0 · the processor stood 1" in shared.text("report")
         words, tops = shared.ask("""() => {
           const all = name => [...document.querySelectorAll(`[data-a3="histogram"] ${name}`)];
           const number = (part, name) => Number(part.getAttribute(name));

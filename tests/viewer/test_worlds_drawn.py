@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from typing import Any
 
@@ -16,6 +17,14 @@ pytestmark = pytest.mark.slow
 
 # Whole periods of all layers of the pattern of surfaces: 1.3, 8.9, 61 and 273 m.
 FAR = 1_482_117.0
+_FROM = """([place, ahead]) => {
+  const { current } = view.cameras;
+  current.position.set(...place);
+  current.up.set(0, 0, 1);
+  current.lookAt(...ahead);
+  current.updateMatrixWorld();
+  view.renderer.render(view.world, current);
+}"""
 
 
 def world(**parts: Any) -> dict[str, Any]:
@@ -69,6 +78,20 @@ def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, qual
         colour = around(picture, drawn.project((4.0, 10.0 * NAMES.index(name) - 35.0, 0.0)), 0)
         blue[name] = colour[2] / colour[0]
     assert blue["wet"] > blue["asphalt"] + 0.1
+
+
+@pytest.mark.parametrize("eye", [(10.0, 12.0, 1.5), (0.0, 6.0, 3.0)])
+def test_between_two_surfaces_of_one_channel_there_is_no_third(drawn, eye):
+    """Gravel and concrete, lanes side by side: what has neither is asphalt, which is darker."""
+    drawn.show(world(roads=[terrain()], extent=62.0), at(0, 0, 0), quality="draft")
+    drawn.picture()
+    from PIL.Image import open as open_picture
+
+    drawn.ask(_FROM, [eye, [25.0, 11.0, 0.0]])
+    seen = np.asarray(open_picture(io.BytesIO(drawn.page.screenshot())).convert("L")).astype(int)
+    edge = [drawn.project((x, 7.0, 0.0)) for x in np.linspace(14.0, 60.0, 2000)]
+    near = np.array([seen[round(v), round(u) - 2 : round(u) + 3] for u, v in edge if 3 < u < 316 and 0 < v < 179])
+    assert near.min() > 0.75 * np.median(near)
 
 
 def test_the_ground_is_as_high_as_its_points(drawn):

@@ -64,7 +64,8 @@ GAP = 0.02  # m between an arch and what the cabin opens
 DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
 RIM = 4  # cross-sections of the lower body: its points from here on are over the cabin
 FRONT_OVERHANG = 0.53  # share of both overhangs
-SLIM = 0.36  # height over length where nothing tells it
+SLIM = 0.36  # height over length, and at most
+TALL = 4.4  # height over the radius of a front tyre, where nothing tells it
 
 
 @dataclass(frozen=True)
@@ -75,13 +76,14 @@ class BodyShell:
 
     @property
     def height(self) -> float:
-        """Of the roof, m: that of the highest point that may touch the ground, if the file has one up there."""
+        """Of the roof, m: of the highest point that may touch the ground if up there, else by length and wheels."""
         contact = self.car.chassis.ground_contact
         points = (
             [p[2] + contact.radius for p in contact.points if not isinstance(p, str)] if contact is not None else []
         )
         highest = max(points, default=0.0)
-        return highest if highest > 0.25 * self.car.vehicle.length else SLIM * self.car.vehicle.length
+        guess = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
+        return highest if highest > 0.25 * self.car.vehicle.length else guess
 
     @property
     def rear_end(self) -> float:

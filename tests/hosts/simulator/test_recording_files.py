@@ -163,8 +163,7 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
     assert "does not say the columns" in refused(columns=None)
     assert "does not say by 'every' how many steps lie between two values" in refused(every=[0, 1])
     assert "does not say by 'every' and 'left_out' what of the columns is recorded" in refused(every=[1])
-    values = len(meta["columns"])
-    assert f"a row has {values} values; recording.json names 1 columns" in refused(columns=["steering"], every=[1])
+    assert "is of another recording: it has " in refused(columns=["steering"], every=[1])
     assert "was recorded from gone.fmu, which is not there any more; name the FMU" in refused(fmu="gone.fmu")
     assert "lacks variables of the recording" in refused(columns=["x", *meta["columns"][1:]])
     (folder / "recording.json").write_text("{")
@@ -178,6 +177,50 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
         read_recording(folder).rows()
     with pytest.raises(HostError, match="holds a recording already"):
         Recorder(folder, ["u"], {}, meta)
+
+
+def _in_parts(folder: Path, names: list[str]) -> list[Path]:
+    """A recording that was not closed, in three parts of four steps."""
+    Recorder(folder, names, {}, {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}).close()
+    (folder / "inputs_outputs.parquet").unlink()
+    table = ParquetTable(folder, names, {})
+    for counts in np.split(np.arange(12), 3):
+        table.write(Rows(0.01 * counts, counts, 0 * counts, np.ones((4, len(names)))))
+    return sorted((folder / "parts").iterdir())
+
+
+def test_parts_in_another_order_or_of_another_recording_are_refused(tmp_path: Path) -> None:
+    _, second, third = _in_parts(tmp_path / "drive", ["u", "y"])
+    _, foreign, _ = _in_parts(tmp_path / "other", ["u", "z"])
+    _, wider, _ = _in_parts(tmp_path / "wider", ["u", "y", "z"])
+    drive, own = read_recording(tmp_path / "drive"), second.read_bytes()
+    assert drive.rows().steps.tolist() == list(range(12))
+    second.write_bytes(foreign.read_bytes())
+    with pytest.raises(HostError, match=r"000002.parquet is of another recording: it has 'z', its description 'y'"):
+        drive.rows()
+    second.write_bytes(wider.read_bytes())
+    with pytest.raises(HostError, match=r"000002.parquet is of another recording: it has 'z', its description 'no "):
+        drive.rows()
+    second.write_bytes(third.read_bytes())
+    third.write_bytes(own)
+    with pytest.raises(HostError, match=r"step 4 stands after step 11: its parts are out of order"):
+        drive.rows()
+
+
+def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
+    drive = Drive(fmus["sledge"], tmp_path / "drive", None, {})
+    drive.steps(10)
+    row, drive.recorder.row = drive.recorder.row, lambda *_: None  # type: ignore[method-assign]
+    drive.steps(3)
+    drive.recorder.row = row  # type: ignore[method-assign]
+    drive.steps(5)
+    drive.close()
+    step = read_recording(tmp_path / "drive").step
+    _, told = recorded_view(tmp_path / "drive", "drive")
+    gap = f"first from {10 * step:g} s to {14 * step:g} s"
+    assert [gap in sentence for sentence in told].count(True) == 1
+    whole_drive(fmus["sledge"], tmp_path / "whole")
+    assert not any("are missing" in sentence for sentence in recorded_view(tmp_path / "whole", "whole")[1])
 
 
 def test_a_row_that_is_missing_is_told(fmus: dict[str, Path], tmp_path: Path) -> None:
@@ -273,7 +316,7 @@ def test_a_view_draws_straight_between_outputs_and_flexible_parts_rigid(
     every = dict.fromkeys(whole.inputs, 1) | {drawn: 2, other: 6}
     folder = whole_drive(fmus["sledge"], tmp_path / "drive", None, every)
     scene = {"flexible": [{"amplitudes": [amplitude], "computed": "computed"}]}
-    monkeypatch.setattr("hosts.recordings.recorded_view.scene_of", lambda fmu, start, world: scene)
+    monkeypatch.setattr("hosts.recordings.recorded_view.scene_from", lambda fmu, start, world: scene)
     made: dict[str, Any] = {}
 
     def recording(scene: Any, t: Any, columns: Any, units: Any, name: str) -> SimpleNamespace:

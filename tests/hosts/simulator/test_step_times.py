@@ -56,7 +56,7 @@ def test_text_tells_both_times_and_what_was_lost() -> None:
     for name, amount in {"simulated": 0.2, "scheduled": 0.4, "wall": 0.5, "paused": 7.0}.items():
         times.add(name, amount)
     assert "limit of iterations" not in StepTimes.of(values, 0.002, True).text()
-    assert "because of" not in StepTimes.of(values, 0.002, True).text()
+    assert "while the step ran" not in StepTimes.of(values, 0.002, True).text()
     for name, amount in {"missed": 25, "stolen": 20, "others": 5, "skipped": 2, "lost": 0.1, "capped": 7}.items():
         times.add(name, amount)
     times.raise_to("capped_largest", 2e-4)
@@ -68,8 +68,9 @@ def test_text_tells_both_times_and_what_was_lost() -> None:
     times.add("scheduled", -0.2)
     assert "slow motion" not in StepTimes.of(values, 0.002, True).text()
     assert "missed deadlines: 25 of 125 (20 %)" in text
-    assert "the work of a step: 0; other programs: 5; the processor stood still" in text
-    assert StepTimes.of(values, 0.002, True).report()["missed_by"] == {"work": 0, "others": 5, "stolen": 20}
+    assert "or a host untold: 0; other programs: 5; the processor stood still, as where" in text
+    assert "takes it: 20" in text
+    assert StepTimes.of(values, 0.002, True).report()["missed_by"] == {"ran": 0, "others": 5, "stolen": 20}
     assert StepTimes.of(values, 0.002, True).report()["factor"] == pytest.approx(0.4)
     assert "moved on 2 times, by 0.100 s in all; 0.800 of the speed" in text
     assert "at the limit of iterations: 7; the largest residual left was 0.2 mm" in text

@@ -163,8 +163,10 @@ test("of two surfaces that share a channel one is above the middle and the other
   for (const [k, name] of SURFACES.entries()) {
     const one = { origin: [0, 0], spacing: [1, 1], shape: [1, 1], classes: base64(classes.slice(k, k + 1)), names: SURFACES };
     const expected = [128, 128, 128, 128];
-    expected[k < 4 ? k : 7 - k] += k < 4 ? 127 : -127;
+    expected[k < 4 ? k : 7 - k] += k < 4 ? 127 : -63;
     assert.deepEqual([...shares(new SurfaceRaster(one)).pixels], expected, name);
+    const halves = { ...one, shape: [1, 2], classes: base64(Uint8Array.of(k, 7 - k)) };
+    assert.equal(shares(new SurfaceRaster(halves), 1).pixels[Math.min(k, 7 - k)], 160, `half ${name} is not neither`);
   }
 });
 

@@ -7,8 +7,9 @@ const MOST = 4096;
 const LAST = SURFACES.length - 1;
 
 /**
- * Shares of the surfaces. Two have one channel, 128 + 127 for all of the one and 128 - 127 for all of the other: the first
- * and the last of SURFACES, the second and the last but one, ... Such two seldom lie side by side; there the edge is hard.
+ * Shares of the surfaces. Two have one channel, 128 + 127 for all of the one and half as much below 128 for all of the
+ * other: the first and the last of SURFACES, the second and the last but one, ... Such two seldom lie side by side; there
+ * the edge is hard. Halves of both, as mipmaps have them, are then not the 128 of neither.
  * @param {import("./heights.js").SurfaceRaster} raster
  * @param {number} [most] points a side
  * @returns {{width: number, height: number, factor: number, pixels: Uint8Array}} rows along x; factor: averaged points
@@ -24,7 +25,7 @@ export function shares(raster, most = MOST) {
       const from = Math.min(i, raster.shape[0] - 1) * raster.shape[1] + Math.min(j, raster.shape[1] - 1);
       const place = places[raster.classes[from]] ?? 0;
       const to = 4 * (Math.floor(i / factor) * width + Math.floor(j / factor)) + Math.min(place, LAST - place);
-      sums[to] += 2 * place < LAST ? one : -one;
+      sums[to] += 2 * place < LAST ? one : -0.5 * one;
     }
   }
   const pixels = Uint8Array.from(sums, (value) => 128.5 + value);

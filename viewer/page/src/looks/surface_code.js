@@ -39,11 +39,12 @@ float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * ove
 `;
 
 /**
- * Shares of asphalt, grass, wet, gravel above zero and of dirt, paint, ice, concrete below it, as coverage.js has them.
+ * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them.
  * Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
  * @param {string} at @param {string} sharper
  */
-const sharesAt = (at, sharper) => `vec4 code = (texture2D(aShares, ${at}, ${sharper}) * 255.0 - 128.0) / 127.0;`;
+const sharesAt = (at, sharper) => `vec4 code = (texture2D(aShares, ${at}, ${sharper}) * 255.0 - 128.0) / 127.0;
+code = min(code, 2.0 * code);`;
 
 /** Place in the picture of the shares. */
 const PLACE = "vec2 at = ((spot - aCover.yx) / aCover.wz).yx;";
@@ -72,7 +73,7 @@ first *= first; first *= first; first *= first;
 second.z *= 1.0 + 0.7 * ragged;
 second *= second; second *= second; second *= second;
 rest *= rest; rest *= rest; rest *= rest;
-rest += 1e-20;
+rest += 1e-30;
 float total = rest + dot(first, vec4(1.0)) + dot(second, vec3(1.0));
 first /= total; second /= total; rest /= total;
 `;
@@ -126,7 +127,7 @@ float tone = texture2D(aPatches, vTone).r;
 ${sharesAt("vShares", "-2.0")}
 vec4 both = code * code;
 both *= both; both *= both;
-both.x += 1e-20;
+both.x += 1e-30;
 vec4 ones = both * step(0.0, code);
 vec4 others = both - ones;
 #ifdef A_PAINTED

@@ -84,12 +84,12 @@ export class Report {
       ["steps", `${steps} of ${milli(step)} ms`],
       ["simulated / wall", `${simulated.toFixed(2)} s / ${wall.toFixed(2)} s`],
       ["missed deadlines", `${missed} (${short((100 * missed) / steps)} %)`],
-      ...(missed && by ? [["because of", `work ${by.work} · other programs ${by.others} · processor taken ${by.stolen}`]] : []),
+      ...(missed && by ? [["late while", `the step ran ${by.ran} · other programs ran ${by.others} · the processor stood ${by.stolen}`]] : []),
       ["moved on", skipped ? `${skipped} times, because it was too late` : "never"],
       ["", "median · p99 · p99.9 · largest"],
       ["cost of a step", spread(cost)],
       ["late by", spread(lateness)],
-    ].map(([name, words]) => el("tr", {}, el("th", {}, name), el("td", {}, words)));
+    ].map(([name, words]) => el("tr", {}, el(name ? "th" : "td", {}, name), el("td", {}, words)));
     return this._body.replaceChildren(histogram(cost.bins, step), el("table", {}, ...rows));
   }
 }
