@@ -154,7 +154,7 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
   if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
   ali3_rows_times(S, in->J_tangent, x, in->gamma);
   ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
-  ali3_accelerate(in, iteration);
+  ali3_accelerate(in, iteration > 0);
   ali3_add(in->next.lam, change, nc);
   ali3_add(in->D, x, nq);
   return ALI3_OK;
