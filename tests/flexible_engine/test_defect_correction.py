@@ -1,5 +1,8 @@
-"""Iterations of a flexible car whose wheels turn and slide: gyroscopic moments and tyres are not in the tangent, and the
-slope of a sliding brake is a share of its secant until the rate cannot come back to where it sticks."""
+"""Iterations of a flexible car whose wheels turn and slide.
+
+Gyroscopic moments and tyres are not in the symmetric tangent, and the slope of a sliding brake is a share of its secant
+until its rate cannot come back to where it sticks.
+"""
 
 from __future__ import annotations
 
