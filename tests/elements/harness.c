@@ -50,12 +50,12 @@ EXPORT int32_t harness_start(int32_t type, const int32_t sizes[5], const double 
 
 EXPORT double harness_evaluate(int32_t type, int32_t accepted, int32_t discrete, const int32_t sizes[5],
                                const double *u, const double *ud, const double *y_old, double *y_new, double h,
-                               double wC, double wK, const double *real, const int32_t *integer, const double *input,
-                               int32_t road_type, int32_t road_nreal, const double *road_real, double *f, double *S,
-                               double *out) {
+                               double wC, double wK, double reach, const double *real, const int32_t *integer,
+                               const double *input, int32_t road_type, int32_t road_nreal, const double *road_real,
+                               double *f, double *S, double *out) {
   const ali3_element_type *t = ali3_element_type_get(type);
   const ali3_road road = {road_type, road_nreal, road_real, NULL, NULL};
-  ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, wC,
+  ali3_element_args a = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], u, ud, y_old, y_new, h, reach, wC,
                          wK,       real,     integer,  input,    &road,    f, S,  out,   0.0,   0, 0};
   memset(f, 0, (size_t)sizes[0] * sizeof *f);
   if (S) memset(S, 0, (size_t)(sizes[0] * sizes[0]) * sizeof *S);

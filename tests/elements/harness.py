@@ -151,6 +151,7 @@ class Element:
         inputs: ArrayLike = (),
         accept: bool = False,
         discrete: bool = False,
+        reach: float = 0.0,
     ) -> Result:
         e = self.element
         n = len(e.signals)
@@ -168,7 +169,7 @@ class Element:
             _doubles(ud),
             _doubles(e.states if y is None else y),
             y_new,
-            *(ctypes.c_double(v) for v in (h, wC, wK)),
+            *(ctypes.c_double(v) for v in (h, wC, wK, reach)),
             _constants(tuple(e.real)),
             _ints(e.integer),
             _doubles(given),

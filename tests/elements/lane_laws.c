@@ -24,9 +24,9 @@ static real *of(real *vector, const double *numbers, int32_t n) {
 
 EXPORT int32_t lanes_have_law(int32_t type) { return law_of(ali3_element_type_get(type)) != NULL; }
 
-/* sizes: nsig, nreal, nint, nstate, nout; weights: h, wC, wK; road: its numbers, then the factor of its friction */
+/* sizes: nsig, nreal, nint, nstate, nout; weights: h, wC, wK, reach; road: its numbers, then the factor of its friction */
 EXPORT void lanes_evaluate(int32_t type, const int32_t sizes[5], const double *u, const double *ud, const double *y,
-                           const double weights[3], const double *numbers, const int32_t *integer, const double *input,
+                           const double weights[4], const double *numbers, const int32_t *integer, const double *input,
                            int32_t road_type, const double *road, double *f, double *S, double *y_new, double *out,
                            double *potential) {
   real vector[6][MOST], made[4][MOST * MOST];
@@ -45,6 +45,7 @@ EXPORT void lanes_evaluate(int32_t type, const int32_t sizes[5], const double *u
                          .h = weights[0],
                          .wC = weights[1],
                          .wK = weights[2],
+                         .reach = ali3_same(weights[3]),
                          .real = of(vector[3], numbers, sizes[1]),
                          .integer = integer,
                          .input = of(vector[4], input, 4),

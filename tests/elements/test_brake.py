@@ -155,6 +155,13 @@ def test_tangent_is_exact_while_sticking_and_a_safe_secant_while_slipping() -> N
     eigenvalues = np.linalg.eigvalsh(r.S)
     assert eigenvalues[0] > -1e-12
     assert 0.5 * TORQUE / 30.0 < r.S[6, 6] / (0.5 * h) < 0.6 * TORQUE / 30.0
+    D = BRAKE.stick_damping + 0.5 * h * BRAKE.stick_stiffness
+    back = 30.0 - TORQUE / D  # rad/s to where it sticks
+    far = element(u, ud, [0.0, 0.0], h, 0.5 * h, 0.0, [1.0], reach=1.01 * back)
+    assert np.array_equal(far.S, r.S)
+    near = element(u, ud, [0.0, 0.0], h, 0.5 * h, 0.0, [1.0], reach=0.99 * back)
+    wanted = tangent_by_differences(element, u, ud, np.zeros(2), h, 0.5 * h, 0.0, [1.0])
+    assert np.max(np.abs(near.S - wanted)) < 1e-6 * np.max(np.abs(r.S))
 
 
 def test_bad_brakes_are_refused() -> None:

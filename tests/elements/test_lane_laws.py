@@ -80,9 +80,10 @@ def test_a_lane_has_the_bits_of_the_element_alone(name: str) -> None:
         y = 1e-2 * rng.choice([0.0, 1.0, 30.0], size=(WIDTH, slots)) * rng.normal(size=(WIDTH, slots))
         given = rng.choice([0.0, 0.1, 1.0], size=(WIDTH, 4))
         h = float(rng.choice([0.0, 1e-3, 1e-2]))
-        found = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h), given)
+        reach = float(rng.choice([0.0, 0.1, 10.0]))
+        found = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h, reach), given)
         for k in range(WIDTH):
-            alone = element(u[k], ud[k], y[k], h, 0.5 * h, 0.25 * h * h, given[k])
+            alone = element(u[k], ud[k], y[k], h, 0.5 * h, 0.25 * h * h, given[k], reach=reach)
             expected = [alone.f, alone.S.ravel(), alone.y, np.array([*alone.out.values()]), np.array([alone.potential])]
             for got, wanted in zip(found, expected, strict=True):
                 assert got[k, : wanted.size].tobytes() == wanted.tobytes(), (draw, k, u[k], ud[k])

@@ -56,7 +56,7 @@ static void evaluate(ali3_element_args *a) {
   a->out[2] = w;
   a->out[3] = -torque * w;
   if (!a->S) return; /* turning of f, g within the step is left out of the tangent */
-  const real slope = ali3_where(sticks, D, ALI3_SECANT_SHARE * D * (bound / ali3_abs(trial)));
+  const real slope = ali3_slider_slope(sticks, D, trial, bound, a->reach);
   ali3_add_outer(a->S, 7, a->wC * slope, b);
 }
 

@@ -27,7 +27,7 @@ static void evaluate(ali3_element_args *a) {
   a->potential = 0.5 * p[STIFFNESS] * a->y_new[0] * a->y_new[0];
   a->out[0] = -force;
   a->out[1] = sticks && p[LARGEST] > 0.0;
-  if (a->S) a->S[0] = a->wC * (sticks ? D : ALI3_SECANT_SHARE * D * (p[LARGEST] / fabs(trial)));
+  if (a->S) a->S[0] = a->wC * ali3_slider_slope(sticks, D, trial, p[LARGEST], a->reach);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,

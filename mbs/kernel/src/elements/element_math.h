@@ -14,6 +14,14 @@ static inline real ali3_input_or_zero(const real *input, int32_t index) {
   return index >= 0 ? input[index] : ali3_same(0.0);
 }
 
+/* Slope of a slider of damping D over its rate, for the tangent: where the rate cannot come back to where it sticks, its
+ * own, which is none. */
+static inline real ali3_slider_slope(truth sticks, real D, real trial, real bound, real reach) {
+  const real size = ali3_abs(trial), none = {0};
+  const truth stays = (reach > 0.0) & (size - bound > D * reach);
+  return ali3_where(sticks, D, ali3_where(stays, none, ALI3_SECANT_SHARE * D * (bound / size)));
+}
+
 /* Pieces of the law of a slider: it sticks, or slips to one side; one that holds nothing has none. */
 enum { ALI3_STICKS = 1, ALI3_SLIPS_UP = 2, ALI3_SLIPS_DOWN = 4 };
 static inline void ali3_slider_piece(uint32_t *piece, truth sticks, real trial, real bound) {

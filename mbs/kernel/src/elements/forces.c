@@ -12,7 +12,8 @@
 
 /* Arguments that are the same for all elements. */
 static ali3_element_args common(const ali3_instance *in, const ali3_force_call *call) {
-  return (ali3_element_args){.h = call->h, .wC = call->wC, .wK = call->wK, .input = in->force_input, .roads = in->road};
+  return (ali3_element_args){
+      .h = call->h, .reach = call->reach, .wC = call->wC, .wK = call->wK, .input = in->force_input, .roads = in->road};
 }
 
 /* Those of element e at its own signals u and their rates ud; f and S live with the caller. */

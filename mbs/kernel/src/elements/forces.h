@@ -5,7 +5,7 @@
 
 typedef struct {
   const double *q, *qd, *y_old;
-  double h, wC, wK;
+  double h, wC, wK, reach;
   bool tangent;
   bool iterate; /* one of several: who goes on from the last of them calls ali3_forces_watch */
   double *Q, *y_new, *out, *potential;

@@ -135,8 +135,8 @@ static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.factorizations,
                          &g->report.solves,
                          &g->report.negative_pivots};
-  real **numbers[] = {&g->residual, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end, &g->open,
-                      &g->size,     &g->guides,    &g->gravity_const,      &g->weight};
+  real **numbers[] = {&g->residual, &g->reach, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end,
+                      &g->open,     &g->size,  &g->guides,    &g->gravity_const,      &g->weight};
   for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = items(g, pool, 1);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = items(g, pool, 1);
   g->squares = items(g, pool, 3);

@@ -78,7 +78,7 @@ typedef struct ali3_lane_group {
   struct {
     ali3_mask *factorizations, *solves, *negative_pivots;
   } report;
-  real *residual, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
+  real *residual, *reach, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
   real *gravity_const, *weight; /* energy of gravity without its linear part; at the end of a step */
   real *squares; /* 3, of balance_squares */
 } ali3_lane_group;

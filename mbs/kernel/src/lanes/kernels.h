@@ -82,6 +82,7 @@ static inline real ALI3_LANED(cosine)(real x) {
 #define ali3_flexible_tangent ALI3_LANED(flexible_tangent)
 #define ali3_defect_correction ALI3_LANED(defect_correction)
 #define ali3_elements_defect ALI3_LANED(elements_defect)
+#define ali3_history_miss ALI3_LANED(history_miss)
 #define ali3_history_smooth ALI3_LANED(history_smooth)
 #define ali3_extrapolate ALI3_LANED(extrapolate)
 

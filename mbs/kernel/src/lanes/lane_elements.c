@@ -5,10 +5,12 @@
 #include "../elements/road.h"
 #include "group.h"
 
-static ali3_force_call call_of(const ali3_lane_group *g, const ali3_instance *in) {
+static ali3_force_call call_of(const ali3_lane_group *g, int32_t l) {
+  const ali3_instance *in = g->lane[l];
   const ali3_vectors *to = &in->next;
   const ali3_force_call call = {.y_old = in->now.y,
                                 .h = g->h,
+                                .reach = g->reach[l],
                                 .wC = g->rule.wC,
                                 .wK = g->rule.c,
                                 .y_new = to->y,
@@ -43,7 +45,7 @@ static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int3
 void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   for (int32_t l = 0; l < g->width; l++) {
     if (!g->evaluated[l]) continue;
-    const ali3_force_call call = call_of(g, g->lane[l]);
+    const ali3_force_call call = call_of(g, l);
     one(g, &call, e, l, f, tangent);
   }
 }
@@ -75,7 +77,7 @@ void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const re
 void ali3_lane_elements_accept(ali3_lane_group *g, int32_t l) {
   ali3_instance *in = g->lane[l];
   const ali3_system *S = g->system;
-  const ali3_force_call call = call_of(g, in);
+  const ali3_force_call call = call_of(g, l);
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS];
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_kind[e]->accept == NULL) continue;

@@ -34,6 +34,7 @@ static void law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
                          .y_old = g->now.y + S->el_state_ptr[e],
                          .y_new = g->next.y + S->el_state_ptr[e],
                          .h = g->h,
+                         .reach = *g->reach,
                          .wC = g->rule.wC,
                          .wK = g->rule.c,
                          .real = g->el_real + S->el_real_ptr[e],
@@ -200,7 +201,7 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
 }
 
 /* One Newton correction (21) and the multiplier update of the lanes that are not finished; returns where it is finite. */
-static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t iteration) {
+static truth correct(ali3_lane_group *in, truth lanes, truth kept, truth mixes, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c, alpha = in->alpha;
@@ -215,7 +216,7 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t itera
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, in->h, iteration, lanes & finite);
   ali3_rows_times(S, in->J_tangent, x, in->gamma);
   for (int32_t k = 0; k < nc; k++) change[k] = alpha * (Phi[k] + gamma[k]);
-  ali3_accelerate(in, iteration);
+  ali3_accelerate(in, mixes);
   for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + change[k], lam[k]);
   for (int32_t i = 0; i < nq; i++) D[i] = ali3_where(lanes, D[i] + x[i], D[i]);
   return finite;
@@ -223,15 +224,16 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, int32_t itera
 
 static void newton(ali3_lane_group *in) {
   const double h = in->h;
-  truth active = *in->lanes, kept = {0};
+  truth active = *in->lanes, kept = {0}, mixes = {0};
   real before = ali3_same(HUGE_VAL);
   *in->good = *in->singular = *in->iterations = kept;
+  *in->reach = (real){0};
   evaluate(in, active, true);
   for (int32_t iteration = 0; iteration < in->settings.max_iterations && ali3_any(active); iteration++) {
     const truth renewed = active & ~kept;
     if (ali3_any(renewed)) tangent(in, renewed, iteration == 0);
     active &= ~*in->singular;
-    active &= correct(in, active, kept, iteration);
+    active &= correct(in, active, kept, mixes, iteration);
     *in->iterations -= active;
     evaluate(in, active, false);
     active &= judge(in);
@@ -239,6 +241,9 @@ static void newton(ali3_lane_group *in) {
     *in->good |= ended;
     active &= ~ended;
     kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4)) & (*in->residual <= KEPT_RESIDUAL * before);
+    const truth settles = ali3_settles(in->system, iteration + 1) ? *in->residual <= before : (truth){0};
+    mixes = kept | ~settles;
+    *in->reach = ali3_where(settles, REACH * in->rule.rate * *in->residual, (real){0});
     before = *in->residual;
     if (ali3_any(active & ~kept)) elements(in, active & ~kept, true);
   }

@@ -10,12 +10,13 @@
 static const double SLOW = 0.05; /* ratio of two corrections from which on convergence counts as linear */
 static const double LEAST = -100.0, MOST = 0.5; /* bounds of a mixing factor; -6 is a factor of 6/7 per iteration */
 
-/* in->x and in->lam hold the correction of D and of the multipliers; they become the step to take. */
-void ali3_accelerate(ali3_instance *in, int32_t iteration) {
+/* in->x and in->lam hold the correction of D and of the multipliers; they become the step to take. `mixes`: where the
+ * correction before this one tells of it. */
+void ali3_accelerate(ali3_instance *in, truth mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   real present = {0}, last = {0}, change = {0}, along = {0}, theta = {0};
-  if (iteration > 0) {
+  if (ali3_any(mixes)) {
     for (int32_t i = 0; i < nq; i++) {
       const real m = in->mass_floor[i], difference = in->x[i] - in->correction_q[i];
       present += m * in->x[i] * in->x[i];
@@ -23,7 +24,7 @@ void ali3_accelerate(ali3_instance *in, int32_t iteration) {
       change += m * difference * difference;
       along += m * in->x[i] * difference;
     }
-    const truth slow = (present > SLOW * SLOW * last) & (change > 0.0);
+    const truth slow = mixes & (present > SLOW * SLOW * last) & (change > 0.0);
     theta = ali3_where(slow, along / change, theta);
     theta = ali3_where((theta >= LEAST) & (theta <= MOST), theta, ali3_same(0.0));
   }

@@ -90,9 +90,9 @@ static ali3_status tangent(ali3_instance *in, double alpha) {
 }
 
 /* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->x then has
- * the judged residual. The Phi_q that the penalty multiplies is always that of the tangent: the penalty would amplify
- * what a later one has outside its range. */
-static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept) {
+ * the judged residual. `mixes`: the correction before it tells of it. The Phi_q that the penalty multiplies is always
+ * that of the tangent: the penalty would amplify what a later one has outside its range. */
+static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept, bool mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
@@ -110,7 +110,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t it
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->J_tangent, x, in->gamma);
     ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
-    ali3_accelerate(in, iteration);
+    ali3_accelerate(in, mixes);
     ali3_add(lam, change, nc);
   }
   ali3_add(D, x, nq);
@@ -131,13 +131,13 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
   const int64_t most = limited ? in->iterations_end - in->report.iterations : settings->max_iterations;
-  bool kept = false;
+  bool kept = false, mixes = false;
   double before = HUGE_VAL;
   evaluate(in, h, true);
   in->report.last_iterations = 0;
   while (in->report.last_iterations < most) {
     ali3_status status = kept ? ALI3_OK : tangent(in, alpha);
-    if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, kept);
+    if (status == ALI3_OK) status = correct(in, h, alpha, in->report.last_iterations, kept, mixes);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     in->report.iterations++;
     in->report.last_iterations++;
@@ -150,9 +150,12 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
       return ALI3_OK;
     kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4) &&
            in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
+    const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= before;
+    mixes = kept || !settles;
     before = in->report.residual;
     if (kept) continue;
-    const ali3_force_call call = call_of(in, h, true); /* cheaper than tangents that nothing asks for */
+    ali3_force_call call = call_of(in, h, true); /* cheaper than tangents that nothing asks for */
+    if (settles) call.reach = REACH * in->rule.rate * in->report.residual;
     ali3_elements_forces(in, &call);
   }
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;

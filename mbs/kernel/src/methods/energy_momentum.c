@@ -154,7 +154,7 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
   if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
   ali3_rows_times(S, in->J_tangent, x, in->gamma);
   ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
-  ali3_accelerate(in, iteration);
+  ali3_accelerate(in, iteration > 0);
   ali3_add(in->next.lam, change, nc);
   ali3_add(in->D, x, nq);
   return ALI3_OK;
@@ -222,7 +222,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
   const double alpha = 2.0 * weight / (h * h), refine = fmin(1.0, REFINE_COMPOSED * fabs(h));
   const double least_r = composed ? refine : REFINE_R * fabs(h), least_v = composed ? refine : REFINE_PHI;
   const int32_t most = composed ? REFINEMENTS_COMPOSED : REFINEMENTS;
-  double r, v, last = error(in, &r, &v), need = composed ? need_of(in, h) : HUGE_VAL;
+  double r, v, last = error(in, &r, &v), need = composed ? need_of(in, h) : 0.0;
   int32_t refinements = 0, worse = 0;
   bool fresh = true;
   for (int32_t k = 0; k < settings->max_iterations; k++) {
@@ -233,8 +233,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     evaluate(in, h);
     if (!ali3_judge(in, in->r)) return ALI3_NOT_FINITE;
     const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
-    const double change = change_of(in), left = change * fmin(1.0, ratio);
-    if (r <= least_r && v <= least_v && left <= need) return ALI3_OK;
+    if (r <= least_r && v <= least_v && (!composed || change_of(in) * fmin(1.0, ratio) <= need)) return ALI3_OK;
     if (last <= 1.0 && size > last) return undo(in, h);
     if (!patient && fresh && size > last && ++worse == MOST_WORSE) return ALI3_NOT_CONVERGED;
     const bool slow = k > 0 && ratio > SLOW;

@@ -20,19 +20,25 @@ void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
   }
 }
 
+/* in->w: the last mean acceleration without what the n steps before, with these weights, would have predicted. */
+void ali3_history_miss(const ali3_instance *in, int32_t n, const real *weight) {
+  const int32_t nq = in->system->size.nq;
+  const real *a = in->now.past_a, *before = a + nq, first = weight[0];
+  real *miss = in->w;
+  ALI3_EACH(0, nq, ALI3_AT(miss) = ALI3_AT(a) - first * ALI3_AT(before))
+  for (int32_t k = 1; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
+}
+
 /* Whether the n steps before the last would have predicted the last much better than assuming no change. */
 truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
-  const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a;
-  real *miss = in->w; /* by the steps before */
+  const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->w;
   real weight[ALI3_PAST], error = {0}, change = {0};
   const truth near =
       (history[ALI3_HISTORY_COUNT] > (double)n) & ((in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
-  const real *before = a + nq, first = weight[0];
-  ALI3_EACH(0, nq, ALI3_AT(miss) = ALI3_AT(a) - first * ALI3_AT(before))
-  for (int32_t k = 1; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
+  ali3_history_miss(in, n, weight);
   for (int32_t i = 0; i < nq; i++) {
     const real m = in->mass_floor[i], one = a[i] - a[nq + i];
     error += m * miss[i] * miss[i];

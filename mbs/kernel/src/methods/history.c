@@ -39,12 +39,10 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
   for (int32_t m = n - 1; m > 0; m--) {
     double error = 0.0, square = 0.0;
     ali3_lagrange(time + 1, m, time[0], weight);
+    ali3_history_miss(in, m, weight);
     for (int32_t i = 0; i < nq; i++) {
-      const double last = v->past_a[i];
-      double miss = -last;
-      for (int32_t k = 0; k < m; k++) miss += weight[k] * v->past_a[(int64_t)(k + 1) * nq + i];
-      error += miss * miss;
-      square += last * last;
+      error += in->w[i] * in->w[i];
+      square += v->past_a[i] * v->past_a[i];
     }
     if (error < least) {
       least = error;
