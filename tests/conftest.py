@@ -137,7 +137,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     done its own: files with slow tests are dealt out to the beginnings of the parts.
     """
     files: dict[Path, list[pytest.Item]] = {}
-    for item in items:
+    for item in sorted(items, key=lambda item: item.path):  # each process has imported in another order
         files.setdefault(item.path, []).append(item)
     slow = {p: sum(item.get_closest_marker("slow") is not None for item in tests) for p, tests in files.items()}
     parts: list[list[pytest.Item]] = [[] for _ in range(getattr(config, "workerinput", {}).get("workercount", 1))]
@@ -149,9 +149,34 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = [item for part in parts for item in part]
 
 
+@functools.cache
+def _names_slow_tests(file: Path) -> bool:
+    return re.search(r"\bslow\b|\bquick\(", file.read_text(encoding="utf-8")) is not None
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """A run of slow tests alone imports only files that have some."""
+    alone = config.getoption("markexpr").startswith("slow") and collection_path.match("test_*.py")
+    return True if alone and not _names_slow_tests(collection_path) else None
+
+
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """No slow test stands in a file that a run of slow tests leaves out."""
+    if item.get_closest_marker("slow") is not None and not _names_slow_tests(item.path):
+        raise pytest.UsageError(f"{item.nodeid} is slow, and neither 'slow' nor 'quick(' stands in its file.")
+
+
 @pytest.hookimpl(wrapper=True)
-def pytest_collection() -> Generator[None, object, object]:
-    """No garbage is looked for among modules and tests, which all stay: that took a third of the time."""
+def pytest_collection(session: pytest.Session) -> Generator[None, object, object]:
+    """Each process of pytest-xdist begins to import in another folder, so that a fresh clone is compiled once by all.
+
+    No garbage is looked for among modules and tests, which all stay: that took a third of the time.
+    """
+    worker = getattr(session.config, "workerinput", None)
+    if worker is not None and session.config.args == session.config.getini("testpaths"):
+        folders = sorted(str(path) for path in Path(__file__).parent.iterdir() if any(path.rglob("test_*.py")))
+        first = len(folders) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]
+        session.config.args = [*folders[first:], *folders[:first]]
     gc.disable()
     try:
         return (yield)
