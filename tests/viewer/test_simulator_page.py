@@ -126,29 +126,21 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
 
 
 @pytest.mark.slow
-def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
+def test_a_broken_wire_is_said_and_mended_and_a_world_that_comes_then_is_no_longer_missed(program: Program) -> None:
+    page, words = program.page, "The drawing of the world cannot be had"
+    lost = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
     shown(program, 1.0, RUNNING)
-    program.sockets[-1].close()
-    said = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
-    assert "Trying again" in wait_until(program.page, said)
-    wait_until(program.page, f"player.cockpit && !({said})")
-    assert len(program.sockets) == 2
+    page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
+    for missed in (True, False):
+        page.evaluate("window.before = player.cockpit")
+        program.sockets[-1].close()
+        assert "Trying again" in wait_until(page, lost)
+        wait_until(page, f"player.cockpit !== window.before && !({lost})")
+        assert (words in program.text("events")) is missed
+    assert len(program.sockets) == 3
     program.epoch = 2
     shown(program, 0.5, RUNNING)
     assert int(program.text("speed")) > 0
-
-
-@pytest.mark.slow
-def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(program: Program) -> None:
-    page, words = program.page, "The drawing of the world cannot be had"
-    page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
-    before = "window.before = player.cockpit"
-    later = "player.cockpit !== window.before"
-    for missed in (True, False):
-        page.evaluate(before)
-        program.sockets[-1].close()
-        wait_until(page, later)
-        assert (words in program.text("events")) is missed
     program.errors.clear()  # the browser tells of the answer too
 
 

@@ -55,14 +55,13 @@ def level(car: Car) -> dict[str, float]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seeds", [2, pytest.param(4, marks=pytest.mark.proof)])
 @pytest.mark.parametrize("ported", CARS, indirect=True)
-def test_steps_jumps_nan_and_silence_at_every_port(ported: Path, seeds: int) -> None:
+def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
     values = [np.nan, np.inf, -np.inf, 1e6, -1e6, 0.0, 1.0, -1.0, 1e-300]
     with Car(ported, step=0.005) as car:
         ports = [name for name in ports_of(car) if name != "gear_request"]
         told = 0
-        for seed in range(seeds):
+        for seed in range(4):
             random = np.random.default_rng(seed)
             car.reset(**{"initial.speed": 10.0})
             given = level(car)
