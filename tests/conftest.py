@@ -149,23 +149,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = [item for part in parts for item in part]
 
 
-@functools.cache
-def _names_slow_tests(file: Path) -> bool:
-    return re.search(r"\bslow\b|\bquick\(", file.read_text(encoding="utf-8")) is not None
-
-
-def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """A run of slow tests alone imports only files that have some."""
-    alone = config.getoption("markexpr").startswith("slow") and collection_path.match("test_*.py")
-    return True if alone and not _names_slow_tests(collection_path) else None
-
-
-def pytest_itemcollected(item: pytest.Item) -> None:
-    """No slow test stands in a file that a run of slow tests leaves out."""
-    if item.get_closest_marker("slow") is not None and not _names_slow_tests(item.path):
-        raise pytest.UsageError(f"{item.nodeid} is slow, and neither 'slow' nor 'quick(' stands in its file.")
-
-
 @pytest.hookimpl(wrapper=True)
 def pytest_collection(session: pytest.Session) -> Generator[None, object, object]:
     """Each process of pytest-xdist begins to import in another folder, so that a fresh clone is compiled once by all.
