@@ -133,13 +133,14 @@ def wrong_parameters(name, groups):
 
 @cache
 def kinds(name):
-    """Of each parameter that changes a run: the template of its axle, the table's type and the key."""
+    """Of each parameter that changes a run: the template of its axle, its table's type and keys, and its own key."""
     car, found = load(name), {}
     sections = {s._path: s for s in sections_of(car) if s._path}
     for path in told(car):
         table = max((p for p in sections if path.startswith(f"{p}.")), key=len)
         suspension = getattr(sections.get(path.partition(".")[0]), "suspension", None)
-        found[path] = (type(suspension), type(sections[table]), path.removeprefix(table))
+        keys = frozenset(sections[table].model_fields_set)
+        found[path] = (type(suspension), type(sections[table]), keys, path.removeprefix(table))
     return found
 
 
