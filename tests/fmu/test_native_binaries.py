@@ -163,9 +163,9 @@ def test_a_state_goes_on_under_another_system(all_platforms: Path, tmp_path: Pat
     assert rows(linux, "load", "windows.state") == expected
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # all sources are named (`test_native_file.py`), and compiled by gcc for `test_stress`
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="FMPy compiles by CMake")
-@pytest.mark.parametrize("kind", ["native", pytest.param("fmi3", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("kind", ["native", "fmi3"])
 def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, kind: str) -> None:
     fmu = build("crane", kind)
     folder = native.unpack(fmu, tmp_path / "fmu")

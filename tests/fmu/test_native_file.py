@@ -55,6 +55,18 @@ def test_documents_obey_the_schemas(
     assert checker.validate(etree.parse(io.BytesIO(read(fmu, document)))), checker.error_log
 
 
+@pytest.mark.parametrize(
+    ("kind", "document", "element"),
+    [("native", "modelDescription.xml", "File"), ("fmi3", "sources/buildDescription.xml", "SourceFile")],
+)
+def test_documents_name_each_source(build: Callable[..., Path], kind: str, document: str, element: str) -> None:
+    """A host compiles those that are named."""
+    fmu = build("crane", kind)
+    named = [file.get("name") for file in ElementTree.fromstring(read(fmu, document)).iter(element)]
+    packed = [n.removeprefix("sources/") for n in names(fmu) if n.startswith("sources/") and n.endswith(".c")]
+    assert sorted(named) == sorted(packed) != []
+
+
 def columns_of(fmu: Path, file: str) -> Any:
     content = io.BytesIO(read(fmu, f"{LS_REF}/{file}"))
     return np.genfromtxt(content, delimiter=",", names=True, deletechars="", dtype=float)

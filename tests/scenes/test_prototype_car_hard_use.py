@@ -183,7 +183,7 @@ def _judge(r):
 @pytest.mark.filterwarnings("ignore:.*the rim is pressed in:mbs.RoadWarning")  # wild speeds over bumps of 0.16 m
 def test_wild_driving():
     rolled = 0
-    for seed in range(8):
+    for seed in range(4):  # each road with each step; longer ones are a proof
         for k, road in enumerate(ROADS):
             rolled += _judge(_wild(road, 0, STEPS[1 + (seed + k) % 3], seed, 6.0))[0]
     assert rolled > 0

@@ -14,7 +14,9 @@ import mbs
 from fmu_src.build.build import build_fmu
 from mbs.vehicle import load
 from tests.changed_parameters import SAME, Change, changes
+from tests.quick import quick
 
+CARS = ("prototype", "hatchback", "saloon", "commonroad_escort")
 MORE = 10.0  # kg
 KERB = {"road.kerb_x": ("position", 3.0), "road.kerb_height": ("step", 0.05)}
 """Numbers of the default road that are in no file."""
@@ -71,7 +73,7 @@ def rebuilt(car: Any) -> Callable[[Mapping[str, float]], mbs.System]:
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::mbs.ParameterWarning")  # values far from those of the car, to be seen
-@pytest.mark.parametrize("name", ["prototype", "hatchback", "saloon", "commonroad_escort"])
+@pytest.mark.parametrize("name", quick({"prototype", "hatchback"}, CARS, "proof"))
 def test_an_fmu_with_a_changed_parameter_is_a_car_rebuilt(name: str, tmp_path: Path) -> None:
     car = load(name)
     system = mbs.compile(car.model())

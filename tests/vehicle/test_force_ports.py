@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 import pytest
 
 import mbs
 from mbs.vehicle import Car, CarFileError
+from tests.quick import quick
 from tests.scenes.car import ON_ICE
 from tests.vehicle.second_tyres import drive, longest, saloon
 from tests.vehicle.test_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
 
+ORDERS = [*product((hatchback, saloon, rigid), (False, True))]
+"""Whether the tyre is stepped at once with the car, by the car."""
 STORED = {f"energy.{kind}" for kind in ("kinetic", "gravity", "elastic", "total")}
 
 
@@ -119,8 +123,7 @@ def test_copies_of_the_tyres_in_a_second_place_converge_to_the_closed_car() -> N
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("late", [False, True], ids=["in turn", "at once"])
-@pytest.mark.parametrize("make", [hatchback, saloon, rigid])
+@pytest.mark.parametrize(("make", "late"), quick({(hatchback, True), (saloon, False)}, ORDERS, "proof"))
 def test_a_wheel_is_calm_up_to_the_step_that_its_tyre_bears(make: Callable[[], Car], late: bool) -> None:
     """At 5 m/s, with forces that are held; an FMU tells from 0.85 of it on."""
     h = longest(make(), 5.0, slopes=False, late=late)

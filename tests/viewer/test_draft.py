@@ -196,7 +196,7 @@ def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
     _is_a_line(drawn, np.abs(with_it - drawn.picture()).max(axis=2) > 12, ends)
 
 
-@pytest.mark.parametrize("quality", ["draft", "low"])
+@pytest.mark.parametrize("quality", ["draft", pytest.param("low", marks=pytest.mark.proof)])
 def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
     def darkness(lift, away=0.0):
         numbers = {}

@@ -71,7 +71,7 @@ def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0, quali
     return int(count)
 
 
-@pytest.mark.parametrize("quality", ["draft", "low"])
+@pytest.mark.parametrize("quality", ["draft", pytest.param("low", marks=pytest.mark.proof)])  # low is drawn below
 def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn, quality):
     run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if x > 9.0 else 0.0, quality=quality)
     picture = drawn.picture()
@@ -95,6 +95,7 @@ def test_marks_of_a_draft_have_a_quarter_of_the_sections_and_the_same_ends(drawn
     assert (middle < 0.6 * beside).all(), "no gap in a mark"
 
 
+@pytest.mark.proof  # as `effects.test.js` has it
 def test_marks_do_not_appear_in_steady_driving_and_are_not_left_on_grass(drawn):
     assert run(drawn, "TyreMarks", "asphalt", lambda x: 0.01) == 0
     assert run(drawn, "TyreMarks", "grass", lambda x: -1.0) == 0

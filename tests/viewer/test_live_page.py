@@ -263,7 +263,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     opened.close()
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # two views are in the page with a table below, and `live.test.js` has one that stops
 def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
     car: Path, reach: Path, chromium: Any, tmp_path: Path
 ) -> None:
@@ -280,7 +280,7 @@ def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
     opened.close()
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # as `live.test.js` has it
 def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_path: Path) -> None:
     file = written([reach], tmp_path)
     for missing, script in (

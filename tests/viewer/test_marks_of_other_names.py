@@ -35,7 +35,7 @@ def braked(fmu: Path, names: str) -> Recording:
     return Recording(scene_of(fmu), STEP * np.arange(STEPS + 1), columns, name=names)
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # an FMU tells the names (`test_built_names.py`), the page reads them (`effects.test.js`)
 def test_a_run_with_the_names_of_carmaker_leaves_the_marks_of_ours(
     chromium: Any, prototype_fmu: Path, renamed_fmu: Callable[[str], Path], tmp_path: Path
 ) -> None:

@@ -96,7 +96,7 @@ def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> Non
 FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -0.08], "origin": [1e6, 0.0, 0.0]}
 
 
-@pytest.mark.parametrize("road", [{"kind": "flat"}, FAR_KERB])
+@pytest.mark.parametrize("road", [{"kind": "flat"}, pytest.param(FAR_KERB, marks=pytest.mark.proof)])
 def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
     made = run("straight", roads=[road], extent=3.8)
@@ -317,6 +317,7 @@ def test_the_floor_lies_below_short_peaks_and_below_ghosts(opened: Callable[...,
     assert -5.3 < opened(*runs)("() => window.player.view.floor") < -5.1
 
 
+@pytest.mark.proof  # as a peak, which lasts for one row
 def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], tmp_path: Path) -> None:
     falling = run("falls", T, roads=[])
     falling.columns["body.z"] = 0.5 - 4.9 * T**2

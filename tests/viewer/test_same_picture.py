@@ -72,7 +72,10 @@ def differing(one: np.ndarray, other: np.ndarray) -> int:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("camera", "quality"), [("chase", "low"), ("side", "draft"), ("wheel FL", "low")])
+@pytest.mark.parametrize(
+    ("camera", "quality"),
+    [("chase", "low"), ("side", "draft"), pytest.param("wheel FL", "low", marks=pytest.mark.proof)],
+)
 def test_the_same_instant_is_the_same_picture(viewed: Any, driven: Program, camera: str, quality: str) -> None:
     seen, met = picture_of_view(viewed, camera, quality), picture_of_drive(driven, camera, quality)
     assert np.ptp(seen, axis=(0, 1)).min() > 100, "there is something to be seen"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -125,29 +126,21 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
 
 
 @pytest.mark.slow
-def test_a_broken_wire_is_said_and_mended(program: Program) -> None:
+def test_a_broken_wire_is_said_and_mended_and_a_world_that_comes_then_is_no_longer_missed(program: Program) -> None:
+    page, words = program.page, "The drawing of the world cannot be had"
+    lost = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
     shown(program, 1.0, RUNNING)
-    program.sockets[-1].close()
-    said = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
-    assert "Trying again" in wait_until(program.page, said)
-    wait_until(program.page, f"player.cockpit && !({said})")
-    assert len(program.sockets) == 2
+    page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
+    for missed in (True, False):
+        page.evaluate("window.before = player.cockpit")
+        program.sockets[-1].close()
+        assert "Trying again" in wait_until(page, lost)
+        wait_until(page, f"player.cockpit !== window.before && !({lost})")
+        assert (words in program.text("events")) is missed
+    assert len(program.sockets) == 3
     program.epoch = 2
     shown(program, 0.5, RUNNING)
     assert int(program.text("speed")) > 0
-
-
-@pytest.mark.slow
-def test_a_world_that_comes_with_the_second_connection_is_no_longer_missed(program: Program) -> None:
-    page, words = program.page, "The drawing of the world cannot be had"
-    page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
-    before = "window.before = player.cockpit"
-    later = "player.cockpit !== window.before"
-    for missed in (True, False):
-        page.evaluate(before)
-        program.sockets[-1].close()
-        wait_until(page, later)
-        assert (words in program.text("events")) is missed
     program.errors.clear()  # the browser tells of the answer too
 
 
@@ -234,23 +227,25 @@ def test_instruments_map_and_keys_work_without_a_picture(chromium: Any, lane_cha
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("size", [(1280, 720), (390, 844), (844, 390)])
-def test_everything_fits_on_the_screen_and_nothing_lies_on_another(chromium: Any, lane_change: Recording, size) -> None:
-    context = chromium.new_context(viewport={"width": size[0], "height": size[1]}, has_touch=size[0] < 900)
+@pytest.mark.parametrize("sizes", [[(1280, 720)], [(390, 844), (844, 390)]], ids=["screen", "telephone"])
+def test_everything_fits_on_the_screen_and_nothing_lies_on_another(
+    chromium: Any, lane_change: Recording, sizes: list[tuple[int, int]]
+) -> None:
+    """A telephone has levers to touch, and is turned."""
+    levers = [f"lever {name}" for name in ("steering", "brake", "throttle")]
+    context = chromium.new_context(viewport={"width": sizes[0][0], "height": sizes[0][1]}, has_touch=len(sizes) > 1)
     program = Program(context.new_page(), lane_change, world=WORLD)
     program.open()
-    shown(program, 2.0)
-    boxes = program.page.evaluate(_BOXES, [*PARTS, "lever steering", "lever brake", "lever throttle"])
-    assert set(PARTS) <= set(boxes)
-    for name, (left, top, right, bottom) in boxes.items():
-        assert left >= 0, name
-        assert top >= 0, name
-        assert right <= size[0] + 0.5, name
-        assert bottom <= size[1] + 0.5, name
-    names = list(boxes)
-    for k, a in enumerate(names):
-        for b in names[k + 1 :]:
-            (l1, t1, r1, b1), (l2, t2, r2, b2) = boxes[a], boxes[b]
+    for turned, (width, height) in enumerate(sizes):
+        program.page.set_viewport_size({"width": width, "height": height})
+        shown(program, 2.0 + turned)
+        boxes = program.page.evaluate(_BOXES, [*PARTS, *levers])
+        assert set(boxes) == {*PARTS, *(levers if len(sizes) > 1 else ())}
+        for name, (left, top, right, bottom) in boxes.items():
+            assert min(left, top) >= 0, name
+            assert right <= width + 0.5, name
+            assert bottom <= height + 0.5, name
+        for (a, (l1, t1, r1, b1)), (b, (l2, t2, r2, b2)) in combinations(boxes.items(), 2):
             assert r1 <= l2 + 0.5 or r2 <= l1 + 0.5 or b1 <= t2 + 0.5 or b2 <= t1 + 0.5, f"{a} lies on {b}"
     assert program.errors == []
     context.close()

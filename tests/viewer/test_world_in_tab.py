@@ -92,7 +92,7 @@ def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, caps
     ("world", "words"),
     [
         (None, "There is no world '"),
-        ("version = 2\nbounds = [0, 0, 90, 90]", "version is 2; it must be 1"),
+        pytest.param("version = 2\nbounds = [0, 0, 90, 90]", "version is 2; it must be 1", marks=pytest.mark.proof),
         ("bounds = [-50000, -50000, 50000, 50000]\nspacing = [10, 10]", "is 100000 m x 100000 m; at most 100 km2"),
     ],
     ids=["missing", "newer", "100 km"],

@@ -19,7 +19,7 @@ from hosts.systems import CoupledFmus, write_ssp
 from tests.hosts.systems import controlled, trailer, weak_coupling
 from tests.hosts.systems.controlled import SYSTEMS, run
 from tests.hosts.systems.masters import MASTERS
-from tests.hosts.systems.on_off import SHORT, error, shifted, way
+from tests.hosts.systems.on_off import SHORT, WAY, error, shifted, way
 from tests.hosts.systems.twins import twin
 from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, parts_of, start_of
 from tests.quick import quick
@@ -231,13 +231,18 @@ def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(nam
 @pytest.mark.slow
 def test_a_law_that_is_on_or_off_comes_late_by_the_step_whatever_the_inputs_do() -> None:
     """Against steps of 0.1 ms: held inputs are the nearer the shorter the step, others are not nearer."""
-    assert 20.0 < way(SHORT) < 23.0, "it would coast 30 m"
+    assert 20.0 < WAY < 23.0, "it would coast 30 m"
     held = [error(h, "held") for h in (0.001, 0.002, 0.004, 0.01)]
     assert held == sorted(held)
     assert held[0] < 1.5e-3
     assert held[-1] < 1e-2
     assert error(0.002, "repeated") > 0.5 * held[1]
     assert error(0.01, "followed") > 0.5 * held[-1]
+
+
+@pytest.mark.proof
+def test_the_stored_way_is_that_of_steps_of_a_tenth_of_a_millisecond() -> None:
+    assert way(SHORT) == pytest.approx(WAY, rel=1e-6)
 
 
 @pytest.mark.slow

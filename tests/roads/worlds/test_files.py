@@ -174,8 +174,8 @@ COURSES = list(itertools.product(*map(enumerate, (OBSTACLES, APPROACHES, SPEEDS)
 @pytest.mark.parametrize(
     "courses",
     [
-        # each obstacle with each approach, each of both with each speed
-        pytest.param([c for c in COURSES if sum(k for k, _ in c) % 3 == 0], id="pairs", marks=pytest.mark.slow),
+        # each obstacle with each approach
+        pytest.param([c for c in COURSES if sum(k for k, _ in c) % 7 == 0], id="pairs", marks=pytest.mark.slow),
         pytest.param(COURSES, id="all", marks=pytest.mark.proof),
     ],
 )

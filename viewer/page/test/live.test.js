@@ -201,9 +201,10 @@ test("where one of two refuses, the other goes on; going back wakes it", () => {
   const engine = new Engine([mass(), other], 0.01);
   engine.restart({ u: 1 });
   engine.runs[1].slave.s.x = 0.5; // is there earlier
-  let refused = [];
-  while (!refused.length) refused = engine.advance();
+  let [refused, steps] = [[], 0];
+  for (; !refused.length; steps++) refused = engine.advance();
   assert.equal(refused[0].which, 1);
+  assert.equal(engine.k, steps); // the other has made this one
   assert.equal(engine.alive, true);
   const [at, stays] = [engine.k, engine.rows[1]];
   for (let n = 0; n < 10; n++) engine.advance();
