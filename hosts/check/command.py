@@ -7,7 +7,6 @@ chance (--soak).
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import time
 import zipfile
@@ -88,7 +87,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--bound",
         action="append",
         default=[],
-        type=_bound,
+        type=assignment,
         metavar="NAME=SHARE",
         help="largest error of a signal over its range in the table; * and ? in NAME stand for any letters; default: "
         "*=0.01; repeatable",
@@ -117,14 +116,6 @@ def _steps(text: str) -> int:
     if steps > _MOST_STEPS:
         raise argparse.ArgumentTypeError(f"the number of steps is {text}; it must be from 1 to {_MOST_STEPS}")
     return steps
-
-
-def _bound(text: str) -> tuple[str, float]:
-    """A pattern of names with the largest share that is allowed."""
-    name, share = assignment(text)
-    if not 0.0 <= share < math.inf:
-        raise argparse.ArgumentTypeError(f"{name} is {share:g}; a bound is a share of the range, from 0 on")
-    return name, share
 
 
 def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

@@ -46,11 +46,6 @@ class Deviation:
         return self.error / self.size
 
     @property
-    def part(self) -> float:
-        """Share over the bound, by which signals are in order; of a bound of 0 infinite where anything is off."""
-        return self.share / self.bound if self.bound else math.inf if self.share else 0.0
-
-    @property
     def good(self) -> bool:
         """Whether it is within its bound; what is no number is not."""
         return self.share <= self.bound
@@ -103,7 +98,7 @@ def deviations(
         _deviation(name, result, values[used], rows, nominals[name], bounded(name, bounds))
         for name, values in columns.items()
     ]
-    return sorted(found, key=lambda d: -d.part)
+    return sorted(found, key=lambda d: (d.good, -d.share / (d.bound or 1.0)))
 
 
 def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
