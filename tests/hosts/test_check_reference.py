@@ -153,6 +153,13 @@ def test_bounds_of_0_ask_for_the_same_bits(fmu: Path, result: Path) -> None:
         assert f"bob.y is {share}; a bound is a share of the range, from 0 on" in done.stderr
 
 
+def test_a_table_may_have_one_row(fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n1,0,9\n')
+    done = run(main, fmu, "--reference", tmp_path / "table.csv", "--step", 0.01)
+    assert done.returncode == 1
+    assert "1 beyond their bounds" in done.stdout
+
+
 def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
     assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
 
