@@ -98,7 +98,7 @@ def deviations(
         _deviation(name, result, values[used], rows, nominals[name], bounded(name, bounds))
         for name, values in columns.items()
     ]
-    return sorted(found, key=lambda d: -d.share / d.bound)
+    return sorted(found, key=lambda d: (d.good, -d.share / (d.bound or 1.0)))
 
 
 def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -58,6 +58,9 @@ def check_references(
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
     if not files:
         raise HostError(f"There is no table (.csv) in the folder {place}.")
+    for pattern, share in bounds:
+        if not 0.0 <= share < math.inf:
+            raise HostError(f"--bound {pattern} is {share:g}; a bound is a share of the range, from 0 on.")
     errors = []
     for file in files:
         try:
@@ -134,12 +137,8 @@ def check_reference(
         print(words)
     if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and manoeuvre is None]:
         print(f"inputs without a column, which keep their start values: {some_of(still)}")
-    if (
-        bad
-        and manoeuvre is None
-        and driven.inputs
-        and (apart := float(np.diff(times).max())) > (1.0 + _ROUND_OFF) * step
-    ):
+    apart = float(np.diff(times).max(initial=0.0))
+    if bad and manoeuvre is None and driven.inputs and apart > (1.0 + _ROUND_OFF) * step:
         print(f"between rows, up to {apart:g} s apart, inputs go straight: did those of the reference do so?")
     if left:
         print(f"not compared, for {path.name} has no such output: {', '.join(left)}")

@@ -199,7 +199,8 @@ def _judged(
         worse = without_each(free, r, parts, [unknowns[k].start - float(p[k]) for k in inside])
         changes = folds(free, r, parts).T
         for k, error, change in zip(inside, worse, changes, strict=True):
-            without[k], by_fold[k] = error / size, [float(p[k] + c) for c in change]
+            # A log that is met to the last bit leaves nothing to compare with.
+            without[k], by_fold[k] = error / size if size else math.nan, [float(p[k] + c) for c in change]
     finite = np.where(np.isfinite(errors) & (errors > 0.0), errors, 1.0)
     correlation = np.where(np.isfinite(spread), spread, 0.0) / np.outer(finite, finite)
     np.fill_diagonal(correlation, 1.0)

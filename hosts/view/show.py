@@ -84,6 +84,9 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
     if options.camera is not None:
         start["camera"] = options.camera
     if options.at is not None:
+        ends = min(float(r.t[0]) for r in recordings), max(float(r.t[-1]) for r in recordings)
+        if not ends[0] <= options.at <= ends[1]:
+            raise HostError(f"--at is {options.at:g} s; it was recorded from {ends[0]:g} s to {ends[1]:g} s.")
         start["time"] = options.at
     return start
 

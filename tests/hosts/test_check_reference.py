@@ -140,6 +140,26 @@ def test_an_angle_is_off_by_its_share_of_a_turn_where_whole_turns_are_left_out()
         assert found.share == pytest.approx(min(share, gap / 600.0, 1.0 - share), abs=1e-9)
 
 
+def test_bounds_of_0_ask_for_the_same_bits(fmu: Path, result: Path) -> None:
+    def change(heading: list[str], rows: list[list[str]]) -> None:
+        rows[3][heading.index("bob.y")] = "7"
+
+    done = run(main, fmu, "--reference", changed(result, change), "--bound", "*=1e-6", "--bound", "bob.?=0")
+    assert done.returncode == 1
+    assert done.stdout.splitlines()[1].startswith("BAD   bob.")
+    for share in ("inf", "nan", "-1"):
+        done = run(main, fmu, "--reference", result, "--bound", f"bob.y={share}")
+        assert done.returncode == 2
+        assert f"bob.y is {share}; a bound is a share of the range, from 0 on" in done.stderr
+
+
+def test_a_table_may_have_one_row(fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n1,0,9\n')
+    done = run(main, fmu, "--reference", tmp_path / "table.csv", "--step", 0.01)
+    assert done.returncode == 1
+    assert "1 beyond their bounds" in done.stdout
+
+
 def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
     assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
 

@@ -336,6 +336,7 @@ UNMET = [
     (["--manoeuvre", "slalom"], "results are shown as they are"),
     (["--geometry", "none.fmu"], "There is no file none.fmu."),
     (["--png", "p.png", "--at", "9"], "There is no picture at 9 s; it was recorded from 0 s to 1 s."),
+    (["--at", "9"], "--at is 9 s; it was recorded from 0 s to 1 s."),
     (["--gltf", "a.txt"], "a.txt must end with .glb or .gltf."),
 ]
 

@@ -13,6 +13,7 @@ from hosts.common.errors import HostError
 from hosts.compare.command import main
 from hosts.compare.fit import fit
 from hosts.compare.fit_words import fit_notes
+from hosts.compare.left_out import parts_of
 from hosts.compare.log import Signal
 from hosts.compare.unknown import Unknown
 from hosts.driving.co_simulation import run
@@ -48,6 +49,14 @@ def test_refused_starts_are_left_out_and_told() -> None:
     assert len(notes) == len(found.refused)
     assert float(notes[0].rpartition("rate = ")[2].split()[0]) > REFUSED
     assert found.found[0].value == pytest.approx(fitted(1.0, 1).found[0].value, abs=1e-4)
+
+
+def test_a_log_that_the_start_meets_to_the_last_bit_is_fitted() -> None:
+    signal = {"y": Signal("y", "y", "m", T, np.exp(-RATE * T))}
+    parts = parts_of(signal, [])
+    found = fit(signal, [Unknown("rate", "1/s", RATE, 0.5, 2.9, 1.0)], decaying, parts=parts)
+    assert (found.found[0].value, found.after, found.left_out) == (RATE, 0.0, {"y": 0.0})
+    assert not [note for note in fit_notes(found) if "does not pay" in note]
 
 
 def test_given_values_that_are_refused_end_the_fit() -> None:
