@@ -61,7 +61,7 @@ def mesh_road(
     Warns
     -----
     RoadWarning
-        A large gap is filled.
+        A large gap is filled, or what lies between pieces.
     """
     source, name = os.fspath(path), Path(path).name
     try:
@@ -148,6 +148,16 @@ def _filled(heights: Values, road: GridRoad, source: str) -> Values:
             raise RoadFileError(f"{source} has {gap} in its surface, with no triangle above or below; close the hole.")
         warnings.warn(
             f"{source} has {gap}; it is taken as what the road goes round and filled from its border.",
+            RoadWarning,
+            stacklevel=4,
+        )
+    pieces, number = ndimage.label(~missing, np.ones((3, 3)))
+    if number > 1:
+        sizes = np.bincount(pieces.ravel())[1:] * dx * dy
+        i, j = np.argwhere(pieces == 1 + np.argmin(sizes))[0].tolist()
+        warnings.warn(
+            f"{source} is in {number} pieces, the least of {sizes.min():.3g} m2 from x = {x0 + i * dx:.6g} m, "
+            f"y = {y0 + j * dy:.6g} m on; between them the road is filled from their borders.",
             RoadWarning,
             stacklevel=4,
         )

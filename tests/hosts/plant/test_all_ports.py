@@ -149,7 +149,10 @@ def test_a_step_that_is_long_for_a_tyre_is_told_once_at_each_wheel(
     ("every", "words"),
     [
         (1, None),
-        (4, "its forces come every 0.008 s: those of a tyre like the one left out that are held for longer than 7.4 ms"),
+        (
+            4,
+            "its forces come every 0.008 s: those of a tyre like the one left out that are held for longer than 7.4 ms",
+        ),
         (600, "are those of 0 s, and its wheel went 1"),
     ],
 )
