@@ -60,23 +60,25 @@ def test_a_port_that_nobody_sets_is_told_after_the_first_step(host, towed) -> No
     assert "'right.push' was not set" in one.messages[0]
 
 
-@pytest.mark.parametrize("every", [1, 3])
-def test_a_port_that_was_set_again_and_again_and_is_no_more_is_told_once(host, towed, every) -> None:
-    """After half a second more than it was ever not set for; one that was set once holds what it was meant to."""
+@pytest.mark.parametrize(("every", "then"), [(1, None), (3, None), (1, math.nan)])
+def test_a_port_that_was_set_again_and_again_and_is_no_more_is_told_once(host, towed, every, then) -> None:
+    """After half a second more than it was ever without a number; one that was set once holds what it was meant to."""
     h = host(towed).start({"left.push": 0.0, "right.push": 2.0})
     told = []
     for k in range(180):
         if k % every == 0 and (k < 60 or k > 160):
             h.set("left.push", math.nan if k == 30 else 3.0)
+        elif then is not None:
+            h.set("left.push", then)
         assert h.step(0.01 * k, 0.01) == OK
-        told.append(sum("no more" in text for text in h.messages))
+        told.append(sum("again and again" in text for text in h.messages))
     last = 60 - every
-    assert told.index(1) == pytest.approx(last + 50 + every + 1, abs=1)
+    assert told.index(1) == pytest.approx(last + 51 + 2 * every, abs=1)
     assert told[-1] == 1
-    (said,) = (text for text in h.messages if "no more" in text)
+    (said,) = (text for text in h.messages if "again and again" in text)
     assert said == (
-        f"The port 'left.push' was set again and again until {0.01 * last:g} s and no more since; it holds 3 N. "
-        "This is said once."
+        f"The port 'left.push' was given a number again and again until {0.01 * last:g} s and none since; it "
+        "holds 3 N. This is said once."
     )
 
 
@@ -97,7 +99,7 @@ def test_ports_that_fall_silent_together_are_one_sentence_of_a_state_too(host, t
     h.slave.freeFMUState(state)
     assert told[0] == told[1]
     (said,) = told[0]
-    assert said.startswith("2 ports were set again and again and are no more, 'left.push' since 0.19 s.")
+    assert said.startswith("2 ports were given numbers again and again and are no more, 'left.push' since 0.19 s.")
     assert said.endswith("as that one holds 9 N. This is said once.")
 
 

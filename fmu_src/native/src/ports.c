@@ -6,7 +6,7 @@
 enum { HABIT = 10 };               /* times that a port was set, after which its silence tells something */
 static const double SILENCE = 0.5; /* s, longer than between any of them */
 
-/* A port is set, to what it was or to another value. */
+/* A port is set to a finite number, to what it was or to another one. */
 void slave_port_given(slave *s, size_t i, bool changed) {
   slave_rhythm *r = &s->rhythm[i];
   const double now = s->calls.initialised ? ali3_time(s->fidelity.kernel) : s->calls.start_time;
@@ -39,12 +39,15 @@ static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
   const size_t i = (size_t)(first - slave_the_table.variable);
   const double given = s->rhythm[i].given, held = s->value[i];
   if (silent == 1)
-    slave_say(s, SLAVE_WARNING,
-              "The port '%s' was set again and again until %.6g s and no more since; it holds %g%s. This is said once.",
-              first->name, given, held, first->unit);
+    slave_say(
+        s, SLAVE_WARNING,
+        "The port '%s' was given a number again and again until %.6g s and none since; it holds %g%s. This is said "
+        "once.",
+        first->name, given, held, first->unit);
   if (silent > 1)
     slave_say(s, SLAVE_WARNING,
-              "%zu ports were set again and again and are no more, '%s' since %.6g s. Each holds its last value, as "
+              "%zu ports were given numbers again and again and are no more, '%s' since %.6g s. Each holds its last "
+              "value, as "
               "that one holds %g%s. This is said once.",
               silent, first->name, given, held, first->unit);
 }
