@@ -100,7 +100,7 @@ def test_ports_that_fall_silent_together_are_one_sentence_of_a_state_too(host, t
     assert told[0] == told[1]
     (said,) = told[0]
     assert said.startswith("2 ports were given numbers again and again and are no more, 'left.push' since 0.19 s.")
-    assert said.endswith("as that one holds 9 N. This is said once.")
+    assert said.endswith("as 'left.push' holds 9 N. This is said once.")
 
 
 def test_other_inputs_refuse_what_is_not_finite(host, towed) -> None:

@@ -28,7 +28,7 @@ static void say_first(slave *s, const slave_variable *first, size_t silent) {
     slave_say(s, SLAVE_WARNING,
               "The port '%s' was not set before the first step and holds %g%s until it is. This is said once.",
               first->name, held, first->unit);
-  if (silent > 1)
+  else
     slave_say(s, SLAVE_WARNING,
               "%zu ports were not set before the first step. Each holds its start value until it is set, as '%s' holds "
               "%g%s. This is said once.",
@@ -36,20 +36,18 @@ static void say_first(slave *s, const slave_variable *first, size_t silent) {
 }
 
 static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
-  const size_t i = (size_t)(first - slave_the_table.variable);
+  const ptrdiff_t i = first - slave_the_table.variable;
   const double given = s->rhythm[i].given, held = s->value[i];
   if (silent == 1)
-    slave_say(
-        s, SLAVE_WARNING,
-        "The port '%s' was given a number again and again until %.6g s and none since; it holds %g%s. This is said "
-        "once.",
-        first->name, given, held, first->unit);
-  if (silent > 1)
+    slave_say(s, SLAVE_WARNING,
+              "The port '%s' was given a number again and again until %.6g s and none since; it holds %g%s. This is "
+              "said once.",
+              first->name, given, held, first->unit);
+  else
     slave_say(s, SLAVE_WARNING,
               "%zu ports were given numbers again and again and are no more, '%s' since %.6g s. Each holds its last "
-              "value, as "
-              "that one holds %g%s. This is said once.",
-              silent, first->name, given, held, first->unit);
+              "one, as '%s' holds %g%s. This is said once.",
+              silent, first->name, given, first->name, held, first->unit);
 }
 
 /* After a step that began then: ports that nobody has set, or sets any more. The step is a good one all the same. */
@@ -68,6 +66,6 @@ void slave_watch_ports(slave *s, double begin) {
       if (stops++ == 0) stopped = &t->variable[i];
     }
   }
-  say_first(s, first, silent);
-  say_stopped(s, stopped, stops);
+  if (first != NULL) say_first(s, first, silent);
+  if (stopped != NULL) say_stopped(s, stopped, stops);
 }
