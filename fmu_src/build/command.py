@@ -77,7 +77,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         metavar="LIST",
         help="inputs of a CAR at which other programs take the place of its parts, as torque,brakes=pressure: torque "
         "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
-        "forces (=earth or =vehicle), wind, tyre, gear, clutch",
+        "forces (=earth or =vehicle), wind, tyre, gear, clutch, and outputs, which has none",
     )
     parser.add_argument(
         "--names",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -102,8 +103,9 @@ def read_urdf(
             raise ModelError(f"{file.name}: there is no joint '{name}'{did_you_mean(name, joints, known)}")
     for name, joint in joints.items():
         if joint.type not in (*TURNING, "prismatic"):
+            free = "; floating=True frees the root" if joint.type == "floating" else ""
             raise ModelError(
-                f"{file.name}: the joint '{name}' is {joint.type}; revolute, continuous and prismatic are read."
+                f"{file.name}: the joint '{name}' is {joint.type}; revolute, continuous and prismatic are read{free}."
             )
         if name in guides and joint.type == "prismatic":
             raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
@@ -134,8 +136,15 @@ def _read(file: Path) -> Any:
         import yourdfpy  # noqa: F401
     except ModuleNotFoundError as error:
         raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
-    try:  # the reader takes of a cut file what it understands; prefixes of robots are often of no namespace
-        expat.ParserCreate().Parse(read_bytes(file, _LARGEST, ModelError, file.name), True)
+
+    def element(tag: str, attributes: object) -> None:
+        if tag.startswith("xacro:"):
+            raise ModelError(f"{file.name} has the macro '{tag}'; expand it first: xacro {file.name} > robot.urdf.")
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = element
+    try:  # the reader takes what it understands; prefixes of robots are often of no namespace
+        parser.Parse(read_bytes(file, _LARGEST, ModelError, file.name), True)
     except expat.ExpatError as error:
         raise ModelError(f"{file.name} is damaged or no URDF file; as XML it ends with {error}.") from None
     found = read_foreign(file, reader)
@@ -147,6 +156,9 @@ def _read(file: Path) -> Any:
 def _tree(urdf: Any, what: str) -> dict[str, Any]:
     """The joint above each link, None of the root; from the root on."""
     links = [link.name for link in urdf.links]
+    for kind, names in (("links", links), ("joints", [joint.name for joint in urdf.joints])):
+        if twice := [name for name, times in Counter(names).items() if times > 1]:
+            raise ModelError(f"{what}: several {kind} are named '{twice[0]}'; names must differ.")
     above: dict[str, Any] = dict.fromkeys(links)
     for joint in urdf.joints:
         for end in (joint.parent, joint.child):

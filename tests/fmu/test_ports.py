@@ -60,6 +60,49 @@ def test_a_port_that_nobody_sets_is_told_after_the_first_step(host, towed) -> No
     assert "'right.push' was not set" in one.messages[0]
 
 
+@pytest.mark.parametrize(("every", "then"), [(1, None), (3, None), (1, math.nan)])
+def test_a_port_that_was_set_again_and_again_and_is_no_more_is_told_once(host, towed, every, then) -> None:
+    """After half a second more than it was ever without a number; one that was set once holds what it was meant to."""
+    h = host(towed).start({"left.push": 0.0, "right.push": 2.0})
+    told = []
+    for k in range(180):
+        if k % every == 0 and (k < 60 or k > 160):
+            h.set("left.push", math.nan if k == 30 else 3.0)
+        elif then is not None:
+            h.set("left.push", then)
+        assert h.step(0.01 * k, 0.01) == OK
+        told.append(sum("again and again" in text for text in h.messages))
+    last = 60 - every
+    assert told.index(1) == pytest.approx(last + 51 + 2 * every, abs=1)
+    assert told[-1] == 1
+    (said,) = (text for text in h.messages if "again and again" in text)
+    assert said == (
+        f"The port 'left.push' was given a number again and again until {0.01 * last:g} s and none since; it "
+        "holds 3 N. This is said once."
+    )
+
+
+def test_ports_that_fall_silent_together_are_one_sentence_of_a_state_too(host, towed) -> None:
+    """A state before the silence knows how often they were set."""
+    h = host(towed).start()
+    for k in range(20):
+        for port in PORTS:
+            h.set(port, float(k % 10))
+        h.step(0.01 * k, 0.01)
+    state, told = h.slave.getFMUState(), []
+    for _ in range(2):
+        h.slave.setFMUState(state)
+        h.messages.clear()
+        for k in range(20, 80):
+            h.step(0.01 * k, 0.01)
+        told.append(list(h.messages))
+    h.slave.freeFMUState(state)
+    assert told[0] == told[1]
+    (said,) = told[0]
+    assert said.startswith("2 ports were given numbers again and again and are no more, 'left.push' since 0.19 s.")
+    assert said.endswith("as 'left.push' holds 9 N. This is said once.")
+
+
 def test_other_inputs_refuse_what_is_not_finite(host, towed) -> None:
     assert host(towed).start().set("brake", math.nan) == ERROR
 

@@ -148,6 +148,8 @@ def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, l
     told = [text for text in h.messages if "tells that the last one was off" in text]
     assert len(told) == (last + new > 0.1)
     for text in told:
+        assert f"holds for {lead:.1f} steps ahead of its wheel" in text
+        assert f"ports.road_lead is {lead:g} now" in text
         found = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
         assert found == pytest.approx([last, new], abs=0.015)
 

@@ -148,6 +148,17 @@ def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
         (LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "c", ""), "joins the link 'c', which is not"),
         (LINK.format("b", 1.0), "2 links are no child of a joint"),
         (
+            "".join(LINK.format(n, 1.0) for n in "bc")
+            + "".join(JOINT.format("j", "revolute", *n, "") for n in ("ab", "bc")),
+            "several joints are named 'j'; names must differ",
+        ),
+        (2 * LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", ""), "several links are named 'b'"),
+        (LINK.format("b", 1.0) + JOINT.format("j", "floating", "a", "b", ""), "are read; floating=True frees the root"),
+        (
+            "<xacro:hand/>" + LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", ""),
+            "the macro 'xacro:hand'",
+        ),
+        (
             LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", '<mimic joint="k" multiplier="2"/>'),
             r"follows 'k' \(mimic\), which is no joint that moves; these are j",
         ),

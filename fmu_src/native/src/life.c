@@ -9,8 +9,9 @@ static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t numbers = t->n_variables + 2 * t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
+  const size_t rhythms = t->n_known * sizeof *s->rhythm;
   const size_t texts = t->n_texts * sizeof *s->text;
-  double *pool = s->memory.allocate(1, numbers * sizeof(double) + 2 * t->n_known + (size_t)z.ns + texts + 1);
+  double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythms + 2 * t->n_known + (size_t)z.ns + texts + 1);
   if (pool == NULL) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
@@ -20,7 +21,8 @@ static bool take_arrays(slave *s) {
   s->made_slope = s->slope + t->n_known * SLAVE_MOST_ORDERS;
   s->sensors = s->made_slope + t->n_known * SLAVE_MOST_ORDERS;
   s->direction = s->sensors + z.ns;
-  s->pending = (unsigned char *)(s->direction + z.nu);
+  s->rhythm = (slave_rhythm *)(s->direction + z.nu);
+  s->pending = (unsigned char *)(s->rhythm + t->n_known);
   s->said = s->pending + t->n_known;
   s->known = s->said + t->n_known;
   s->text = (slave_text_value *)(s->known + z.ns);
@@ -62,6 +64,7 @@ static void start_values(slave *s) {
   s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->said, 0, t->n_known);
+  memset(s->rhythm, 0, t->n_known * sizeof *s->rhythm);
   memset(s->slope, 0, 2 * t->n_known * SLAVE_MOST_ORDERS * sizeof(double)); /* and made_slope */
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;

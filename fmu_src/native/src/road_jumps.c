@@ -53,17 +53,18 @@ static double lifted(const slave *s, size_t i, const double *point) {
  * one at the end of its step, the new one at the start of its. */
 static void watch_bend(slave *s, size_t i) {
   const double *now = &s->value[i], *centre = &s->value[slave_the_table.variable[i].other];
-  double bend = 0.0, square = 0.0, above = 0.0, away = 0.0;
+  double bend = 0.0, square = 0.0, above = 0.0, away = 0.0, behind = 0.0, way[3];
   for (size_t k = 0; k < 3; k++) {
-    const double way = now[k] - reached(s, i + k);
-    square += way * way;
-    bend += way * (now[3 + k] - reached(s, i + 3 + k));
+    way[k] = now[k] - reached(s, i + k);
+    square += way[k] * way[k];
+    bend += way[k] * (now[3 + k] - reached(s, i + 3 + k));
   }
   if (s->made.n == 0 || !(fabs(bend) > BEND || fabs(lifted(s, i, now)) > BEND) || !slave_outputs(s)) return;
   for (size_t k = 0; k < 3; k++) above += now[3 + k] * (centre[k] - now[k]);
   for (size_t k = 0; k < 3; k++) {
     const double along = centre[k] - now[k] - above * now[3 + k];
     away += along * along;
+    behind += along * way[k];
   }
   const double start = 0.5 * bend * fmin(away / square, FARTHEST), end = start - lifted(s, i, centre);
   if (!(fabs(end) + 0.25 * fabs(start) > BEND)) return; /* a step makes more of its end */
@@ -71,10 +72,11 @@ static void watch_bend(slave *s, size_t i) {
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
             "of its step, and that it is off by %.2g mm itself; where the road goes on so, loads are off by 1 %% or "
-            "more. Ask at the point ahead, with ports.road_lead = 1 where an answer holds in the step that follows the "
-            "question, with 2 where all programs step at once, or take shorter communication steps. This is said "
-            "once.",
-            ali3_time(s->fidelity.kernel), slave_the_table.variable[i].name, 1e3 * fabs(end), 1e3 * fabs(start));
+            "more. It holds for %.1f steps ahead of its wheel, where 1 is best. Ask at the point ahead, with "
+            "ports.road_lead = 1 where an answer holds in the step that follows the question, with 2 where all "
+            "programs step at once, or take shorter communication steps; ports.road_lead is %g now. This is said once.",
+            ali3_time(s->fidelity.kernel), slave_the_table.variable[i].name, 1e3 * fabs(end), 1e3 * fabs(start),
+            0.0 + nearbyint(-10.0 * behind / square) / 10.0, s->value[s->lead_reference]);
 }
 
 /* Before a step, after normals are held: an answer that lifts its wheel at once, or takes the road away from it. The

@@ -97,7 +97,7 @@ enum {
   SLAVE_HELD_FLAT = 8,
   SLAVE_HELD_NORMAL = 16,
   SLAVE_FAR = 32, /* also of a hub: that it is slow for the step */
-  SLAVE_JUMPED = 64,
+  SLAVE_JUMPED = 64, /* also of a hub: that its forces stay what they are */
   SLAVE_TURNED = 128 /* also of y of an answer: that the road bends too much */
 }; /* bits of an input: set by the host, said once */
 enum { SLAVE_NOT_CAPPED, SLAVE_CAPPED, SLAVE_CAPPED_BADLY }; /* what was said of limited iterations */
@@ -134,6 +134,13 @@ typedef struct { /* of a motion that is made a second time with half the step, s
   bool alone; /* not all of an abrupt change was made twice: what steps tell themselves holds */
 } slave_half_steps;
 
+typedef struct { /* when an input at a port was set */
+  double given, longest; /* s: the last time; most of what lay between two of them */
+  double changed, span,
+      held; /* s: the last time to another value; from the one before to it; the less of the last two */
+  double times; /* how often, as far as it is counted; below 0: it was said that it is no more */
+} slave_rhythm;
+
 typedef struct { /* a System of the FMU at work */
   size_t number;
   ali3_system *system;
@@ -158,6 +165,7 @@ struct slave {
   double *value; /* per variable; the outputs are filled when they are asked for */
   double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
   double *made_slope; /* those of the last communication step */
+  slave_rhythm *rhythm; /* per known variable, of ports */
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *said; /* per known variable: SLAVE_GIVEN and what was said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
@@ -277,7 +285,10 @@ bool slave_event_told(const ali3_report *r);
 slave_status slave_say_event(slave *s, const ali3_report *r);
 void slave_watch_outputs(slave *s);
 void slave_watch_start(slave *s);
-void slave_watch_ports(slave *s);
+
+/* ports.c */
+void slave_port_given(slave *s, size_t i, bool changed);
+void slave_watch_ports(slave *s, double begin);
 
 /* wheel_answers.c: normals that are none hold the last ones; answers that jump or are far from a wheel, and steps that
  * are long for a tyre, are told */

@@ -24,7 +24,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 6, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 7, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -32,7 +32,8 @@ static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_t
 
 static size_t own_size(void) {
   const size_t n = slave_the_table.n_known;
-  return sizeof(header) + n * (1 + 2 * SLAVE_MOST_ORDERS) * sizeof(double) + 2 * n + texts_size();
+  return sizeof(header) + n * (1 + 2 * SLAVE_MOST_ORDERS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) +
+         texts_size();
 }
 
 static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
@@ -72,6 +73,7 @@ static void save(const slave *s, unsigned char *bytes) {
   put(&p, s->value, n * sizeof(double));
   put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
   put(&p, s->made_slope, n * SLAVE_MOST_ORDERS * sizeof(double));
+  put(&p, s->rhythm, n * sizeof *s->rhythm);
   put(&p, s->pending, n);
   put(&p, s->said, n);
   put(&p, s->text, texts_size());
@@ -116,7 +118,7 @@ static const char *bad_value(const unsigned char *p) {
       return "a number in them is out of its range";
     if (i < t->n_known && t->variable[i].whole && v != floor(v)) return "a number in them is out of its range";
   }
-  const unsigned char *flag = p + numbers * sizeof v;
+  const unsigned char *flag = p + numbers * sizeof v + t->n_known * sizeof(slave_rhythm);
   for (size_t i = 0; i < t->n_known; i++)
     if (flag[i] > 1) return "a flag in them is none";
   for (size_t i = 0; i < t->n_known; i++)
@@ -189,6 +191,7 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   get(s->value, &p, n * sizeof(double));
   get(s->slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
   get(s->made_slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
+  get(s->rhythm, &p, n * sizeof *s->rhythm);
   get(s->pending, &p, n);
   get(s->said, &p, n);
   get(s->text, &p, texts_size());

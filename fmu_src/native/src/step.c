@@ -155,7 +155,7 @@ static slave_status try_step(slave *s, double time, double step) {
   keep_start(s, n, h);
   const slave_status halved = slave_halve_steps(s);
   forget_slopes(s);
-  slave_watch_ports(s);
+  slave_watch_ports(s, now);
   memset(s->pending, 0, slave_the_table.n_known);
   s->outputs_fresh = false;
   s->calls.phase = SLAVE_STEPPING;

@@ -157,6 +157,7 @@ slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const doub
     const bool held = check(s, reference[i], value[i], &clamped) == SLAVE_WARNING;
     if (held && say_held(s, reference[i], value[i], clamped) == SLAVE_WARNING) worst = SLAVE_WARNING;
     s->said[reference[i]] |= SLAVE_GIVEN;
+    if (fabs(value[i]) < HUGE_VAL) slave_port_given(s, reference[i], clamped != s->value[reference[i]]);
     take(s, reference[i], clamped);
   }
   return worst;

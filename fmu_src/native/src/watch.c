@@ -123,26 +123,3 @@ void slave_watch_start(slave *s) {
               "springs and tyres, or the place on the road, so that it is 0.",
               v->name, v->scale * pressed, v->unit);
 }
-
-/* After the first step: ports that nobody has set. The step is a good one all the same. */
-void slave_watch_ports(slave *s) {
-  const slave_table *t = &slave_the_table;
-  const slave_variable *first = NULL;
-  size_t silent = 0;
-  for (size_t i = 0; i < t->n_known; i++) {
-    if (!t->variable[i].port || s->said[i] & SLAVE_GIVEN) continue;
-    s->said[i] |= SLAVE_GIVEN;
-    if (silent++ == 0) first = &t->variable[i];
-  }
-  if (silent == 0) return;
-  const double held = s->value[first - t->variable];
-  if (silent == 1)
-    slave_say(s, SLAVE_WARNING,
-              "The port '%s' was not set before the first step and holds %g%s until it is. This is said once.",
-              first->name, held, first->unit);
-  else
-    slave_say(s, SLAVE_WARNING,
-              "%zu ports were not set before the first step. Each holds its start value until it is set, as '%s' holds "
-              "%g%s. This is said once.",
-              silent, first->name, held, first->unit);
-}

@@ -82,21 +82,43 @@ static double calm_step(const slave_variable *v, double speed, bool followed, bo
   return CALM * (followed ? cbrt(4.0 * settling / v->figure[3]) : 2.0 * settling);
 }
 
-/* A tyre that answers once in a long step shakes its wheel. The first step knows no derivative. */
+/* Of force and moment on a hub: when one changed last, and for how long they are held, at least a step. */
+static double last_change(const slave *s, size_t hub, double step, double *held) {
+  double changed = s->calls.start_time, least = HUGE_VAL;
+  for (size_t k = 0; k < HUB; k++) {
+    const slave_rhythm *r = &s->rhythm[hub + k];
+    changed = fmax(changed, r->changed);
+    if (r->held > 0.0) least = fmin(least, r->held);
+  }
+  *held = least < HUGE_VAL ? fmax(step, least) : step;
+  return changed;
+}
+
+/* A tyre that answers once in a long step, or in several steps, shakes its wheel. The first step knows no derivative. */
 static void watch_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
   const double step = (double)s->made.n * s->made.h, *velocity = &s->value[v->other];
   const double speed = sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]);
   const bool followed = follows(s, i);
   const double late = calm_step(v, speed, followed, true), time = ali3_time(s->fidelity.kernel);
-  if (!(step > 1.001 * late) || time - s->calls.start_time < 1.5 * step) return;
+  double held;
+  const double changed = last_change(s, i, step, &held), way = speed * (time - changed);
+  if (!followed && way > FAR_AWAY && !(s->said[i] & SLAVE_JUMPED)) {
+    s->said[i] |= SLAVE_JUMPED;
+    slave_say(s, SLAVE_WARNING,
+              "At %.6g s force and moment on the hub at '%s' are those of %.6g s, and its wheel went %.3g m since, on "
+              "which those of a tyre change; another program must set them at every step. This is said once.",
+              time, v->name, changed, way);
+  }
+  if (s->said[i] & SLAVE_FAR || !(held > 1.001 * late) || time - s->calls.start_time < 1.5 * step) return;
   s->said[i] |= SLAVE_FAR;
   slave_say(s, SLAVE_WARNING,
-            "At %.6g s the wheel at '%s' moves at %.3g m/s and the communication step is %g s: forces of a tyre like "
-            "the one left out that %s for longer than %.2g ms may shake it, where all programs step at once for longer "
-            "than %.2g ms. Take shorter communication steps. This is said once.",
-            time, v->name, speed, step, followed ? "follow derivatives" : "are held",
-            1e3 * calm_step(v, speed, followed, false), 1e3 * late);
+            "At %.6g s the wheel at '%s' moves at %.3g m/s and its forces come every %g s: those of a tyre like the "
+            "one left out that %s for longer than %.2g ms may shake it, where all programs step at once for longer "
+            "than %.2g ms. Take shorter communication steps%s. This is said once.",
+            time, v->name, speed, held, followed ? "follow derivatives" : "are held",
+            1e3 * calm_step(v, speed, followed, false), 1e3 * late,
+            held > 1.5 * step ? ", also in the program of the tyre" : "");
 }
 
 /* After the outputs are known. */
@@ -104,8 +126,8 @@ void slave_watch_answers(slave *s) {
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i + 2 < t->n_known && s->made.n > 0; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->other < 0 || s->said[i] & SLAVE_FAR) continue;
-    if (v->role == SLAVE_ANSWER) watch_answer(s, i);
+    if (v->other < 0) continue;
+    if (v->role == SLAVE_ANSWER && !(s->said[i] & SLAVE_FAR)) watch_answer(s, i);
     if (v->role == SLAVE_HUB) watch_hub(s, i);
   }
 }

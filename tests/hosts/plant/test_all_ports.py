@@ -144,6 +144,36 @@ def test_a_step_that_is_long_for_a_tyre_is_told_once_at_each_wheel(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
+@pytest.mark.parametrize(
+    ("every", "first", "words"),
+    [
+        (1, 150, None),
+        (
+            4,
+            0,
+            "its forces come every 0.008 s: those of a tyre like the one left out that are held for longer than 7.4 ms",
+        ),
+        (600, 0, "are those of 0 s, and its wheel went 1"),
+    ],
+)
+def test_a_tyre_that_answers_seldom_or_no_more_is_told_once_at_each_wheel(
+    ported: Path, every: int, first: int, words: str | None
+) -> None:
+    """Steps of 2 ms would be short enough, and the master gives forces at each; one rest of 3 m is none to tell."""
+    with Car(ported, step=0.002) as car:
+        car.reset(**{"initial.speed": 10.0, "step_size": 0.002})
+        given = level(car)
+        for k in range(600):
+            if k >= first and k % every == 0:
+                given |= {f"wheel_{w}.hub_Fz": 3065.0 + k % 7 for w in WHEELS}
+            car.step([given[name] for name in car.inputs])
+        said = [m for m in car.messages if "the hub at" in m or "may shake it" in m]
+        assert len(said) == (0 if words is None else len(WHEELS))
+        assert all(words is None or words in m for m in said[:2])
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ported", "normal"),
     [

@@ -1,0 +1,71 @@
+/* Ports that no host sets, from the first step on or any more: FMI holds their last values, which is said. */
+#include <math.h>
+
+#include "slave.h"
+
+enum { HABIT = 10 };               /* times that a port was set, after which its silence tells something */
+static const double SILENCE = 0.5; /* s, longer than between any of them */
+
+/* A port is set to a finite number, to what it was or to another one. */
+void slave_port_given(slave *s, size_t i, bool changed) {
+  slave_rhythm *r = &s->rhythm[i];
+  const double now = s->calls.initialised ? ali3_time(s->fidelity.kernel) : s->calls.start_time;
+  if (r->times == 0.0 || now > r->given) {
+    if (r->times > 0.0) r->longest = fmax(r->longest, now - r->given);
+    r->times = fmin(r->times + 1.0, HABIT);
+    r->given = now;
+  }
+  if (!changed || !(now > r->changed)) return;
+  const double span = now - r->changed;
+  r->held = fmin(r->span, span); /* one long rest is none */
+  r->span = span;
+  r->changed = now;
+}
+
+static void say_first(slave *s, const slave_variable *first, size_t silent) {
+  const double held = s->value[first - slave_the_table.variable];
+  if (silent == 1)
+    slave_say(s, SLAVE_WARNING,
+              "The port '%s' was not set before the first step and holds %g%s until it is. This is said once.",
+              first->name, held, first->unit);
+  else
+    slave_say(s, SLAVE_WARNING,
+              "%zu ports were not set before the first step. Each holds its start value until it is set, as '%s' holds "
+              "%g%s. This is said once.",
+              silent, first->name, held, first->unit);
+}
+
+static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
+  const ptrdiff_t i = first - slave_the_table.variable;
+  const double given = s->rhythm[i].given, held = s->value[i];
+  if (silent == 1)
+    slave_say(s, SLAVE_WARNING,
+              "The port '%s' was given a number again and again until %.6g s and none since; it holds %g%s. This is "
+              "said once.",
+              first->name, given, held, first->unit);
+  else
+    slave_say(s, SLAVE_WARNING,
+              "%zu ports were given numbers again and again and are no more, '%s' since %.6g s. Each holds its last "
+              "one, as '%s' holds %g%s. This is said once.",
+              silent, first->name, given, first->name, held, first->unit);
+}
+
+/* After a step that began then: ports that nobody has set, or sets any more. The step is a good one all the same. */
+void slave_watch_ports(slave *s, double begin) {
+  const slave_table *t = &slave_the_table;
+  const slave_variable *first = NULL, *stopped = NULL;
+  size_t silent = 0, stops = 0;
+  for (size_t i = 0; i < t->n_known; i++) {
+    const slave_rhythm *r = &s->rhythm[i];
+    if (!t->variable[i].port) continue;
+    if (!(s->said[i] & SLAVE_GIVEN)) {
+      s->said[i] |= SLAVE_GIVEN;
+      if (silent++ == 0) first = &t->variable[i];
+    } else if (r->times >= HABIT && begin - r->given > SILENCE + r->longest) {
+      s->rhythm[i].times = -HUGE_VAL; /* said */
+      if (stops++ == 0) stopped = &t->variable[i];
+    }
+  }
+  if (first != NULL) say_first(s, first, silent);
+  if (stopped != NULL) say_stopped(s, stopped, stops);
+}
