@@ -8,7 +8,7 @@ from pathlib import Path
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).parents[2]
-DECISIONS = "\n```{toctree}\n:hidden:\n:glob:\n\n0*\n```\n"
+BESIDE = "---\norphan: true\n---\n"
 PAGES = {
     "index": "README.md",
     "changelog": "CHANGELOG.md",
@@ -20,8 +20,8 @@ LINK = re.compile(r"(\]\()(?!https?:|#|mailto:)([^)\s]+)\)")
 
 def with_file(app: Sphinx, page: str, source: list[str]) -> None:
     """Put the repository's file before what the page has itself, its links as seen from `docs/`."""
-    if page == "decisions/README":
-        source[0] += DECISIONS
+    if page.startswith("decisions/0"):  # their list is a page; in the menu they would stand beside every page
+        source[0] = BESIDE + source[0]
     if page not in PAGES:
         return
     file = ROOT / PAGES[page]
