@@ -51,7 +51,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     m.floating = True
     steering = m.input("steering", min=-1.0, max=1.0)
     b = CarBuilder(m, m.road(PlaneRoad()), {"steering": steering})
-    if fidelity is Fidelity.RIGID:
+    if fidelity.rigid:
         b.chassis = rigid_chassis(m, car.chassis)
     else:
         b.chassis = flexible_chassis(m, car.chassis, car.flexible_frame, fidelity)

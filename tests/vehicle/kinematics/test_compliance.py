@@ -38,7 +38,7 @@ def flexible():
 
 
 @pytest.mark.parametrize("car", ["prototype", "hatchback"])
-@pytest.mark.parametrize("fidelity", [Fidelity.RIGID, Fidelity.QUASI_STATIC])
+@pytest.mark.parametrize("fidelity", [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.TABLE])
 def test_a_rigid_car_does_not_give(car, fidelity):
     found = compliance(load(car), fidelity)
     assert found.freedoms == 0
