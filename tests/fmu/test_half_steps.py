@@ -146,6 +146,21 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
     assert [said] == plain
 
 
+def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start({"initial.speed": 1.408, "throttle": 0.565, "step_size": 0.02})
+    state, told = driven.slave.getFMUstate(), []
+    for _ in range(2):
+        driven.slave.setFMUstate(state)
+        driven.messages.clear()
+        for k in range(50):
+            driven.step(k * 0.02, 0.02)
+        told.append([m for m in driven.messages if WORDS in m])
+        driven.slave.reset()
+        driven.start({"step_size": 0.02})
+    assert len(told[0]) == 1
+    assert told[0] == told[1]
+
+
 def test_a_host_that_sets_a_state_before_each_step_is_told_what_steps_tell_themselves(
     prototype_fmu: Path, host: HostMaker
 ) -> None:

@@ -1,7 +1,7 @@
-/* Where a force of a tyre, a contact or a spring with end stops changes abruptly, the next 0.4 s are made a second time
- * with half of a short step and down to an eighth of a long one: what both differ by is the error of the step. A run
- * without such changes, or that has been told of one, pays nothing. The other motion is a snapshot of the same
- * instance. */
+/* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
+ * the next 0.4 s are made a second time with half of a short step and down to an eighth of a long one: what both differ
+ * by is the error of the step. A run without either, or that has been told of one, pays nothing. The other motion is a
+ * snapshot of the same instance. */
 #include <math.h>
 #include <string.h>
 
@@ -16,13 +16,13 @@ static const int64_t MOST = 8; /* parts of a step */
 static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
 static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
 
-/* From the state that is there now nothing is made twice. */
+/* From the state that is there now nothing is made twice, but for a start. */
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
   t->alone = t->alone || t->left > 0.0 || t->apart > 0.0;
   t->left = t->apart = 0.0;
-  t->begins = false;
+  t->begins = s->made.n == 0;
   t->abrupt = ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.abrupt_steps : 0;
 }
 
@@ -121,7 +121,7 @@ static slave_status judge(slave *s, const ali3_report *r) {
   s->event_said = true;
   return slave_say(
       s, SLAVE_WARNING,
-      "At %.4g s a contact or a stop had changed a force too quickly for the step: made again with "
+      "At %.4g s a tyre, a contact or a stop had changed a force too quickly for the step: made again with "
       "1/%.0f of it, forces are off by about %.0f N, %.2g %% of the largest at communication points. Run again "
       "with a step_size of %.2g s. This is said once.",
       t->time, n, off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
@@ -148,7 +148,7 @@ slave_status slave_halve_steps(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
-  // tyres that are driven from the start on slip at once, where long steps miss it
+  /* tyres that are driven from the start on slip at once, where long steps miss it */
   const bool begins = t->begins && parts_of(s->made.h) == MOST && ali3_contact_forces(s->fidelity.kernel, 1, NULL) > 0,
              abrupt = report.abrupt_steps > t->abrupt || begins, rests = !(t->left > 0.0);
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);

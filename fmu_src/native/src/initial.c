@@ -123,7 +123,6 @@ bool slave_initialise(slave *s) {
   s->calls.capped_residual = 0.0;
   s->made.n = 0;
   slave_half_steps_begin(s);
-  s->half_steps.begins = true;
   s->outputs_fresh = false;
   if (status != ALI3_OK && settling != NULL) {
     if (status == ALI3_BAD_ARGUMENT)

@@ -129,7 +129,7 @@ typedef struct { /* of a motion that is made a second time with half the step, s
   double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
   double largest; /* of the forces at communication points, N: within steps there may be larger ones */
   int64_t abrupt; /* abrupt steps that were seen */
-  bool begins; /* no step was made since the initialisation */
+  bool begins; /* no step was made since the start */
   bool jumped; /* an input has, since it began */
   bool alone; /* not all of an abrupt change was made twice: what steps tell themselves holds */
 } slave_half_steps;
