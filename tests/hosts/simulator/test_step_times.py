@@ -68,7 +68,7 @@ def test_text_tells_both_times_and_what_was_lost() -> None:
     times.add("scheduled", -0.2)
     assert "slow motion" not in StepTimes.of(values, 0.002, True).text()
     assert "missed deadlines: 25 of 125 (20 %)" in text
-    assert "or a host untold: 0; other programs: 5; the processor stood still, as where" in text
+    assert "took without a word): 0; other programs: 5; the processor stood still, as where" in text
     assert "takes it: 20" in text
     assert StepTimes.of(values, 0.002, True).report()["missed_by"] == {"ran": 0, "others": 5, "stolen": 20}
     assert StepTimes.of(values, 0.002, True).report()["factor"] == pytest.approx(0.4)
