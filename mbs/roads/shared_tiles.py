@@ -86,8 +86,8 @@ class SharedWriter:
     def tile(self, heights: Float, frictions: Float | None) -> None:
         """Add the next tile, the values of which were checked.
 
-        `heights`: m, or coefficients, shape (32, 32); `frictions`: None where the file has one, shape (32, 32) or (1,
-        1).
+        `heights`: m, shape (32, 32), or coefficients, at most (8, 8); `frictions`: shape (32, 32) or (1, 1), None where
+        the file has one.
         """
         self._add(record_bytes(heights, frictions))
 
@@ -169,7 +169,7 @@ def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
 
 
 def record_bytes(heights: Float, frictions: Float | None) -> bytes:
-    """A tile as it stands in the file. `heights`: m, or coefficients, shape (32, 32); `frictions`: shape (32, 32)."""
+    """A tile as it stands in the file. `heights`, `frictions`: as of `SharedWriter.tile`."""
     levels, behind = 0, b""
     if frictions is not None:
         levels, behind = _friction_bytes(frictions)

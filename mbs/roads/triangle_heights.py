@@ -17,7 +17,7 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     Each line of points along y that crosses a triangle is cut by its edges (scan conversion). Upright triangles are
     seen as lines and left out.
 
-    `corners`: m, shape (n, 3, 3); `x`, `y`: coordinates of the points, regular, m, shape (nx,).
+    `corners`: m, shape (n, 3, 3); `x`, `y`: of the points, regular, m, shapes (nx,) and (ny,).
 
     Returns
     -------

@@ -194,8 +194,9 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
     Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
-    the step. Where they differ it is repeated with half the step, near the limit with a quarter, and if these differ
-    with an eighth, then a 16th; with less where steps were halved. With `Repeats.twin` only the first of these is made.
+    the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
+    with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
+    steps were halved. With `Repeats.twin` only the first of these is made.
 
     `always`: whether a run that is plainly smooth is repeated too.
     """

@@ -19,7 +19,7 @@ Float = NDArray[np.float64]
 class Surface:
     """Heights at the points of a regular grid, a C2 cubic spline between them.
 
-    `x`, `y`: rising at equal distances, at least four each, m; `heights`: m, shape (n, m).
+    `x`, `y`: rising at equal distances, at least four each, m, shapes (n,) and (m,); `heights`: m, shape (n, m).
     """
 
     def __init__(self, x: Float, y: Float, heights: Float) -> None:

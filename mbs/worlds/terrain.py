@@ -98,7 +98,7 @@ class Terrain:
     def on_grid(self, x: Float, y: Float) -> tuple[Float, NDArray[np.uint8], Float]:
         """Heights, surfaces as places in `names`, and how far they go on, at all pairs of rising coordinates.
 
-        `x`, `y`: m.
+        `x`, `y`: m, shapes (n,) and (m,).
 
         Returns
         -------
