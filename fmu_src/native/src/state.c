@@ -89,7 +89,7 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (size < sizeof head) return "they are too short";
   memcpy(&head, bytes, sizeof head);
   if (memcmp(head.magic, MAGIC, sizeof MAGIC) != 0) return "they begin with other bytes";
-  if (head.version != STATE_VERSION) return "they have another version";
+  if (head.version != STATE_VERSION) return "they are of another version; save one again with this FMU";
   if (memcmp(head.identity, slave_the_table.identity, sizeof head.identity) != 0)
     return "only states of the same build can be set";
   if (head.size != size || size < own_size() || head.n_known != slave_the_table.n_known)
