@@ -99,7 +99,7 @@ def test_ports_that_fall_silent_together_are_one_sentence_of_a_state_too(host, t
     h.slave.freeFMUState(state)
     assert told[0] == told[1]
     (said,) = told[0]
-    assert said.startswith("2 ports were given numbers again and again and are no more, 'left.push' since 0.19 s.")
+    assert said.startswith("2 ports were given numbers again and again and get none any more, 'left.push' since 0.19")
     assert said.endswith("as 'left.push' holds 9 N. This is said once.")
 
 

@@ -1,4 +1,5 @@
-/* Ports that no host sets, from the first step on or any more: FMI holds their last values, which is said. */
+/* Ports that no host has set before the first step, and those that none sets any more: FMI holds their last values,
+ * which is said. */
 #include <math.h>
 
 #include "slave.h"
@@ -45,8 +46,8 @@ static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
               first->name, given, held, first->unit);
   else
     slave_say(s, SLAVE_WARNING,
-              "%zu ports were given numbers again and again and are no more, '%s' since %.6g s. Each holds its last "
-              "one, as '%s' holds %g%s. This is said once.",
+              "%zu ports were given numbers again and again and get none any more, '%s' since %.6g s. Each holds its "
+              "last one, as '%s' holds %g%s. This is said once.",
               silent, first->name, given, first->name, held, first->unit);
 }
 
