@@ -138,6 +138,7 @@ typedef struct { /* when an input at a port was set */
   double given, longest; /* s: the last time; most of what lay between two of them */
   double changed, span,
       held; /* s: the last time to another value; from the one before to it; the less of the last two */
+  double seen, way; /* of a hub: when its wheel was looked at last, s; how far it went under forces that stay, m */
   double times; /* how often, as far as it is counted; below 0: it was said that it is no more */
 } slave_rhythm;
 

@@ -94,6 +94,17 @@ static double last_change(const slave *s, size_t hub, double step, double *held)
   return changed;
 }
 
+/* How far the wheel of a hub went under forces that stay what they are since they `changed`, m; none while it is in the
+ * air, where no tyre has any. */
+static double way_under(slave *s, size_t hub, double speed, double changed, double time) {
+  slave_rhythm *r = &s->rhythm[hub];
+  bool pressed = false;
+  for (size_t k = 0; k < HUB; k++) pressed = pressed || s->value[hub + k] != 0.0;
+  r->way = pressed ? (changed >= r->seen ? 0.0 : r->way) + speed * (time - fmax(r->seen, changed)) : 0.0;
+  r->seen = time;
+  return r->way;
+}
+
 /* A tyre that answers once in a long step, or in several steps, shakes its wheel. The first step knows no derivative. */
 static void watch_hub(slave *s, size_t i) {
   const slave_variable *v = &slave_the_table.variable[i];
@@ -102,7 +113,7 @@ static void watch_hub(slave *s, size_t i) {
   const bool followed = follows(s, i);
   const double late = calm_step(v, speed, followed, true), time = ali3_time(s->fidelity.kernel);
   double held;
-  const double changed = last_change(s, i, step, &held), way = speed * (time - changed);
+  const double changed = last_change(s, i, step, &held), way = way_under(s, i, speed, changed, time);
   if (!followed && way > FAR_AWAY && !(s->said[i] & SLAVE_JUMPED)) {
     s->said[i] |= SLAVE_JUMPED;
     slave_say(s, SLAVE_WARNING,

@@ -174,6 +174,21 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_told_once_at_each_wheel(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
+def test_a_wheel_in_the_air_and_a_car_that_stood_for_long_are_not_told(ported: Path) -> None:
+    """Tyres in the air have no force, and those of a car that stands stay as they are: 2 m are not far."""
+    with Car(ported, step=0.002) as car:
+        for speed, load, steps in ((25.0, 0.0, 300), (0.0, 3065.0, 2900)):
+            car.reset(**{"initial.speed": speed, "step_size": 0.002})
+            given = level(car) | {f"wheel_{w}.hub_Fz": load for w in WHEELS}
+            for k in range(steps):
+                given["point_reference.Fx"] = 9000.0 if speed == 0.0 and k >= 2500 else 0.0
+                car.step([given[name] for name in car.inputs])
+            assert car.read(("speed",))[0] > 2.0
+            assert not [m for m in car.messages if "the hub at" in m]
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ported", "normal"),
     [
