@@ -151,7 +151,7 @@ def _filled(heights: Values, road: GridRoad, source: str) -> Values:
     pieces, number = ndimage.label(~missing, np.ones((3, 3)))
     if number > 1:
         least = np.bincount(pieces.ravel())[1:].min() * dx * dy
-        told = f"{source} is in {number} pieces, the least of {least:.3g} m2; between them their borders go on."
+        told = f"{source} is in {number} pieces, the smallest has {least:.3g} m2; between them their borders go on."
         warnings.warn(told, RoadWarning, stacklevel=4)
     nearest = ndimage.distance_transform_edt(missing, sampling=(dx, dy), return_distances=False, return_indices=True)
     return np.asarray(heights[tuple(nearest)])

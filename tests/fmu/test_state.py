@@ -85,6 +85,14 @@ def test_state_of_another_fmu_is_refused(crane: Path, reach: Path, host: HostMak
     assert driven.outputs() == before
 
 
+def test_a_state_of_another_version_is_refused_with_what_to_do(crane: Path, host: HostMaker) -> None:
+    driven = host(crane).start()
+    data = bytearray(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))
+    data[8] -= 1
+    assert driven.restore(bytes(data)) == ERROR
+    assert "of another version; save one again with this FMU" in driven.messages[-1]
+
+
 def test_damaged_states_are_refused(crane: Path, host: HostMaker) -> None:
     driven = host(crane).start()
     driven.run(3, 0.01)

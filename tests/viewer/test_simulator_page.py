@@ -455,7 +455,7 @@ class TestOnePage:
         assert len(bars) == len(bins)
         assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
         assert "0.06 · 0.2 · 0.9 · 4 ms" in shared.text("report")
-        assert "the step ran 1 · other programs ran 0 · the processor stood 1" in shared.text("report")
+        assert "the step ran 1 · other programs ran 0 · the processor stood still 1" in shared.text("report")
         words, tops = shared.ask("""() => {
           const all = name => [...document.querySelectorAll(`[data-a3="histogram"] ${name}`)];
           const number = (part, name) => Number(part.getAttribute(name));

@@ -84,7 +84,7 @@ export class Report {
       ["steps", `${steps} of ${milli(step)} ms`],
       ["simulated / wall", `${simulated.toFixed(2)} s / ${wall.toFixed(2)} s`],
       ["missed deadlines", `${missed} (${short((100 * missed) / steps)} %)`],
-      ...(missed && by ? [["late while", `the step ran ${by.ran} · other programs ran ${by.others} · the processor stood ${by.stolen}`]] : []),
+      ...(missed && by ? [["late while", `the step ran ${by.ran} · other programs ran ${by.others} · the processor stood still ${by.stolen}`]] : []),
       ["moved on", skipped ? `${skipped} times, because it was too late` : "never"],
       ["", "median · p99 · p99.9 · largest"],
       ["cost of a step", spread(cost)],
