@@ -51,7 +51,8 @@ static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
               silent, first->name, given, first->name, held, first->unit);
 }
 
-/* After a step that began then: ports that nobody has set, or sets any more. The step is a good one all the same. */
+/* After a step that began then: ports that nobody has set, or sets any more, but for whole numbers, which change at
+ * events only. The step is a good one all the same. */
 void slave_watch_ports(slave *s, double begin) {
   const slave_table *t = &slave_the_table;
   const slave_variable *first = NULL, *stopped = NULL;
@@ -62,7 +63,7 @@ void slave_watch_ports(slave *s, double begin) {
     if (!(s->said[i] & SLAVE_GIVEN)) {
       s->said[i] |= SLAVE_GIVEN;
       if (silent++ == 0) first = &t->variable[i];
-    } else if (r->times >= HABIT && begin - r->given > SILENCE + r->longest) {
+    } else if (!t->variable[i].whole && r->times >= HABIT && begin - r->given > SILENCE + r->longest) {
       s->rhythm[i].times = -HUGE_VAL; /* said */
       if (stops++ == 0) stopped = &t->variable[i];
     }

@@ -174,6 +174,23 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_told_once_at_each_wheel(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("ported", CARS[3:], indirect=True)
+@pytest.mark.parametrize(("silent", "told"), [("gear_request", 0), ("clutch", 1)])
+def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str, told: int) -> None:
+    with Car(ported, step=0.002) as car:
+        car.reset(**{"initial.speed": 10.0})
+        given, most = level(car), [name for name in car.inputs if name != silent]
+        all_of_them, others = car.fmu.setter(car.inputs), car.fmu.setter(most)
+        for k in range(300):
+            if k < 20:
+                all_of_them([given[n] for n in car.inputs])
+            else:
+                others([given[n] for n in most])
+            car.fmu.step(0.002 * k, 0.002)
+        assert sum("again and again" in m and f"'{silent}'" in m for m in car.messages) == told
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
 def test_a_wheel_in_the_air_and_a_car_that_stood_for_long_are_not_told(ported: Path) -> None:
     """Tyres in the air have no force, and those of a car that stands stay as they are: 2 m are not far."""
