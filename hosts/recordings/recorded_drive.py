@@ -104,24 +104,18 @@ class RecordedDrive:
 
     def blocks(self) -> Iterator[Rows]:
         """All rows, some thousands at a time; their counts never fall."""
-        count = -1
+        count, file = -1, next(self.folder.glob(f"{TABLE}.*"), self.folder)
         for rows in blocks_of(self.folder, self.names):
             counts = np.r_[count, rows.steps]
             for k in np.flatnonzero(np.diff(counts) < 0):
-                places = f"step {counts[k + 1]} stands after step {counts[k]}"
-                raise HostError(f"{self._table}: {places}: its parts are out of order.")
+                raise HostError(f"{file}: step {counts[k + 1]} stands after {counts[k]}: its parts are out of order.")
             count = int(counts[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
             if len(missing):
                 row, place = missing[0]
                 name, step = brief(self.names[place]), rows.steps[row]
-                raise HostError(f"{self._table}: the row of step {step} has no value of the input {name}.")
+                raise HostError(f"{file}: the row of step {step} has no value of the input {name}.")
             yield rows
-
-    @property
-    def _table(self) -> Path:
-        """The file of rows; the folder, where they are in parts."""
-        return next(self.folder.glob(f"{TABLE}.*"), self.folder)
 
     def unbroken(self) -> Iterator[Rows]:
         """All rows; `HostError` where one is missing, since what comes after cannot be repeated."""

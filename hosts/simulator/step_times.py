@@ -198,9 +198,8 @@ class StepTimes:
             if any(self.missed_by.values()):
                 ran, others, stolen = (self.missed_by[name] for name in CAUSES)
                 rows.append(
-                    f"  while the step ran (its work, interrupts, time that a host took without a word): {ran}; other "
-                    f"programs: {others}; the processor stood still, as where the host of a virtual machine takes it: "
-                    f"{stolen}"
+                    f"  while the step ran (work, interrupts, what a host took without a word): {ran}; other programs: "
+                    f"{others}; the processor stood still, as where the host of a virtual machine takes it: {stolen}"
                 )
             if self.skipped:
                 rows.append(

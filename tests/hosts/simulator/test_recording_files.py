@@ -203,7 +203,7 @@ def test_parts_in_another_order_or_of_another_recording_are_refused(tmp_path: Pa
         drive.rows()
     second.write_bytes(third.read_bytes())
     third.write_bytes(own)
-    with pytest.raises(HostError, match=r"step 4 stands after step 11: its parts are out of order"):
+    with pytest.raises(HostError, match=r"step 4 stands after 11: its parts are out of order"):
         drive.rows()
 
 
