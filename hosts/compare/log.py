@@ -80,11 +80,13 @@ def log_for(
     aliases: LogAliases,
     why_missing: Callable[[str], str] = lambda name: "",
     chosen: Collection[str] = (),
+    used: Collection[str] = (),
 ) -> Log:
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
     `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
-    parameters that are set or sought: the log does not drive them.
+    parameters that are set or sought: the log does not drive them; `used`: outputs of which there are notes; all where
+    it is empty.
 
     Raises
     ------
@@ -105,13 +107,14 @@ def log_for(
         if clock not in clocks:
             times, origin = _times(raw, aliases, clock, origin, notes)
             clocks[clock] = times
-        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], notes), ours in inputs)
-        signals[ours] = _without_spikes(fmu, read, notes)
+        told = [] if used and ours in outputs and ours not in used else notes
+        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], told), ours in inputs)
+        signals[ours] = _without_spikes(fmu, read, told)
         if len(at := read.jumps):
             jumps[ours] = at
     if jumps:
-        told = counted(jumps, np.concatenate([*jumps.values()]))
-        notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {told}.")
+        which = counted(jumps, np.concatenate([*jumps.values()]))
+        notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {which}.")
     for name, signal in signals.items():
         if len(signal.time) < FEWEST_SAMPLES:
             raise HostError(
