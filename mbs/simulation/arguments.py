@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from mbs.common.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.kernel.header.enumerations import Status
+from mbs.results.accuracy import AccuracyWarning
 from mbs.results.simulation_error import PoseError
 from mbs.settings.settings import Settings
 from mbs.simulation.state import Pose
@@ -21,6 +23,8 @@ RESOLVED = 1e3
 """Least length of a step in units of the round-off of the time."""
 MOST_VALUES = 10**9
 """Values that one run may record: 8 gigabytes."""
+_ROUND_OFF = 1e-6
+"""Of a step, by which whole steps may end before or after what was asked for."""
 
 
 def check_step(h: float) -> float:
@@ -84,12 +88,24 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
         The end is before the start, the step is longer than the run, or lost in the round-off of the time.
     """
     end = check_end(t0, t_end)
-    steps = math.floor((end - t0) / h + 1e-6)
+    steps = math.floor((end - t0) / h + _ROUND_OFF)
     if steps == 0 and end > t0:
         raise ValueError(f"The step h is {h:g} s, longer than the run of {end - t0:g} s; take a shorter step.")
     if steps:
         check_resolution(max(abs(t0), abs(end)), h)
     return steps
+
+
+def warn_of_end(t0: float, t_end: float, h: float) -> None:
+    """Warn where whole steps end before `t_end`; of the caller of the caller."""
+    whole, asked = count_steps(t0, t_end, h) * h, t_end - t0
+    if asked - whole > _ROUND_OFF * h:
+        warnings.warn(
+            f"The run ends at {t0 + whole:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
+            f"{asked / math.ceil(asked / h):.9g} ends there.",
+            AccuracyWarning,
+            stacklevel=3,
+        )
 
 
 def check_record(samples: int, sensors: int) -> None:

@@ -217,7 +217,7 @@ def test_a_start_below_the_road_is_refused_and_can_be_put_right(
 
 
 @pytest.mark.parametrize("kind", ["native", "python"])
-@pytest.mark.parametrize(("name", "unit"), [("initial.x", "m"), ("initial.speed", "m/s")])
+@pytest.mark.parametrize(("name", "unit"), [("initial.x", "m"), ("initial.speed", "m/s"), ("initial.yaw", "rad")])
 def test_a_start_beyond_the_digits_is_refused_by_its_name(
     cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str, name: str, unit: str
 ) -> None:
