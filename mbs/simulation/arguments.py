@@ -23,8 +23,8 @@ RESOLVED = 1e3
 """Least length of a step in units of the round-off of the time."""
 MOST_VALUES = 10**9
 """Values that one run may record: 8 gigabytes."""
-_ROUND_OFF = 1e-6
-"""Of a step, by which whole steps may end before or after what was asked for."""
+LEFT_OUT = 0.01
+"""Share of a run at its end that may be left out without a word, as equal steps do not divide it."""
 
 
 def check_step(h: float) -> float:
@@ -88,7 +88,7 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
         The end is before the start, the step is longer than the run, or lost in the round-off of the time.
     """
     end = check_end(t0, t_end)
-    steps = math.floor((end - t0) / h + _ROUND_OFF)
+    steps = math.floor((end - t0) / h + 1e-6)
     if steps == 0 and end > t0:
         raise ValueError(f"The step h is {h:g} s, longer than the run of {end - t0:g} s; take a shorter step.")
     if steps:
@@ -97,9 +97,9 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
 
 
 def warn_of_end(t0: float, t_end: float, h: float) -> None:
-    """Warn where whole steps end before `t_end`; of the caller of the caller."""
+    """Warn, for the caller's caller, where whole steps leave out more than `LEFT_OUT` of what was asked for."""
     whole, asked = count_steps(t0, t_end, h) * h, t_end - t0
-    if asked - whole > _ROUND_OFF * h:
+    if asked - whole > LEFT_OUT * asked + 1e-6 * h:
         warnings.warn(
             f"The run ends at {t0 + whole:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
             f"{asked / math.ceil(asked / h):.9g} ends there.",

@@ -59,8 +59,7 @@ def simulate(
     Parameters
     ----------
     t_end : float
-        Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it, which
-        is warned of.
+        Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
     h : float, optional
         Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
         is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
@@ -114,7 +113,8 @@ def simulate(
     AccuracyWarning
         When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
         lengths, angles or forces of elements are off by more than 4.9 % of the largest range in their unit; with a
-        tolerance, when the error is guessed to be more than three times that. When equal steps end before `t_end`.
+        tolerance, when the error is guessed to be more than three times that. When equal steps leave
+        out more than a hundredth of the run at its end.
     BendingWarning
         When a flexible body bends more within its floating frame than its modes hold for.
     BranchWarning

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.common.checks import finite
+from mbs.common.checks import finite, number
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,8 @@ class Pose:
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "z", "yaw", "speed", "lateral_speed", "yaw_rate"):
-            value = finite(getattr(self, name), f"The {name} of a pose", ValueError)  # the kernel says what is too far
-            object.__setattr__(self, name, value)
+            check = number if name == "yaw" else finite  # the kernel says which starts are too far and too fast
+            object.__setattr__(self, name, check(getattr(self, name), f"The {name} of a pose", ValueError))
 
 
 @dataclass(frozen=True)
