@@ -85,8 +85,7 @@ def log_for(
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
     `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
-    parameters that are set or sought: the log does not drive them; `used`: outputs of which there are notes; all where
-    it is empty.
+    parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it is empty.
 
     Raises
     ------
@@ -100,7 +99,7 @@ def log_for(
     columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
-    signals, jumps = {}, dict[str, NDArray[np.float64]]()
+    signals: dict[str, Signal] = {}
     origin: float | None = None
     for ours, column in columns.items():
         clock = column.time or _time_column(raw, aliases)
@@ -110,9 +109,7 @@ def log_for(
         told = [] if used and ours in outputs and ours not in used else notes
         read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], told), ours in inputs)
         signals[ours] = _without_spikes(fmu, read, told)
-        if len(at := read.jumps):
-            jumps[ours] = at
-    if jumps:
+    if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
         which = counted(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {which}.")
     for name, signal in signals.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -85,11 +85,10 @@ def prepare(options: argparse.Namespace) -> Task:
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
         given = {aliases.names([n])[0]: v for n, v in set_values.items()}
         sought = {aliases.names([t.partition("=")[0].strip()])[0] for t in options.fit}
-        signals = [n.strip() for n in (options.signals or "").split(",") if n.strip()]
-        used = {*signals, "speed"} if signals else ()  # the start and --hold-speed need it too
+        used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
         log = log_for(fmu, raw, log_aliases, aliases.why_missing, {*given, *sought}, used)
         notes = log.notes
-        inputs, outputs = _chosen(log, fmu, signals, options)
+        inputs, outputs = _chosen(log, fmu, options)
         followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given, sought)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
@@ -212,17 +211,15 @@ def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Names
     return own * max(1, math.floor(min(finest, 0.01) / own + 1e-6))
 
 
-def _chosen(
-    log: Log, fmu: AliasedFmu, signals: Sequence[str], options: argparse.Namespace
-) -> tuple[dict[str, Signal], dict[str, Signal]]:
+def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
     outputs, inputs = dict(log.outputs), dict(log.inputs)
     if options.signals is not None:
-        for name in signals:
+        for name in options.signals:
             if name not in outputs:
                 hint = did_you_mean(name, outputs, f"it has {', '.join(outputs) or 'none'}")
                 what = "is no output of the FMU" if name not in fmu.names("output") else "is not in the log"
                 raise HostError(f"--signals: '{name}' {what}{hint}")
-        outputs = {n: outputs[n] for n in signals}
+        outputs = {n: outputs[n] for n in options.signals}
     for name in [n.strip() for n in (options.ignore or "").split(",") if n.strip()]:
         if name not in inputs:
             raise HostError(f"--ignore: '{name}' is no input in the log; it has {', '.join(inputs) or 'none'}.")
