@@ -76,7 +76,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
 
 
 def _names(text: str) -> list[str]:
-    return [n.strip() for n in re.split(r",(?![^\[]*\])", text)]  # but not at the comma of an element of an array
+    return [n.strip() for n in re.split(r",(?![^\[]*\])", text) if n.strip()]  # not at the comma of an array's element
 
 
 def _compare(options: argparse.Namespace) -> int:
