@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     parser.add_argument("log", type=Path, metavar="LOG", help="CSV as data loggers write it, or Parquet")
     parser.add_argument("--log-aliases", type=Path, metavar="FILE", help="alias file of the log: names, units, clock")
     add_option(parser, "--aliases")
-    parser.add_argument("--signals", metavar="NAME,...", help="compare only these; default: all outputs in the log")
+    parser.add_argument("--signals", type=_names, metavar="NAME,...", help="compare only these outputs; default: all")
     parser.add_argument("--ignore", metavar="NAME,...", help="inputs of the log that are not replayed")
     parser.add_argument(
         "--hold-speed", action="store_true", help="a driver holds the measured speed in place of the measured pedals"
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     parser.add_argument(
         "--fit",
         action="extend",
-        type=_parameters,
+        type=_names,
         default=[],
         metavar="NAME[=LOW:HIGH],...",
         help="find these parameters; repeatable; default range: from half to twice the value",
@@ -75,8 +75,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.co
     return run_command(lambda: _compare(options))
 
 
-def _parameters(text: str) -> list[str]:
-    return re.split(r",(?![^\[]*\])", text)  # but not at the comma of an element of an array
+def _names(text: str) -> list[str]:
+    return [n.strip() for n in re.split(r",(?![^\[]*\])", text) if n.strip()]  # not at the comma of an array's element
 
 
 def _compare(options: argparse.Namespace) -> int:

@@ -80,11 +80,12 @@ def log_for(
     aliases: LogAliases,
     why_missing: Callable[[str], str] = lambda name: "",
     chosen: Collection[str] = (),
+    used: Collection[str] = (),
 ) -> Log:
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
     `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
-    parameters that are set or sought: the log does not drive them.
+    parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it is empty.
 
     Raises
     ------
@@ -98,20 +99,19 @@ def log_for(
     columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
-    signals, jumps = {}, dict[str, NDArray[np.float64]]()
+    signals: dict[str, Signal] = {}
     origin: float | None = None
     for ours, column in columns.items():
         clock = column.time or _time_column(raw, aliases)
         if clock not in clocks:
             times, origin = _times(raw, aliases, clock, origin, notes)
             clocks[clock] = times
-        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], notes), ours in inputs)
-        signals[ours] = _without_spikes(fmu, read, notes)
-        if len(at := read.jumps):
-            jumps[ours] = at
-    if jumps:
-        told = counted(jumps, np.concatenate([*jumps.values()]))
-        notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {told}.")
+        told = [] if used and ours in outputs and ours not in used else notes
+        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], told), ours in inputs)
+        signals[ours] = _without_spikes(fmu, read, told)
+    if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
+        which = counted(jumps, np.concatenate([*jumps.values()]))
+        notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {which}.")
     for name, signal in signals.items():
         if len(signal.time) < FEWEST_SAMPLES:
             raise HostError(

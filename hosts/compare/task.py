@@ -85,7 +85,8 @@ def prepare(options: argparse.Namespace) -> Task:
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
         given = {aliases.names([n])[0]: v for n, v in set_values.items()}
         sought = {aliases.names([t.partition("=")[0].strip()])[0] for t in options.fit}
-        log = log_for(fmu, raw, log_aliases, aliases.why_missing, {*given, *sought})
+        used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
+        log = log_for(fmu, raw, log_aliases, aliases.why_missing, {*given, *sought}, used)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
         followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given, sought)
@@ -213,13 +214,12 @@ def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Names
 def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
     outputs, inputs = dict(log.outputs), dict(log.inputs)
     if options.signals is not None:
-        wanted = [n.strip() for n in options.signals.split(",") if n.strip()]
-        for name in wanted:
+        for name in options.signals:
             if name not in outputs:
                 hint = did_you_mean(name, outputs, f"it has {', '.join(outputs) or 'none'}")
                 what = "is no output of the FMU" if name not in fmu.names("output") else "is not in the log"
                 raise HostError(f"--signals: '{name}' {what}{hint}")
-        outputs = {n: outputs[n] for n in wanted}
+        outputs = {n: outputs[n] for n in options.signals}
     for name in [n.strip() for n in (options.ignore or "").split(",") if n.strip()]:
         if name not in inputs:
             raise HostError(f"--ignore: '{name}' is no input in the log; it has {', '.join(inputs) or 'none'}.")

@@ -30,8 +30,8 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
     if step is None:
         step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
     stop = manoeuvre.stop_time
-    if not stop > 0.0:
-        raise HostError(f"The stop time is {stop:g} s; it must be positive.")
+    if not 0.0 < stop < math.inf:
+        raise HostError(f"The stop time is {stop:g} s; it must be positive and finite.")
     if not 0.0 < step <= stop:
         raise HostError(f"The step is {step:g} s; it must be positive and not longer than {stop:g} s.")
     columns = len(fmu.names("input")) + len(fmu.names("output")) + 1

@@ -119,7 +119,7 @@ def _run(options: argparse.Namespace) -> int:
             given = wishes_with_road(options, options.out)
         manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
         still = options.manoeuvre is None
-        stem = path.stem if still else f"{_words(path.stem)}_{manoeuvre.name}"
+        stem = _words(path.stem) if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")

@@ -14,7 +14,7 @@ from ali3.words import brief
 from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.units import known_unit, says_nothing
+from hosts.common.units import known_unit
 from hosts.fmu.fmu import Fmu
 
 
@@ -61,9 +61,8 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
         target, name = _split(end, parts, "input")
         source, output = _split(start, parts, "output")
         units = [parts[p].variables[n].unit for p, n in ((source, output), (target, name))]
-        given, wanted = (None if unit is None else known_unit(unit) for unit in units)
-        told = given is not None and wanted is not None and not (says_nothing(given) or says_nothing(wanted))
-        if told and given != wanted:
+        given, wanted = (known_unit(unit) if unit else None for unit in units)
+        if given is not None and wanted is not None and given != wanted:
             raise HostError(
                 f"'{start}' is in {units[0]} and '{end}' in {units[1]}; a wire converts no units, so wire variables "
                 "of one unit."

@@ -37,7 +37,7 @@ ENUMERATIONS = {
 LIMITS = {
     "ALI3_OPEN": "A row that is open by less, m, is not why something failed.",
     "ALI3_FARTHEST": "Largest distance of a start, m.",
-    "ALI3_FASTEST": "Largest speed of a start, m/s.",
+    "ALI3_FASTEST": "Largest speed of a start, m/s or rad/s, and its yaw, rad.",
     "ALI3_POSE": "Numbers of a pose.",
     "ALI3_LONGEST_SETTLING": "Longest time for which a start may settle, s.",
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from mbs.common.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.kernel.header.enumerations import Status
+from mbs.results.accuracy import AccuracyWarning
 from mbs.results.simulation_error import PoseError
 from mbs.settings.settings import Settings
 from mbs.simulation.state import Pose
@@ -21,6 +23,8 @@ RESOLVED = 1e3
 """Least length of a step in units of the round-off of the time."""
 MOST_VALUES = 10**9
 """Values that one run may record: 8 gigabytes."""
+LEFT_OUT = 0.01
+"""Share of a run at its end that may be left out without a word, as equal steps do not divide it."""
 
 
 def check_step(h: float) -> float:
@@ -90,6 +94,18 @@ def count_steps(t0: float, t_end: float, h: float) -> int:
     if steps:
         check_resolution(max(abs(t0), abs(end)), h)
     return steps
+
+
+def warn_of_end(t0: float, t_end: float, h: float) -> None:
+    """Warn, for the caller's caller, where whole steps leave out more than `LEFT_OUT` of what was asked for."""
+    whole, asked = count_steps(t0, t_end, h) * h, t_end - t0
+    if asked - whole > LEFT_OUT * asked + 1e-6 * h:
+        warnings.warn(
+            f"The run ends at {t0 + whole:g} s, a whole number of steps of {h:g} s, in place of {t_end:g} s; h = "
+            f"{asked / math.ceil(asked / h):.9g} ends there.",
+            AccuracyWarning,
+            stacklevel=3,
+        )
 
 
 def check_record(samples: int, sensors: int) -> None:

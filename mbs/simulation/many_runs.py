@@ -37,6 +37,7 @@ from mbs.simulation.arguments import (
     check_time,
     check_values,
     count_steps,
+    warn_of_end,
 )
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.fixed_steps import Told, judged_run
@@ -238,6 +239,7 @@ def simulate_many(
     check_system(system, "The system to simulate")
     t0, h, every = check_time(t0, "The start t0"), check_step(h), check_every(every)
     steps = count_steps(t0, check_end(t0, t_end), h)
+    warn_of_end(t0, t_end, h)
     check_progress(progress)
     if check_estimate(estimate_error):
         raise ValueError(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ali3.reading import read_bytes
-from ali3.words import brief
+from ali3.words import brief, one_line
 from mbs.common.errors import ModelError
 
 LARGEST = 1_000_000
@@ -142,9 +142,8 @@ def _value(text: str, what: str) -> str | float:
             f"{what} is {brief(text)}; its decimal mark must be a point, as in {text.replace(',', '.')}."
         )
     if not _NUMBER.fullmatch(text):
-        raise TyreFileError(
-            f"{what} is {brief(text) if text else 'empty'}; it must be a number, or a word in quotation marks."
-        )
+        given = f"{one_line(text, 60)}, without quotation marks" if text else "empty"
+        raise TyreFileError(f"{what} is {given}; it must be a number, or a word in quotation marks.")
     number = float(re.sub("[dD]", "e", text))
     if not math.isfinite(number):
         raise TyreFileError(f"{what} is {brief(text)}; it must be finite.")

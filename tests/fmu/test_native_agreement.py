@@ -217,18 +217,26 @@ def test_a_start_below_the_road_is_refused_and_can_be_put_right(
 
 
 @pytest.mark.parametrize("kind", ["native", "python"])
-@pytest.mark.parametrize(("name", "unit"), [("initial.x", "m"), ("initial.speed", "m/s")])
+@pytest.mark.parametrize(
+    ("name", "value", "unit"),
+    [
+        ("initial.x", 1e300, "m"),
+        ("initial.speed", 1e7, "m/s"),
+        ("initial.lateral_speed", 1e7, "m/s"),
+        ("initial.yaw", 1e7, "rad"),
+    ],
+)
 def test_a_start_beyond_the_digits_is_refused_by_its_name(
-    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str, name: str, unit: str
+    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, kind: str, name: str, value: float, unit: str
 ) -> None:
     driven = host(cars[1][kind])
     driven.slave.setupExperiment()
     driven.slave.enterInitializationMode()
-    assert driven.set(name, 1e300) == OK
+    assert driven.set(name, value) == OK
     assert driven.call("exitInitializationMode") == ERROR
     said = driven.messages[-1]
     assert "too far away or too fast" in said
-    assert said.endswith(f" '{name}' is 1e+300 {unit}.")
+    assert said.endswith(f" '{name}' is {value:g} {unit}.")
     assert "wishbone" not in said
     assert driven.set(name, 0.0) == OK
     assert driven.call("exitInitializationMode") == OK

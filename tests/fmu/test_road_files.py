@@ -272,6 +272,8 @@ def test_starts_on_a_slope_and_parameters_without_effect_are_told(car: Path, hos
     driven.start({"road.friction": 0.5})
     said = "\n".join(driven.messages)
     assert "The road is not level where this starts: the start is raised by 2 m" in said
+    sinks = float(re.search(r"above its place of rest sinks by (\S+) m\.", said)[1])
+    assert sinks == pytest.approx(0.05 * 2.3, rel=0.1)  # the wheelbase
     assert "'road.friction' is 0.5, without effect" in said
     driven.messages.clear()
     assert driven.set("road.kerb_height", 0.1) == OK

@@ -85,7 +85,7 @@ def ran(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def result(pendulum: Path, ran: Path, work: Path) -> Path:
     shutil.copytree(ran, work / "out")
-    return Path("out/MotorPendulum.csv")
+    return Path("out/motor_pendulum.csv")
 
 
 Said = Callable[..., tuple[int, str]]
@@ -116,9 +116,9 @@ def shown(page: Path) -> list[dict[str, Any]]:
 def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -> None:
     status, text = said(result)
     assert status == 0
-    assert "written: out/MotorPendulum.html" in text
-    assert f"open {Path('out/MotorPendulum.html').absolute()} in one" in text
-    (run,) = shown(Path("out/MotorPendulum.html"))
+    assert "written: out/motor_pendulum.html" in text
+    assert f"open {Path('out/motor_pendulum.html').absolute()} in one" in text
+    (run,) = shown(Path("out/motor_pendulum.html"))
     assert list(run["scene"]["frames"]) == ["rod"]
     table = np.genfromtxt(result, delimiter=",", names=True, deletechars="")
     np.testing.assert_array_equal(run["columns"]["time"], table["time"])
@@ -128,7 +128,7 @@ def test_a_result_is_shown_with_the_scene_of_its_fmu(result: Path, said: Said) -
 
 def test_the_record_stands_for_its_table(result: Path, said: Said) -> None:
     assert said(result.with_suffix(".json"), "--no-open")[0] == 0
-    assert shown(Path("out/MotorPendulum.html"))[0]["scene"] is not None
+    assert shown(Path("out/motor_pendulum.html"))[0]["scene"] is not None
 
 
 def test_a_result_is_found_from_another_folder(
@@ -137,7 +137,7 @@ def test_a_result_is_found_from_another_folder(
     (work / "elsewhere").mkdir()
     monkeypatch.chdir(work / "elsewhere")
     assert said(work / result, "--no-open")[0] == 0
-    assert shown(work / "out" / "MotorPendulum.html")[0]["scene"] is not None
+    assert shown(work / "out" / "motor_pendulum.html")[0]["scene"] is not None
 
 
 def test_an_fmu_is_run_and_shown(pendulum: Path, said: Said) -> None:
@@ -152,10 +152,10 @@ def test_an_fmu_is_run_and_shown(pendulum: Path, said: Said) -> None:
 
 def test_two_are_shown_over_each_other_with_names_that_differ(result: Path, said: Said) -> None:
     shutil.copytree("out", "other")
-    assert said(result, "other/MotorPendulum.csv", "--no-open", "--plot", "rod.angle")[0] == 0
-    runs = shown(Path("out/MotorPendulum_compared.html"))
-    assert [run["name"] for run in runs] == ["out/MotorPendulum", "other/MotorPendulum"]
-    page = data_of(Path("out/MotorPendulum_compared.html").read_text(encoding="utf-8"))
+    assert said(result, "other/motor_pendulum.csv", "--no-open", "--plot", "rod.angle")[0] == 0
+    runs = shown(Path("out/motor_pendulum_compared.html"))
+    assert [run["name"] for run in runs] == ["out/motor_pendulum", "other/motor_pendulum"]
+    page = data_of(Path("out/motor_pendulum_compared.html").read_text(encoding="utf-8"))
     assert page["options"]["plots"] == ["rod.angle"]
     assert len(page["scenes"]) == 1
 
@@ -164,7 +164,7 @@ def test_a_part_of_the_time_and_fewer_times(result: Path, said: Said) -> None:
     status, text = said(result, "--from", "0.2", "--to", "0.6", "--most", "5", "--no-open", "--out", "part")
     assert status == 0
     assert "5 of " in text
-    (run,) = shown(Path("part/MotorPendulum.html"))
+    (run,) = shown(Path("part/motor_pendulum.html"))
     assert run["columns"]["time"][[0, -1]] == pytest.approx([0.2, 0.6])
 
 
@@ -223,7 +223,7 @@ def test_an_fmu_that_has_moved_or_is_another_build(result: Path, said: Said, pen
     result.with_suffix(".json").write_text(json.dumps(record | {"token": "{another}"}))
     status, text = said(result, "--no-open")
     assert status == 0
-    assert "is another FMU than that of MotorPendulum, or was built again since" in text
+    assert "is another FMU than that of motor_pendulum, or was built again since" in text
 
 
 def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path, said: Said) -> None:
@@ -266,7 +266,7 @@ def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> No
     lines = result.read_text().splitlines()
     result.write_text("\n".join(lines[:2]) + "\n")
     assert said(result, "--no-open")[0] == 0
-    assert len(shown(Path("out/MotorPendulum.html"))[0]["columns"]["time"]) == 1
+    assert len(shown(Path("out/motor_pendulum.html"))[0]["columns"]["time"]) == 1
     place = lines[0].split(",").index('"rod.angle"')
     cells = lines[2].split(",")
     cells[place] = "nan"
@@ -285,8 +285,8 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
     monkeypatch.setattr(recorded, "_MOST_VALUES", 0)
     status, text = said(result, "--no-open")
     assert status == 0
-    assert text.count("One of every 10 of about 101 rows of MotorPendulum.csv was read.") == 1
-    times = shown(Path("out/MotorPendulum.html"))[0]["columns"]["time"]
+    assert text.count("One of every 10 of about 101 rows of motor_pendulum.csv was read.") == 1
+    times = shown(Path("out/motor_pendulum.html"))[0]["columns"]["time"]
     np.testing.assert_allclose(times, 0.1 * np.arange(11))
 
 
@@ -326,12 +326,12 @@ def test_lines_of_comment_are_left_out(work: Path, said: Said) -> None:
 
 
 UNMET = [
-    (["--live"], "out/MotorPendulum.csv is a result; --live needs an FMU, which the page runs."),
+    (["--live"], "out/motor_pendulum.csv is a result; --live needs an FMU, which the page runs."),
     (["--live", "--png", "p.png"], "--png does not go with --live."),
     (["--live", "--from", "0"], "--from does not go with --live."),
     (["--paused"], "--paused goes with --live."),
     (["--plot", "rod.angel"], "There is no signal 'rod.angel' to be plotted; the result has rod.angle"),
-    (["--from", "7", "--to", "8"], "There is no time from 7 s to 8 s in 'MotorPendulum'"),
+    (["--from", "7", "--to", "8"], "There is no time from 7 s to 8 s in 'motor_pendulum'"),
     (["--most", "1"], "must be a whole number from 2 on"),
     (["--manoeuvre", "slalom"], "results are shown as they are"),
     (["--geometry", "none.fmu"], "There is no file none.fmu."),
@@ -345,7 +345,7 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
     wrong = []
     for arguments, sentence in UNMET:
         status, text = said(result, "--no-open", *arguments)
-        if status != 2 or sentence not in text or Path("out/MotorPendulum.html").exists():
+        if status != 2 or sentence not in text or Path("out/motor_pendulum.html").exists():
             wrong.append((arguments, status, text))
     assert wrong == []
 
@@ -388,4 +388,4 @@ def test_pictures_and_animations_are_written_without_a_page(result: Path, said: 
         assert picture.size == (320, 240)
         assert len(picture.convert("RGB").getcolors(1 << 20) or []) > 10
     assert Path("p.glb").read_bytes().startswith(b"glTF")
-    assert not Path("out/MotorPendulum.html").exists()
+    assert not Path("out/motor_pendulum.html").exists()

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 import subprocess
 import sys
 
+import pytest
+
 from tests.house.reading import WAYS
+from tests.house.test_import_directions import ROOT
 
 PATHS = (
     "vehicle.load",
@@ -16,6 +21,13 @@ PATHS = (
     "flexible.scene_part.flexible_parts",
     "shapes.pose_outputs.pose_outputs",
     "roads.read_road",
+)
+
+
+FACADES = sorted(
+    ".".join(file.parent.relative_to(ROOT).parts)
+    for file in (ROOT / "mbs").rglob("__init__.py")
+    if "\n__getattr__ = " in file.read_text(encoding="utf-8")
 )
 
 
@@ -45,6 +57,14 @@ for path in sys.argv[1:]:
 def test_what_is_not_there_is_an_attribute_error() -> None:
     done = ran("import mbs; mbs.vehicles")
     assert done.stderr.endswith("AttributeError: module 'mbs' has no attribute 'vehicles'\n")
+
+
+@pytest.mark.parametrize("name", FACADES)
+def test_no_name_is_hidden_by_a_submodule(name: str) -> None:
+    """An import of the submodule anywhere would put it in the place of a lazy function of its name."""
+    package = importlib.import_module(name)
+    submodules = {module.name for module in pkgutil.iter_modules(package.__path__)}
+    assert submodules.isdisjoint(getattr(package, "_LAZY", ()))
 
 
 def test_importing_loads_none_of_them() -> None:

@@ -89,7 +89,9 @@ def test_a_step_refused_in_its_second_half_leaves_the_state_where_it_was():
     assert second > 0
 
 
-@pytest.mark.parametrize("pose", [Pose(x=1e300), Pose(y=-2.0 * FARTHEST), Pose(z=1e20), Pose(speed=1e300)])
+@pytest.mark.parametrize(
+    "pose", [Pose(x=1e300), Pose(y=-2.0 * FARTHEST), Pose(z=1e20), Pose(speed=1e300), Pose(yaw=-1e7)]
+)
 def test_a_start_beyond_the_digits_is_refused_as_that(pose):
     with pytest.raises(SimulationError, match="too far away or too fast") as refused:
         Simulation(compile(prototype_car.build()), pose=pose)

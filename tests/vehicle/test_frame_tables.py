@@ -124,7 +124,8 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
         ({"chassis.frame.gauges.SG1.place": 1.5}, "it must be 0 or between 0.002 and 1."),
         (
             {"chassis.mass": 400.0, "vehicle.mass": 521.0},
-            "chassis.mass is 400 kg, but the frame with the masses it carries has 476 kg.",
+            "chassis.mass is 400 kg, but the frame with the masses it carries has 476 kg. Change the masses of the "
+            "frame too; what a parameter of a run changes may differ: it rides on the frame.",
         ),
     ],
 )

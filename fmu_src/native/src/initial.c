@@ -5,7 +5,7 @@
 
 #include "slave.h"
 
-enum { POSE_HEIGHT = 2, POSE_YAW, POSE_SPEED }; /* places in a pose */
+enum { POSE_HEIGHT = 2 }; /* place in a pose, the last of lengths */
 
 /* " Worst constraint: ..." or nothing. */
 const char *slave_worst_row(slave *s, char *text, size_t size) {
@@ -26,9 +26,8 @@ static const char *farthest(const slave *s, char *text, size_t size) {
   text[0] = 0;
   for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->source != SLAVE_POSE || v->index == POSE_YAW) continue;
-    if (fabs(s->value[i]) > (v->index == POSE_SPEED ? ALI3_FASTEST : ALI3_FARTHEST))
-      snprintf(text, size, " '%.64s' is %g %s.", v->name, s->value[i], v->index == POSE_SPEED ? "m/s" : "m");
+    if (v->source == SLAVE_POSE && fabs(s->value[i]) > (v->index > POSE_HEIGHT ? ALI3_FASTEST : ALI3_FARTHEST))
+      snprintf(text, size, " '%.64s' is %g%s.", v->name, s->value[i], v->unit);
   }
   return text;
 }

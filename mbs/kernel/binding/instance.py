@@ -219,12 +219,6 @@ class Instance:
         height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
         return float(height), element.value, (words.value or b"").decode()
 
-    def start_lift(self) -> tuple[float, float]:
-        """How much a road from a file raised the last start, m; how far its highest part has to sink to rest, m."""
-        uneven = c_double()
-        lift = self._library.ali3_start_lift(self._handle, byref(uneven))
-        return float(lift), uneven.value
-
     def method_excludes(self) -> str:
         """What the method of the settings takes no System with, in words; empty if it takes all."""
         return bytes(self._library.ali3_method_excludes(self._handle)).decode()

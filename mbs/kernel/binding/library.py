@@ -45,7 +45,6 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_settle": (c_int32, [c_void_p, c_double, c_double]),
     "ali3_unsettled": (c_double, [c_void_p]),
     "ali3_start_excess": (c_double, [c_void_p, POINTER(c_int32), POINTER(c_char_p)]),
-    "ali3_start_lift": (c_double, [c_void_p, _DOUBLES]),
     "ali3_method_excludes": (c_char_p, [c_void_p]),
     "ali3_static_equilibrium": (c_int32, [c_void_p, c_double, c_double, c_int32]),
     "ali3_step": (c_int32, [c_void_p, c_double]),

@@ -5,7 +5,7 @@ OPEN = 1e-9
 FARTHEST = 1e8
 """Largest distance of a start, m."""
 FASTEST = 1e6
-"""Largest speed of a start, m/s."""
+"""Largest speed of a start, m/s or rad/s, and its yaw, rad."""
 POSE = 7
 """Numbers of a pose."""
 LONGEST_SETTLING = 10.0

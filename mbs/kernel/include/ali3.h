@@ -327,7 +327,7 @@ ALI3_API ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigne
 ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* A row that is open by less, m, is not why something failed. */
 #define ALI3_OPEN 1e-9
-/* Farthest and fastest start, m and m/s: coordinates have 16 digits. */
+/* Farthest and fastest start, m and m/s or rad/s, and its yaw, rad: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
 /* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. Above

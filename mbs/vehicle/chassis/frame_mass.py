@@ -10,6 +10,7 @@ from mbs.vehicle.chassis.section import Chassis
 
 MASS, INERTIA = 0.005, 0.02  # of the mass, of the largest moment of inertia
 CENTRE = 0.005  # m
+_REMEDY = "Change the masses of the frame too; what a parameter of a run changes may differ: it rides on the frame."
 
 
 def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
@@ -24,13 +25,13 @@ def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
     if abs(total - chassis.mass) > MASS * chassis.mass:
         raise ModelError(
             f"{chassis.key('mass')} is {chassis.mass:g} kg, but the frame with the masses it carries has "
-            f"{total:.6g} kg."
+            f"{total:.6g} kg. {_REMEDY}"
         )
     centre = masses @ model.mass.positions / total
     if np.linalg.norm(centre - chassis.com) > CENTRE:
         raise ModelError(
             f"{chassis.key('com')} is {list(chassis.com)} m, but the centre of mass of the frame with the masses it "
-            f"carries is {_shown(centre, 4)} m."
+            f"carries is {_shown(centre, 4)} m. {_REMEDY}"
         )
     arms = model.mass.positions - centre
     second = (masses[:, None] * arms).T @ arms
@@ -39,7 +40,8 @@ def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
         (x, xy, xz), (_, y, yz), (_, _, z) = tensor
         raise ModelError(
             f"{chassis.key('inertia')} is {list(chassis.inertia)} kg.m2 and products {list(chassis.products)}, but the "
-            f"frame with the masses it carries has {_shown((x, y, z), 2)} and {_shown((xy, xz, yz), 2)} kg.m2."
+            f"frame with the masses it carries has {_shown((x, y, z), 2)} and {_shown((xy, xz, yz), 2)} kg.m2. "
+            f"{_REMEDY}"
         )
 
 

@@ -51,6 +51,17 @@ def test_names_of_the_fmu_need_no_aliases(fmu: AliasedFmu, tmp_path: Path) -> No
     assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
 
 
+@pytest.mark.parametrize(("used", "told"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
+def test_a_sample_left_out_is_told_of_what_is_used(
+    fmu: AliasedFmu, tmp_path: Path, used: tuple[str, ...], told: int
+) -> None:
+    text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
+    (tmp_path / "log.csv").write_text(text)
+    log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().form), LogAliases(), used=used)
+    assert len(log.outputs["bob.x"].values) == ROWS - 1
+    assert sum("no neighbour supports" in note for note in log.notes) == told
+
+
 @pytest.mark.parametrize("second", [0.5 * 12, 30.0])
 def test_an_input_jumps_between_two_rows_of_one_time(fmu: AliasedFmu, tmp_path: Path, second: float) -> None:
     """An output has the first of them; the same value twice is no jump, and one that is no spike."""

@@ -57,7 +57,7 @@ def test_the_stiffness_for_a_lowest_place(
     }
     given = ["--stop-time", "2", "--step", "0.01", "--parameters", str(file), "--out", str(tmp_path / "again")]
     assert run([str(spring), *given]) == 0
-    table = (tmp_path / "again" / f"{spring.stem}.csv").read_text(encoding="utf-8").splitlines()
+    table = (tmp_path / "again" / f"{spring.stem.lower()}.csv").read_text(encoding="utf-8").splitlines()
     place = next(k for k, name in enumerate(table[0].split(",")) if name.strip('"').startswith("bob.y"))
     assert min(float(row.split(",")[place]) for row in table[1:]) == pytest.approx(record["reached"], abs=1e-9)
 

@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 
@@ -187,6 +188,15 @@ def test_options_of_another_type_are_one_sentence(
     usual = {"parts": {"mass": partners["half_mass"]}, "connections": {}, "step": 0.1}
     with pytest.raises(HostError, match=words):
         CoupledFmus(**(usual | options))
+
+
+def test_an_angle_is_no_plain_number(partners: dict[str, Path], scene_fmu: Callable[..., Path]) -> None:
+    """Nor is what an FMU that tells no unit has, which passes."""
+    sledge = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
+    parts = {"sledge": sledge, "mass": partners["half_mass"]}
+    CoupledFmus(parts, {"sledge.steering": "mass.position", "mass.force": "sledge.chassis.yaw"}, step=0.1).close()
+    with pytest.raises(HostError, match=r"'sledge.chassis.yaw' is in rad and 'sledge.steering' in 1; a wire converts"):
+        CoupledFmus(parts, {"sledge.steering": "sledge.chassis.yaw"}, step=0.1)
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,8 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_NO_TREE] =
           "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
       [ALI3_TOO_STIFF] = "the step is too long for an explicit method, which must follow the fastest motion",
-      [ALI3_TOO_FAR] = "the start is too far away or too fast: positions must stay within 1e8 m, speeds within 1e6 m/s",
+      [ALI3_TOO_FAR] =
+          "the start is too far away or too fast: positions must stay within 1e8 m, speeds and yaw within 1e6 m/s, rad",
       [ALI3_NO_EQUILIBRIUM] = "with these parameters there is no static equilibrium near the drawing to start from",
       [ALI3_BRANCH_CHANGED] = "a closed loop changed its assembly mode",
       [ALI3_FIXED_PARAMETER] = "a fixed parameter can be set before the start only",
@@ -191,7 +192,7 @@ ali3_status ali3_set_pose(ali3_instance *in, const double *pose) {
     return ALI3_BAD_ARGUMENT;
   const double x = pose[0], y = pose[1], z = pose[2], yaw = pose[3], speed = pose[4], left = pose[5], rate = pose[6];
   if (fmax(fabs(x), fmax(fabs(y), fabs(z))) > ALI3_FARTHEST) return ALI3_TOO_FAR;
-  if (fmax(fabs(speed), fabs(left)) > ALI3_FASTEST || fabs(rate) > ALI3_FASTEST) return ALI3_TOO_FAR;
+  if (fmax(fmax(fabs(speed), fabs(left)), fmax(fabs(yaw), fabs(rate))) > ALI3_FASTEST) return ALI3_TOO_FAR;
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
