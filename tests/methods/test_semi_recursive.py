@@ -86,7 +86,7 @@ def test_random_trees_and_loops_move_as_in_natural_coordinates(seed):
 
 @pytest.mark.parametrize(
     ("method", "order", "steps"),
-    [(SEMI[0], 8, (0.05, 0.04, 0.03125, 0.025)), (SEMI[1], 4, (0.01, 0.008, 0.00625, 0.005))],
+    [(SEMI[0], 8, (1 / 20, 1 / 24, 1 / 32, 1 / 40)), (SEMI[1], 4, (1 / 100, 1 / 120, 1 / 160, 1 / 200))],
 )
 @pytest.mark.parametrize("scene", ["chain", "bricard"])
 def test_order_of_convergence(scene, method, order, steps):
