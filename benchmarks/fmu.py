@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error("numbers of steps, repeats and instances are positive, repeats at most 64")
     if options.road_ports:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-            found = road_port_cost.measure("prototype", min(options.steps, 40), Path(folder))
+            found = road_port_cost.measure("prototype", min(options.steps, 500), Path(folder))
         print_table(found, road_port_cost.COLUMNS)
         save_rows(options.json, describe("road_ports", step_s=road_port_steps.STEP), found)
         return 0
