@@ -52,7 +52,7 @@ def test_a_run_on_a_table(sledge, tmp_path, capsys):
     out = tmp_path / "out"
     assert main([str(sledge), "--road", str(tmp_path / "hill.csv"), "--out", str(out)]) == 0
     assert "'' -> " in capsys.readouterr().out
-    table = np.genfromtxt(out / f"{sledge.stem}.csv", delimiter=",", names=True)
+    table = np.genfromtxt(out / f"{sledge.stem.lower()}.csv", delimiter=",", names=True)
     assert table["z"][-1] == pytest.approx(3.2, abs=0.01)
 
 
