@@ -17,7 +17,7 @@ import pytest
 from ali3.running import module_command
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.recordings.recording import Recorder
 from hosts.recordings.replay import replay
@@ -207,15 +207,20 @@ def test_parts_in_another_order_or_of_another_recording_are_refused(tmp_path: Pa
         drive.rows()
 
 
-def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
-    drive = Drive(fmus["sledge"], tmp_path / "drive", None, {})
+def _with_a_gap(fmu: Path, folder: Path) -> RecordedDrive:
+    """18 steps, whose rows 11 to 13 were not written."""
+    drive = Drive(fmu, folder, None, {})
     drive.steps(10)
     row, drive.recorder.row = drive.recorder.row, lambda *_: None  # type: ignore[method-assign]
     drive.steps(3)
     drive.recorder.row = row  # type: ignore[method-assign]
     drive.steps(5)
     drive.close()
-    step = read_recording(tmp_path / "drive").step
+    return read_recording(folder)
+
+
+def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
+    step = _with_a_gap(fmus["sledge"], tmp_path / "drive").step
     _, told = recorded_view(tmp_path / "drive", "drive")
     gap = f"first from {10 * step:g} s to {14 * step:g} s"
     assert [gap in sentence for sentence in told].count(True) == 1
@@ -224,14 +229,7 @@ def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: 
 
 
 def test_a_row_that_is_missing_is_told(fmus: dict[str, Path], tmp_path: Path) -> None:
-    drive = Drive(fmus["sledge"], tmp_path / "drive", None, {})
-    drive.steps(10)
-    row, drive.recorder.row = drive.recorder.row, lambda *_: None  # type: ignore[method-assign]
-    drive.steps(3)
-    drive.recorder.row = row  # type: ignore[method-assign]
-    drive.steps(5)
-    drive.close()
-    recorded = read_recording(tmp_path / "drive")
+    recorded = _with_a_gap(fmus["sledge"], tmp_path / "drive")
     assert len(recorded.rows()) == 16
     for use in (replay, to_manoeuvre):
         with pytest.raises(HostError, match="3 rows are missing after step 10"):
