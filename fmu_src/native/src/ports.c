@@ -7,9 +7,10 @@
 enum { HABIT = 10 };               /* times that a port was set, after which its silence tells something */
 static const double SILENCE = 0.5; /* s, longer than between any of them */
 
-/* A port is set to a finite number, to what it was or to another one. */
+/* A variable is set to a finite number, to what it was or to another one; of a port that is remembered. */
 void slave_port_given(slave *s, size_t i, bool changed) {
   slave_rhythm *r = &s->rhythm[i];
+  if (!slave_the_table.variable[i].port) return;
   const double now = s->calls.initialised ? ali3_time(s->fidelity.kernel) : s->calls.start_time;
   if (r->times == 0.0 || now > r->given) {
     if (r->times > 0.0) r->longest = fmax(r->longest, now - r->given);
