@@ -6,7 +6,7 @@ import gc
 import io
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -89,13 +89,29 @@ def wait_until(page: Any, expression: str, arg: Any = None, timeout: float = 30.
     timeout : float
         s.
     """
-    end = time.monotonic() + timeout
     if arg is None:  # objects of the page stay there
         expression = f"(() => {{ const it = ({expression}); return typeof it === 'object' ? it !== null : it; }})()"
-    while not (value := _evaluated(page, expression, arg)):
-        assert time.monotonic() < end, f"not within {timeout:g} s: {expression}"
+    return wait_for(page, lambda: _evaluated(page, expression, arg), expression, timeout)
+
+
+def wait_for(page: Any, holds: Callable[[], Any], what: object, timeout: float = 30.0) -> Any:
+    """What a function gives, once it is true; `what` it waits for is said where that is not within `timeout` s."""
+    end = time.monotonic() + timeout
+    while not (value := holds()):
+        assert time.monotonic() < end, f"not within {timeout:g} s: {what() if callable(what) else what}"
         page.wait_for_timeout(20)
     return value
+
+
+def wait_words(page: Any, element: str, words: str) -> None:
+    """An element, by its name for programs, has these words: a picture comes later than what it shows."""
+    text = page.locator(f'[data-a3="{element}"]').first.text_content
+    wait_for(page, lambda: words in text(), lambda: f"'{words}' in '{element}', which says '{text()}'")
+
+
+def wait_drawn(page: Any) -> None:
+    """The simulator has drawn what its page knows now; figures come after the picture."""
+    wait_until(page, "now => player.cockpit._timed > now", arg=page.evaluate("performance.now() / 1000"))
 
 
 def _evaluated(page: Any, expression: str, arg: Any) -> Any:

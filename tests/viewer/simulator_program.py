@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.in_browser import SELDOM, wait_until
+from tests.in_browser import SELDOM, wait_for, wait_until
 from viewer.recording import Recording
 from viewer.simulator_page import simulator_html
 
@@ -151,6 +151,18 @@ class Program:
     def text(self, what: str) -> str:
         """The words of an element by its name for programs."""
         return str(self.page.locator(f'[data-a3="{what}"]').first.text_content())
+
+    def wanted(self) -> dict[str, list[Any]]:
+        """Value and rate that hands wanted last, by input."""
+        return {name: pair for m in self.heard if m["type"] == "want" for name, pair in m["values"].items()}
+
+    def until_wanted(self, **pairs: list[Any]) -> None:
+        """Wait until hands want these."""
+        wait_for(self.page, lambda: self.wanted() == self.wanted() | pairs, lambda: (pairs, self.wanted()))
+
+    def until_heard(self, message: dict[str, Any]) -> None:
+        """Wait until the page has sent a message."""
+        wait_for(self.page, lambda: message in self.heard, message)
 
     def commands(self) -> list[tuple[str, float]]:
         """Commands that the page has sent."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 from typing import Any
+from unittest.mock import ANY
 
 import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
-from tests.in_browser import picture_of_simulator, wait_until
+from tests.in_browser import picture_of_simulator, wait_drawn, wait_until, wait_words
 from tests.viewer.simulator_program import BEHIND, REFUSED, REPORT, RUNNING, Program
 from viewer.recording import Recording
 
@@ -49,8 +50,7 @@ def shown(program: Program, time: float, flags: int = 0, **header: float) -> Non
     wait_until(
         program.page, "count => player.frames.newest?.count === count", arg=round(time / 0.002) + 1e6 * program.epoch
     )
-    now = program.ask("performance.now() / 1000")
-    wait_until(program.page, "now => player.cockpit._timed > now", arg=now)  # figures come after the picture
+    wait_drawn(program.page)
 
 
 def at(recording: Recording, name: str, time: float) -> float:
@@ -60,32 +60,22 @@ def at(recording: Recording, name: str, time: float) -> float:
 def test_keys_drive_at_their_rates_and_are_let_go_with_the_focus(program: Program) -> None:
     shown(program, 0.5, RUNNING)
     keyboard = program.page.keyboard
-    wants = lambda: [m for m in program.heard if m["type"] == "want"]  # noqa: E731
     keyboard.down("ArrowUp")
     keyboard.down("KeyA")
-    program.page.wait_for_timeout(100)
-    assert {m["source"] for m in wants()} == {"keys"}
-    last = {name: pair for m in wants() for name, pair in m["values"].items()}
-    assert last["throttle"] == [1, 2.5]
-    assert last["steering"][0] > 0.02  # to the left
-    assert last["steering"][1] == 1.6
+    program.until_wanted(throttle=[1, 2.5], steering=[ANY, 1.6])
+    assert {m["source"] for m in program.heard if m["type"] == "want"} == {"keys"}
+    assert program.wanted()["steering"][0] > 0.02  # to the left
     program.page.evaluate("window.dispatchEvent(new Event('blur'))")
-    program.page.wait_for_timeout(50)
-    last = {name: pair for m in wants() for name, pair in m["values"].items()}
-    assert last["throttle"] == [0, 5]
-    assert last["steering"] == [0, 3]
+    program.until_wanted(throttle=[0, 5], steering=[0, 3])
     keyboard.up("ArrowUp")
     keyboard.up("KeyA")
     keyboard.down("Space")
-    program.page.wait_for_timeout(50)
-    assert wants()[-1]["values"]["hand_brake"] == [1, 8]
+    program.until_wanted(hand_brake=[1, 8])
     program.page.evaluate(_HIDE)
-    program.page.wait_for_timeout(50)
-    assert wants()[-1]["values"]["hand_brake"] == [0, 8]
+    program.until_wanted(hand_brake=[0, 8])
     keyboard.up("Space")
     keyboard.press("r")
-    program.page.wait_for_timeout(50)
-    assert wants()[-1]["values"]["selector"] == [-1, None]
+    program.until_wanted(selector=[-1, None])
 
 
 @pytest.mark.slow
@@ -116,9 +106,8 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     assert "Outside of the world" in program.text("flag outside")
     program.say({"type": "event", "kind": "told", "time": 2.3, "text": "Page 2 was closed: throttle let go."})
     program.say({"type": "refused", "text": "There is no command 'fly'."})
-    program.page.wait_for_timeout(100)
-    assert "throttle let go." in program.text("events")
-    assert "There is no command 'fly'." in program.text("events")
+    wait_words(program.page, "events", "throttle let go.")
+    wait_words(program.page, "events", "There is no command 'fly'.")
     program.page.keyboard.press("b")
     assert "build CAR --poses all" in program.text("events")
     wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true")
@@ -345,9 +334,7 @@ class TestOnePage:
         keyboard.down("Control")
         keyboard.up("ArrowUp")
         keyboard.up("Control")
-        shared.page.wait_for_timeout(50)
-        last = {name: pair for m in shared.heard if m["type"] == "want" for name, pair in m["values"].items()}
-        assert last["throttle"] == [0, 5]
+        shared.until_wanted(throttle=[0, 5])
 
     def test_keys_and_buttons_are_commands(self, shared: Program) -> None:
         shown(shared, 3.0, RUNNING, saved=12.5)
@@ -360,11 +347,10 @@ class TestOnePage:
             "slider => { slider.value = 7.5; for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
         )
         shared.page.locator('[data-a3="place"]').select_option("hill_20")
-        shared.page.wait_for_timeout(50)
+        shared.until_heard({"type": "place", "name": "hill_20"})
         names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
         values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
         assert shared.commands() == list(zip(names, values, strict=True))
-        assert {"type": "place", "name": "hill_20"} in shared.heard
         assert shared.ask("Number(document.querySelector('[data-a3=\"saved\"]').max)") == 12.5
         keyboard.press("h")
         assert shared.page.locator('[data-a3="help list"]').is_visible()
@@ -372,6 +358,7 @@ class TestOnePage:
         assert not shared.page.locator('[data-a3="help list"]').is_visible()
 
     def test_the_map_shows_the_car_its_trail_and_places(self, shared: Program, lane_change: Recording) -> None:
+        shown(shared, 0.0, RUNNING)
         shared.drive(0.0, 2.0, 0.05)
         shared.page.keyboard.press("5")
         shown(shared, 3.0)
@@ -387,12 +374,12 @@ class TestOnePage:
         x, y = shared.page.evaluate("() => player.cockpit.map.pixel([120, 80])")
         assert np.allclose(pixels[int(y), int(x)], 255, atol=8)  # a place
         shared.page.mouse.click(x, y)
-        shared.page.wait_for_timeout(50)
-        assert {"type": "place", "name": "hill_20"} in shared.heard
+        shared.until_heard({"type": "place", "name": "hill_20"})
         shared.page.keyboard.press("1")
 
     def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, shared: Program) -> None:
         """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
+        wait_drawn(shared.page)  # the small map is there again
         made, apart = shared.ask("""(() => {
           const map = player.cockpit._inset;
           const { plan } = map;
@@ -443,9 +430,8 @@ class TestOnePage:
     def test_a_report_is_drawn(self, shared: Program) -> None:
         shown(shared, 1.0)
         shared.page.keyboard.press("g")
-        shared.page.wait_for_timeout(50)
-        assert {"type": "report"} in shared.heard
-        assert {"type": "watch devices", "on": True} in shared.heard
+        shared.until_heard({"type": "report"})
+        shared.until_heard({"type": "watch devices", "on": True})
         bins = REPORT["cost"]["bins"]
         shared.say(REPORT)
         shared.page.wait_for_selector('[data-a3="histogram"] rect')

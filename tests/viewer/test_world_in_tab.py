@@ -17,6 +17,17 @@ from tests.in_browser import SELDOM, wait_until
 from tests.viewer.bars import check_bar
 
 MOST_BYTES = 8e6
+# An answer of the worker that comes while the page still unpacks would find nothing to draw it in.
+SLOW_TO_UNPACK = """{
+  const { Worker, Response } = window;
+  let begun = false;
+  window.Worker = class extends Worker { constructor(...given) { super(...given); begun = true; } };
+  const { arrayBuffer } = Response.prototype;
+  Response.prototype.arrayBuffer = async function () {
+    if (begun) await new Promise((done) => setTimeout(done, 3000));
+    return arrayBuffer.call(this);
+  };
+}"""
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +45,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
     assert file.stat().st_size <= MOST_BYTES
     assert "Thin ground: its heights are off by at most" in capsys.readouterr().out
     page = chromium.new_page(viewport={"width": 640, "height": 360})
-    page.add_init_script(SELDOM)
+    page.add_init_script(SELDOM + SLOW_TO_UNPACK)
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(file.as_uri())

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.in_browser import headless_chromium, picture_of_simulator, wait_until
+from tests.in_browser import headless_chromium, picture_of_simulator, wait_drawn, wait_until
 
 WORLDS = ("plane", "kerb", "washboard", "rough", "split")
 CAMERAS = ("driver", "chase", "wheel FL", "wheel RR", "orbit", "side", "top", "map")
@@ -114,6 +114,12 @@ class Driver:
             f"missed {n['missed']:.0f}"
         )
 
+    def begin_at(self, place: str) -> None:
+        """Begin again at a place of the world."""
+        epoch = self.ask("player.frames.newest.epoch")
+        self.ask("name => player.cockpit.act.place(name)", place)
+        wait_until(self.page, "epoch => player.frames.newest.epoch > epoch", arg=epoch)
+
     def still(self) -> None:
         """Time stands, and the picture with it."""
         self.page.keyboard.press("p")
@@ -184,9 +190,7 @@ def test_a_minute_on_the_proving_ground(fmu, browser):
         tour = 0
         while time.monotonic() - begin < SECONDS or tour < len(places):
             place, camera = places[tour % len(places)], CAMERAS[tour % len(CAMERAS)]
-            epoch = driver.ask("player.frames.newest.epoch")
-            driver.ask("name => player.cockpit.act.place(name)", place)
-            wait_until(driver.page, "epoch => player.frames.newest.epoch > epoch", arg=epoch)
+            driver.begin_at(place)
             driver.look(camera)
             keyboard.down("ArrowUp")
             wait_until(driver.page, "player.get('speed') > 4", timeout=60.0)
@@ -204,8 +208,8 @@ def test_a_minute_on_the_proving_ground(fmu, browser):
         keyboard.press("Backspace")
         wait_until(driver.page, "epoch => player.frames.newest.epoch > epoch", arg=before["epoch"])
         assert driver.ask("player.frames.newest.time") < before["time"] + 60.0
-        driver.ask("name => player.cockpit.act.place(name)", "slalom")
-        driver.page.wait_for_timeout(800)
+        driver.begin_at("slalom")
+        wait_drawn(driver.page)
         driver.still()
         driver.look("chase")
         cones_are_seen(driver)

@@ -187,12 +187,6 @@ class Drive {
       for (const [path, packed] of Object.entries(part.resources ?? {})) resources[path] = await unpack(packed);
       fmus.push({ ...part, scene: await unpackedJson(part.scene), wasm: await unpack(part.wasm), resources });
     }
-    this.session = new Session(fmus, { ...this.options, script: table }, {
-      started: () => this._started(),
-      refused: (which, text, alive) => this._refused(which, text, alive),
-      message: (which, text) => this._tell(text),
-      error: (at, text) => this._error(at, text),
-    });
     const pictures = [];
     for (const { title, scene, roads, world: packed, description } of fmus) {
       const choices = roads ? await unpackedJson(roads) : {};
@@ -200,6 +194,13 @@ class Drive {
       const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
       pictures.push({ title, scene: drawn, roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
     }
+    // Nothing is awaited from here until the page hears: the first answer finds everything in its place.
+    this.session = new Session(fmus, { ...this.options, script: table }, {
+      started: () => this._started(),
+      refused: (which, text, alive) => this._refused(which, text, alive),
+      message: (which, text) => this._tell(text),
+      error: (at, text) => this._error(at, text),
+    });
     this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, (sentence) => this._tell(sentence));
     this._layOut(fmus[0]);
     this.stage.open();
@@ -339,16 +340,16 @@ class Drive {
   }
 
   _started() {
-    this.stage?.bind(this.session.record, this.session.prefixes, this.session.start);
-    this.stage?.chooseRoads(this.session.start["road.file"] ?? "");
+    this.stage.bind(this.session.record, this.session.prefixes, this.session.start);
+    this.stage.chooseRoads(this.session.start["road.file"] ?? "");
     this._clear();
-    this.hands?.clear();
-    if (this.plots) this.plots.stale = true;
+    this.hands.clear();
+    this.plots.stale = true;
   }
 
   _clear() {
-    this.stage?.renew();
-    for (const part of this.stage?.parts ?? []) if (!part.view?.problem) this.stage.tell(part, "");
+    this.stage.renew();
+    for (const part of this.stage.parts) if (!part.view?.problem) this.stage.tell(part, "");
     this._tell("");
   }
 
@@ -360,7 +361,6 @@ class Drive {
   }
 
   _error(at, text) {
-    if (!this.stage) return;
     const what = { open: "The FMU could not be started: ", restart: "These values were refused: " }[at] ?? "";
     this._tell(`${what}${text}`);
   }
