@@ -4,6 +4,9 @@ What takes a compiler long does not depend on the model: all C files but the tab
 compilation for each platform in the background, several at a time. The compiler keeps each object under a hash of its
 source, its headers and the options; the build of the FMU, which comes later with the table, finds them there, or waits
 for the one that is being made. Nothing that is made here goes into an FMU.
+
+What the compiler has made of the same sources in the same place is in its cache: a file beside it says so, and nothing
+is begun. Where the cache has lost it, the build of the FMU compiles it.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ali3.cores import available_cores
-from fmu_src.native.compile import library_command
+from fmu_src.native.compile import library_command, library_digest
 from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
 from fmu_src.variables.arrays import scalars
@@ -41,14 +44,16 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
         table = Path(folder, "table.c")
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
-        commands = [
-            library_command(face, target, table, Path(folder, f"{face}-{target}"))
+        marks = build.cache_directory() / "ahead"
+        commands = {
+            marks / library_digest(face, target): library_command(face, target, table, Path(folder, f"{face}-{target}"))
             for face, platform in work
             for target in TARGETS[platform]
-        ]
-        if commands:  # two compilers at the ends of the list that is wanted first share its objects
-            commands.insert(1, _backwards(commands[0]))
-        compilers = _Compilers(commands, build.compiler_environment())
+        }
+        missing = [(mark, command) for mark, command in commands.items() if not mark.is_file()]
+        if missing:  # two compilers at the ends of the list that is wanted first share its objects
+            missing.insert(1, (missing[0][0], _backwards(missing[0][1])))
+        compilers = _Compilers(missing, build.compiler_environment())
         try:
             yield
         finally:
@@ -68,7 +73,7 @@ def _backwards(command: Sequence[str]) -> list[str]:
 class _Compilers:
     """As many compilers at once as there are processors. What goes wrong is for the build to find, and to say."""
 
-    def __init__(self, commands: Sequence[Sequence[str]], environment: dict[str, str]) -> None:
+    def __init__(self, commands: Sequence[tuple[Path, Sequence[str]]], environment: dict[str, str]) -> None:
         self._commands, self._environment = iter(commands), environment
         self._lock, self._ended = threading.Lock(), False
         self._running: set[subprocess.Popen[bytes]] = set()
@@ -87,15 +92,18 @@ class _Compilers:
             thread.join()
 
     def _work(self) -> None:
-        while (process := self._next()) is not None:
-            process.wait()
+        while (begun := self._next()) is not None:
+            mark, process = begun
+            if process.wait() == 0:
+                mark.parent.mkdir(exist_ok=True)
+                mark.touch()
             with self._lock:
                 self._running.discard(process)
 
-    def _next(self) -> subprocess.Popen[bytes] | None:
+    def _next(self) -> tuple[Path, subprocess.Popen[bytes]] | None:
         with self._lock:
-            command = None if self._ended else next(self._commands, None)
-            if command is None:
+            mark, command = (None, ()) if self._ended else next(self._commands, (None, ()))
+            if mark is None:
                 return None
             try:
                 process = subprocess.Popen(
@@ -104,4 +112,4 @@ class _Compilers:
             except OSError:
                 return None
             self._running.add(process)
-            return process
+            return mark, process

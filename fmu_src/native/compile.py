@@ -56,6 +56,14 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
     return build.compiler_command(files, target, library, include=_INCLUDE, defines=_DEFINES, exports=exports(files))
 
 
+def library_digest(face: str, target: str) -> str:
+    """A hash of that command and of all C files and headers but the table, with their place."""
+    table = Path("table.c")
+    rooms = {*_INCLUDE, *(file.parent for file in _files(face, table) if file != table)}
+    files = (file for room in rooms for file in room.glob("*.[ch]"))
+    return build.digest_of(library_command(face, target, table, Path("library")), files, Path(__file__).parents[2])
+
+
 def exports(files: Sequence[Path]) -> list[str]:
     """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
     shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]

@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
@@ -124,11 +124,16 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
 
 def _digest(target: str, exports: Sequence[str]) -> str:
     """A hash of all that the library of the kernel depends on: the compiler, its options, the sources; no places."""
-    command = compiler_command([], target, Path(library_name(target)), exports=exports)[1:]
-    digest = hashlib.sha256(repr((version("ziglang"), command)).encode())
-    for file in sorted((*HERE.glob("include/*.h"), *HERE.rglob("src/**/*.[ch]"))):
+    command = compiler_command([], target, Path(library_name(target)), exports=exports)
+    return digest_of(command, (*HERE.glob("include/*.h"), *HERE.rglob("src/**/*.[ch]")), HERE)
+
+
+def digest_of(command: Sequence[str], files: Iterable[Path], root: Path) -> str:
+    """A hash of the compiler's version, of the words behind its name, and of files by their places from a root."""
+    digest = hashlib.sha256(repr((version("ziglang"), list(command[1:]))).encode())
+    for file in sorted(files):
         content = file.read_bytes()
-        digest.update(f"\n{file.relative_to(HERE).as_posix()} {len(content)}\n".encode() + content)
+        digest.update(f"\n{file.relative_to(root).as_posix()} {len(content)}\n".encode() + content)
     return digest.hexdigest()
 
 

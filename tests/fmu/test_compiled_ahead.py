@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import threading
 import time
 from pathlib import Path
 
@@ -20,14 +21,23 @@ from tests.unoptimised import unoptimised
 PLATFORM = fmpy.platform
 
 
+@pytest.fixture(autouse=True)
+def empty(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    """A cache of the compiler in which nothing is."""
+    folder = tmp_path / "cache"
+    folder.mkdir()
+    monkeypatch.setattr(build, "cache_directory", lambda: folder)
+    return folder
+
+
 @pytest.fixture
 def commands(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     """What would be compiled, in its order."""
     begun: list[list[str]] = []
 
     class Compilers:
-        def __init__(self, commands: list[list[str]], environment: dict[str, str]) -> None:
-            begun.extend(commands)
+        def __init__(self, commands: list[tuple[Path, list[str]]], environment: dict[str, str]) -> None:
+            begun.extend(command for _, command in commands)
 
         def end(self) -> None:
             pass
@@ -62,7 +72,9 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
         return started[-1]
 
     monkeypatch.setattr(ahead.subprocess, "Popen", start)
-    monkeypatch.setattr(ahead.tempfile, "tempdir", str(tmp_path))
+    place = tmp_path / "temporary"
+    place.mkdir()
+    monkeypatch.setattr(ahead.tempfile, "tempdir", str(place))
 
     def interrupted() -> None:
         with compiled_ahead([("fmi2", "linux64")]):
@@ -74,27 +86,49 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
         interrupted()
     assert started
     assert all(process.poll() not in (None, 0) for process in started)
-    assert list(tmp_path.iterdir()) == []
+    assert list(place.iterdir()) == []
+
+
+def test_what_the_cache_has_is_not_begun_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Until a source or an option changes; what the compiler refuses is begun each time."""
+    begun: list[list[str]] = []
+    popen, program = subprocess.Popen, ["false"]
+
+    def start(command: list[str], **options: object) -> subprocess.Popen[bytes]:
+        begun.append(command)
+        return popen(program, **options)  # type: ignore[call-overload]
+
+    monkeypatch.setattr(ahead.subprocess, "Popen", start)
+
+    def count() -> int:
+        begun.clear()
+        with compiled_ahead([("fmi2", "linux64")]):
+            for thread in threading.enumerate():
+                if "_work" in thread.name:
+                    thread.join()
+        return len(begun)
+
+    assert count() == count() == 2
+    program[0] = "true"
+    assert (count(), count()) == (2, 0)
+    with unoptimised():
+        assert (count(), count()) == (2, 0)
+    read = Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda file: read(file) + b" " * (file.name == "ali3.h"))
+    assert (count(), count()) == (2, 0)
 
 
 @pytest.mark.slow
 @unoptimised()
-def test_a_second_model_compiles_its_table_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    usual = build_fmu(mbs.compile(scenes.crane()), "crane", tmp_path / "usual", [PLATFORM]).read_bytes()
-    monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "cache"))
-    build.cache_directory.cache_clear()
-
+def test_a_second_model_compiles_its_table_only(tmp_path: Path, empty: Path) -> None:
     def objects() -> int:
-        return len(list((tmp_path / "cache" / "o").rglob("*.o")))
+        return len(list((empty / "o").rglob("*.o")))
 
-    try:
-        with compiled_ahead([("fmi2", PLATFORM)]):
-            cold = build_fmu(mbs.compile(scenes.crane()), "crane", tmp_path / "cold", [PLATFORM]).read_bytes()
-        assert cold == usual
-        before = objects()
-        assert before > 90
-        build_fmu(mbs.compile(scenes.sled()), "sled", tmp_path, [PLATFORM])
-        assert objects() == before + 1
-    finally:
-        monkeypatch.undo()
-        build.cache_directory.cache_clear()
+    system = mbs.compile(scenes.crane())
+    with compiled_ahead([("fmi2", PLATFORM)]):
+        cold = build_fmu(system, "crane", tmp_path / "cold", [PLATFORM]).read_bytes()
+    before = objects()
+    assert before > 90
+    assert build_fmu(system, "crane", tmp_path / "usual", [PLATFORM]).read_bytes() == cold
+    build_fmu(mbs.compile(scenes.sled()), "sled", tmp_path, [PLATFORM])
+    assert objects() == before + 1
