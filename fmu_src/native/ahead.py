@@ -5,8 +5,8 @@ compilation for each platform in the background, several at a time. The compiler
 source, its headers and the options; the build of the FMU, which comes later with the table, finds them there, or waits
 for the one that is being made. Nothing that is made here goes into an FMU.
 
-What the compiler has made of the same sources in the same place is in its cache: a file beside it says so, and nothing
-is begun. Where the cache has lost it, the build of the FMU compiles it.
+A build that has ended well leaves a file beside that cache: of the same sources in the same place nothing is begun
+again. Where the cache has lost its objects, the build compiles them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import subprocess
 import tempfile
 import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.cores import available_cores
@@ -44,20 +44,24 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
         table = Path(folder, "table.c")
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
-        marks = build.cache_directory() / "ahead"
-        commands = {
-            marks / library_digest(face, target): library_command(face, target, table, Path(folder, f"{face}-{target}"))
+        marks = {
+            build.cache_directory() / "ahead" / library_digest(face, target): (face, target)
             for face, platform in work
             for target in TARGETS[platform]
         }
-        missing = [(mark, command) for mark, command in commands.items() if not mark.is_file()]
-        if missing:  # two compilers at the ends of the list that is wanted first share its objects
-            missing.insert(1, (missing[0][0], _backwards(missing[0][1])))
-        compilers = _Compilers(missing, build.compiler_environment())
+        missing = {mark: library for mark, library in marks.items() if not mark.is_file()}
+        commands = [library_command(*library, table, Path(folder, "-".join(library))) for library in missing.values()]
+        if commands:  # two compilers at the ends of the list that is wanted first share its objects
+            commands.insert(1, _backwards(commands[0]))
+        compilers = _Compilers(commands, build.compiler_environment())
         try:
             yield
         finally:
             compilers.end()
+    with suppress(OSError):  # the next build begins the same again
+        for mark in missing:
+            mark.parent.mkdir(exist_ok=True)
+            mark.touch()
 
 
 def _backwards(command: Sequence[str]) -> list[str]:
@@ -73,7 +77,7 @@ def _backwards(command: Sequence[str]) -> list[str]:
 class _Compilers:
     """As many compilers at once as there are processors. What goes wrong is for the build to find, and to say."""
 
-    def __init__(self, commands: Sequence[tuple[Path, Sequence[str]]], environment: dict[str, str]) -> None:
+    def __init__(self, commands: Sequence[Sequence[str]], environment: dict[str, str]) -> None:
         self._commands, self._environment = iter(commands), environment
         self._lock, self._ended = threading.Lock(), False
         self._running: set[subprocess.Popen[bytes]] = set()
@@ -92,18 +96,15 @@ class _Compilers:
             thread.join()
 
     def _work(self) -> None:
-        while (begun := self._next()) is not None:
-            mark, process = begun
-            if process.wait() == 0:
-                mark.parent.mkdir(exist_ok=True)
-                mark.touch()
+        while (process := self._next()) is not None:
+            process.wait()
             with self._lock:
                 self._running.discard(process)
 
-    def _next(self) -> tuple[Path, subprocess.Popen[bytes]] | None:
+    def _next(self) -> subprocess.Popen[bytes] | None:
         with self._lock:
-            mark, command = (None, ()) if self._ended else next(self._commands, (None, ()))
-            if mark is None:
+            command = None if self._ended else next(self._commands, None)
+            if command is None:
                 return None
             try:
                 process = subprocess.Popen(
@@ -112,4 +113,4 @@ class _Compilers:
             except OSError:
                 return None
             self._running.add(process)
-            return mark, process
+            return process

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import subprocess
-import threading
 import time
 from pathlib import Path
 
@@ -36,8 +35,8 @@ def commands(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     begun: list[list[str]] = []
 
     class Compilers:
-        def __init__(self, commands: list[tuple[Path, list[str]]], environment: dict[str, str]) -> None:
-            begun.extend(command for _, command in commands)
+        def __init__(self, commands: list[list[str]], environment: dict[str, str]) -> None:
+            begun.extend(commands)
 
         def end(self) -> None:
             pass
@@ -89,27 +88,18 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     assert list(place.iterdir()) == []
 
 
-def test_what_the_cache_has_is_not_begun_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Until a source or an option changes; what the compiler refuses is begun each time."""
-    begun: list[list[str]] = []
-    popen, program = subprocess.Popen, ["false"]
-
-    def start(command: list[str], **options: object) -> subprocess.Popen[bytes]:
-        begun.append(command)
-        return popen(program, **options)  # type: ignore[call-overload]
-
-    monkeypatch.setattr(ahead.subprocess, "Popen", start)
+def test_what_a_build_has_compiled_is_not_begun_again(
+    commands: list[list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Until a source or an option changes; a build that fails leaves it to the next."""
 
     def count() -> int:
-        begun.clear()
+        commands.clear()
         with compiled_ahead([("fmi2", "linux64")]):
-            for thread in threading.enumerate():
-                if "_work" in thread.name:
-                    thread.join()
-        return len(begun)
+            return len(commands)
 
-    assert count() == count() == 2
-    program[0] = "true"
+    with pytest.raises(KeyError), compiled_ahead([("fmi2", "linux64")]):
+        raise KeyError
     assert (count(), count()) == (2, 0)
     with unoptimised():
         assert (count(), count()) == (2, 0)
