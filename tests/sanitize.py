@@ -35,7 +35,7 @@ TESTS = [
     "tests/simulation/test_assembly_modes.py",
 ]
 LEFT_OUT = {"tests/kernel/test_elementary.py", "tests/kernel/test_without_avx2.py"}  # compile libraries of their own
-FLAGS = ["-g", "-O1", "-std=c11", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror"]
+FLAGS = ["-g1", "-O1", "-std=c11", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror"]
 ADDRESSES = ["-fsanitize=address", "-DALI3_GAPS"]
 OBJECTS = "ALI3_SANITIZED_OBJECTS"
 """Names a folder in which objects are kept, so that the kernel and an FMU are compiled once for both."""
