@@ -57,11 +57,8 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
 
 
 def library_digest(face: str, target: str) -> str:
-    """A hash of that command and of all C files and headers but the table, with their place."""
-    table = Path("table.c")
-    rooms = {*_INCLUDE, *(file.parent for file in _files(face, table) if file != table)}
-    files = (file for room in rooms for file in room.glob("*.[ch]"))
-    return build.digest_of(library_command(face, target, table, Path("library")), files, Path(__file__).parents[2])
+    """A hash of that command and of the sources with their place."""
+    return build.digest_of(library_command(face, target, Path("table.c"), Path("library")), build.HERE, HERE, DETOUR)
 
 
 def exports(files: Sequence[Path]) -> list[str]:

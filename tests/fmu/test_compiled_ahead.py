@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import time
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
 import fmpy
@@ -34,14 +35,11 @@ def commands(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     """What would be compiled, in its order."""
     begun: list[list[str]] = []
 
-    class Compilers:
-        def __init__(self, commands: list[list[str]], environment: dict[str, str]) -> None:
-            begun.extend(commands)
+    def compilers(commands: list[list[str]]) -> AbstractContextManager[None]:
+        begun.extend(commands)
+        return nullcontext()
 
-        def end(self) -> None:
-            pass
-
-    monkeypatch.setattr(ahead, "_Compilers", Compilers)
+    monkeypatch.setattr(ahead, "_compilers", compilers)
     return begun
 
 
