@@ -16,7 +16,7 @@ from hosts.study.study_file import read_study_file
 from hosts.study.trial import try_out, with_columns
 from hosts.study.work import DONE, Outcome
 
-STUDY = 'fmu = "{fmu}"\nstep = 0.01\n[parameters]\n"front.tyre.grip" = {{ values = [1.0, 0.9] }}\n'
+STUDY = 'fmu = "{fmu}"\nstep = 0.005\n[parameters]\n"front.tyre.grip" = {{ values = [1.0, 0.9] }}\n'
 # Short, and such that nothing is asked that these runs cannot tell.
 SHORT = {
     "steady_circle": "speed_rise = 1.0, fit_to = 3.0, radius = 30.0",
