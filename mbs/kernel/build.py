@@ -126,9 +126,9 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
 def digest_of(command: Sequence[str], *folders: Path) -> str:
     """A hash of the compiler's version, its options, and the C files and headers in folders: no places but options'."""
     digest = hashlib.sha256(repr((version("ziglang"), command[1:])).encode())
-    for folder, file in ((folder, file) for folder in folders for file in sorted(folder.rglob("*.[ch]"))):
-        content = file.read_bytes()
-        digest.update(f"\n{file.relative_to(folder).as_posix()} {len(content)}\n".encode() + content)
+    for root, source in ((folder, file) for folder in folders for file in sorted(folder.rglob("*.[ch]"))):
+        content = source.read_bytes()
+        digest.update(f"\n{source.relative_to(root).as_posix()} {len(content)}\n".encode() + content)
     return digest.hexdigest()
 
 
