@@ -114,10 +114,10 @@ def renamed_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Cal
     """The FMU of the rigid prototype under the names of another program, built once for all processes."""
 
     def make(names: str) -> Path:
-        from hosts.fmu.built_fmu import build_fmu
+        from tests.in_process import build_fmu
 
         options = ("--car", "prototype", "--fidelity", "0", "--names", names)
-        return next(made_once(f"rigid_{names}", lambda folder: build_fmu("a car", options, folder)).glob("*.fmu"))
+        return next(made_once(f"rigid_{names}", lambda folder: build_fmu(folder, *options)).glob("*.fmu"))
 
     return make
 

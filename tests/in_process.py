@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Sequence
 from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
 from subprocess import CompletedProcess
 
 
@@ -17,3 +18,13 @@ def run(main: Callable[[Sequence[str]], int], *arguments: object) -> CompletedPr
         except SystemExit as end:  # of argparse
             status = int(end.code or 0)
     return CompletedProcess(typed, status, out.getvalue(), error.getvalue())
+
+
+def build_fmu(folder: Path, *options: str) -> Path:
+    """The native FMU that ``ali3 build`` makes for this machine."""
+    from fmu_src.build.command import main
+
+    done = run(main, "--kind", "native", "--platforms", "this", *options, "--out", folder)
+    assert done.returncode == 0, done.stderr
+    (file,) = folder.glob("*.fmu")
+    return file

@@ -4,6 +4,9 @@ What takes a compiler long does not depend on the model: all C files but the tab
 compilation for each platform in the background, several at a time. The compiler keeps each object under a hash of its
 source, its headers and the options; the build of the FMU, which comes later with the table, finds them there, or waits
 for the one that is being made. Nothing that is made here goes into an FMU.
+
+A build that has ended well leaves a file beside that cache, and of the same sources in the same place nothing is begun
+again.
 """
 
 from __future__ import annotations
@@ -12,11 +15,12 @@ import subprocess
 import tempfile
 import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.cores import available_cores
-from fmu_src.native.compile import library_command
+from fmu_src.native.compile import library_command, library_digest
 from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
 from fmu_src.variables.arrays import scalars
@@ -41,18 +45,21 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
         table = Path(folder, "table.c")
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
-        commands = [
-            library_command(face, target, table, Path(folder, f"{face}-{target}"))
+        marks = {
+            build.cache_directory() / "ahead" / library_digest(face, target): (face, target)
             for face, platform in work
             for target in TARGETS[platform]
-        ]
+        }
+        missing = {mark: library for mark, library in marks.items() if not mark.is_file()}
+        commands = [library_command(*library, table, Path(folder, "-".join(library))) for library in missing.values()]
         if commands:  # two compilers at the ends of the list that is wanted first share its objects
             commands.insert(1, _backwards(commands[0]))
-        compilers = _Compilers(commands, build.compiler_environment())
-        try:
+        with _compilers(commands):
             yield
-        finally:
-            compilers.end()
+    with suppress(OSError):  # the next build begins the same again
+        for mark in missing:
+            mark.parent.mkdir(exist_ok=True)
+            mark.touch()
 
 
 def _backwards(command: Sequence[str]) -> list[str]:
@@ -65,43 +72,27 @@ def _backwards(command: Sequence[str]) -> list[str]:
     return turned
 
 
-class _Compilers:
+@contextmanager
+def _compilers(commands: Sequence[Sequence[str]]) -> Iterator[None]:
     """As many compilers at once as there are processors. What goes wrong is for the build to find, and to say."""
+    environment, lock, ended = build.compiler_environment(), threading.Lock(), threading.Event()
+    running: list[subprocess.Popen[bytes]] = []
 
-    def __init__(self, commands: Sequence[Sequence[str]], environment: dict[str, str]) -> None:
-        self._commands, self._environment = iter(commands), environment
-        self._lock, self._ended = threading.Lock(), False
-        self._running: set[subprocess.Popen[bytes]] = set()
-        count = min(len(commands), available_cores())
-        self._threads = [threading.Thread(target=self._work, daemon=True) for _ in range(count)]
-        for thread in self._threads:
-            thread.start()
+    def compile(command: Sequence[str]) -> None:
+        with lock:
+            if ended.is_set():
+                return
+            process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            running.append(process)
+        process.wait()
 
-    def end(self) -> None:
-        """End what runs and begin nothing more."""
-        with self._lock:
-            self._ended = True
-            for process in self._running:
-                process.terminate()
-        for thread in self._threads:
-            thread.join()
-
-    def _work(self) -> None:
-        while (process := self._next()) is not None:
-            process.wait()
-            with self._lock:
-                self._running.discard(process)
-
-    def _next(self) -> subprocess.Popen[bytes] | None:
-        with self._lock:
-            command = None if self._ended else next(self._commands, None)
-            if command is None:
-                return None
-            try:
-                process = subprocess.Popen(
-                    command, env=self._environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-                )
-            except OSError:
-                return None
-            self._running.add(process)
-            return process
+    with ThreadPoolExecutor(available_cores()) as pool:
+        for command in commands:
+            pool.submit(compile, command)
+        try:
+            yield
+        finally:
+            with lock:
+                ended.set()
+                for process in running:
+                    process.terminate()

@@ -113,7 +113,8 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     target = target or host_target()
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
     exports = (*functions(), *WASM_HELPERS)
-    kept = cache_directory() / "kernels" / _digest(target, exports) / library_name(target)
+    command = compiler_command([], target, Path(library_name(target)), exports=exports)
+    kept = cache_directory() / "kernels" / digest_of(command, HERE) / library_name(target)
     if not kept.is_file():
         compile_c(sources(), target, kept, what="the kernel", exports=exports)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -122,13 +123,12 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     return path
 
 
-def _digest(target: str, exports: Sequence[str]) -> str:
-    """A hash of all that the library of the kernel depends on: the compiler, its options, the sources; no places."""
-    command = compiler_command([], target, Path(library_name(target)), exports=exports)[1:]
-    digest = hashlib.sha256(repr((version("ziglang"), command)).encode())
-    for file in sorted((*HERE.glob("include/*.h"), *HERE.rglob("src/**/*.[ch]"))):
-        content = file.read_bytes()
-        digest.update(f"\n{file.relative_to(HERE).as_posix()} {len(content)}\n".encode() + content)
+def digest_of(command: Sequence[str], *folders: Path) -> str:
+    """A hash of the compiler's version, its options, and the C files and headers in folders: no places but options'."""
+    digest = hashlib.sha256(repr((version("ziglang"), command[1:])).encode())
+    for root, source in ((folder, file) for folder in folders for file in sorted(folder.rglob("*.[ch]"))):
+        content = source.read_bytes()
+        digest.update(f"\n{source.relative_to(root).as_posix()} {len(content)}\n".encode() + content)
     return digest.hexdigest()
 
 

@@ -9,9 +9,11 @@ import pytest
 from benchmarks import instructions
 from benchmarks.shared.instructions import counter
 from mbs import simulate
+from tests.unoptimised import unoptimised
 
 
 @pytest.mark.slow
+@unoptimised()
 def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, monkeypatch):
     scene = instructions.SCENES[0]._replace(steps=20)
     monkeypatch.setattr(instructions, "SCENES", [scene])
@@ -34,6 +36,7 @@ def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, m
 
 @pytest.mark.slow
 @pytest.mark.skipif(counter() is None, reason="valgrind is not installed; .ci/run installs it")
+@unoptimised()
 def test_the_functions_of_a_scene_are_named_with_their_shares(tmp_path, capsys, monkeypatch):
     scene = instructions.SCENES[0]._replace(steps=20)
     monkeypatch.setattr(instructions, "SCENES", [scene])

@@ -16,7 +16,9 @@ from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
 import mbs
+from hosts.run.command import main
 from tests.fmu.scenes import gearstick
+from tests.in_process import run
 
 HostMaker = Callable[..., Any]
 OK, ERROR = 0, 3
@@ -129,8 +131,7 @@ def test_two_hosts_and_the_engine_agree_bit_for_bit(stick: Path, tmp_path: Path)
 @pytest.mark.slow
 def test_a_table_between_two_positions_is_refused(stick: Path, tmp_path: Path) -> None:
     (tmp_path / "half.csv").write_text('"time","lever"\n0,0\n1,0.5\n')
-    command = [sys.executable, "-m", "hosts.run.command", stick, "--manoeuvre", tmp_path / "half.csv"]
-    done = subprocess.run([*map(str, command)], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = run(main, stick, "--manoeuvre", tmp_path / "half.csv", "--out", tmp_path / "out")
     assert done.returncode != 0
     assert "'lever' is a whole number" in done.stderr
 

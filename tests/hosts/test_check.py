@@ -27,8 +27,7 @@ def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
 
 
 def check(fmu: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "hosts.check.command", str(fmu), "--steps", "10"]
-    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    return run(main, fmu, "--steps", 10)
 
 
 def spoil(fmu: Path, copy: Path, old: str, new: str) -> Path:

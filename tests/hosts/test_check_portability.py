@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -12,7 +10,9 @@ import pytest
 
 from fmu_src.build.build import face_name
 from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
+from hosts.check.command import main
 from mbs.kernel import build
+from tests.in_process import run
 
 ROOT = Path(__file__).parents[2]
 SCENES = ROOT / "tests" / "fmu" / "scenes.py"
@@ -26,9 +26,8 @@ def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
 
 def findings(fmu: Path) -> dict[str, str]:
     """Verdict and words of each check."""
-    command = [sys.executable, "-m", "hosts.check.command", str(fmu), "--steps", "5"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
+    printed = run(main, fmu, "--steps", 5).stdout
+    lines = [line for line in printed.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
     return {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in lines}
 
 

@@ -15,6 +15,7 @@ from mbs.elements.road import KerbRoad
 from mbs.kernel import build
 from mbs.kernel.binding.many import widest_lanes
 from mbs.vehicle import load
+from tests.unoptimised import unoptimised
 
 STEPS = 30
 DRIVEN = {0: "ali3p", 1: "ali3p", 2: "energy_momentum"}  # fidelity and method
@@ -34,8 +35,9 @@ def states() -> bytes:
 
 
 @pytest.mark.slow
+@unoptimised()
 def test_states_have_the_same_bits_without_avx2(tmp_path):
-    """Two numbers a vector in place of four, in what is compiled for both; nothing else is compiled again."""
+    """Two numbers a vector in place of four; what runs beside it is the optimised kernel."""
     if widest_lanes() == 2:
         pytest.skip("this processor has no AVX2")
     file, library = tmp_path / "processor.c", tmp_path / build.library_name(build.host_target())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import functools
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -48,11 +49,17 @@ def driven(car: Path, start: Mapping[str, float], **inputs: np.ndarray) -> Resul
         return run(fmu, Manoeuvre("log", t, {**zero, **inputs}, END, dict(start)), 0.001)
 
 
-def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0.0, noise: float = 0.0) -> Path:
-    """A log at 100 Hz with the units of a data logger; what comes out is late by `delay`."""
+@functools.cache
+def turned(car: Path, start: tuple[tuple[str, float], ...]) -> Result:
+    """A slalom that grows, from a start."""
     times = np.arange(0.0, END + 0.01, 0.01)
     steering = 0.1 * np.sin(2.0 * np.pi * 0.4 * times) * np.clip(times - 0.4, 0.0, 1.0)
-    result = driven(car, start, steering=steering)
+    return driven(car, dict(start), steering=steering)
+
+
+def logged(car: Path, folder: Path, start: Mapping[str, float], delay: float = 0.0, noise: float = 0.0) -> Path:
+    """A log at 100 Hz with the units of a data logger; what comes out is late by `delay`."""
+    result = turned(car, tuple(start.items()))
     t = np.arange(0.0, END - 0.05, 0.01)
     rng = np.random.default_rng(7)
 

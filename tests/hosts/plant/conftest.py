@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from hosts.fmu.built_fmu import build_fmu
+from tests.in_process import build_fmu
 from tests.vehicle.rigid_car import rigid_car
 
 
 def _built(folder: Path, *options: str) -> None:
     file = rigid_car("prototype", folder / "source")
-    build_fmu("a rigid car", ("--car", str(file), *options), folder)
+    build_fmu(folder, "--car", str(file), *options)
 
 
 Made = Callable[[str, Callable[[Path], None]], Path]

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant import Car
 from tests.hosts.plant.conftest import Made
+from tests.in_process import build_fmu
 from tests.vehicle.rigid_car import rigid_car
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -35,7 +35,7 @@ def ported(made_once: Made, request: pytest.FixtureRequest) -> Path:
             chosen = ports.removesuffix("hitch") + "forces"
             more["ports"] = {"forces": "earth", "force_points": {"hitch": [-3.0, 0.0, 0.4]}}
         file = rigid_car(name, at / "source", **more)
-        build_fmu("a car", ("--car", str(file), "--ports", chosen), at)
+        build_fmu(at, "--car", str(file), "--ports", chosen)
 
     folder = made_once(f"{name}_{ports.replace(',', '_')}", build)
     return next(folder.glob("*.fmu"))

@@ -18,9 +18,11 @@ from fmpy.util import read_csv
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from hosts.study.command import main
 from hosts.study.store import read_study
+from tests.in_process import run
 
-pytestmark = [pytest.mark.slow, pytest.mark.drawn]
+pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[3]
 STUDY = """fmu = "{fmu}"
@@ -89,7 +91,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     fmu = build_fmu(system, name, place, [fmpy.platform])
     (place / "study.toml").write_text(STUDY.format(fmu=fmu.name))
     (place / "functions.py").write_text(FUNCTIONS)
-    command("hosts.study", place / "study.toml", "--out", place / "out", "--jobs", 2)
+    done = run(main, place / "study.toml", "--out", place / "out", "--jobs", 2)
+    assert done.returncode == 0, done.stderr
     return place / "out"
 
 

@@ -30,7 +30,8 @@ print("stepped")
 @pytest.mark.parametrize("end", ["closed", "left open"])
 def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str) -> None:
     """Seen by valgrind: with PythonFMU 0.7 alone one run of about 40 ends with a damaged heap."""
-    command = ["valgrind", "--num-callers=8", sys.executable, "-c", PROGRAM, str(partners["half_mass"]), end]
+    memory = ("--num-callers=8", "--undef-value-errors=no", "--leak-check=no")  # what is freed, in half the time
+    command = ["valgrind", *memory, sys.executable, "-c", PROGRAM, str(partners["half_mass"]), end]
     environment = os.environ | {"PYTHONMALLOC": "malloc", "PYTHONPATH": str(ROOT)}
     told = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert told.returncode == 0, told.stderr[-2000:]
