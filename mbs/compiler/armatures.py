@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import substitute
-from mbs.compiler.spanning_tree import NoTreeError
 from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.model import Model
 
@@ -37,9 +36,3 @@ def armature_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
         inertias.append(armature.inertia * factor * factor)
         ratios.append(armature.ratio)
     return {"armature_col": columns, "armature_inertia": inertias, "armature_ratio": ratios}
-
-
-def refuse_in_trees(model: Model) -> None:
-    """Trees have the inertia of their angles once and for all."""
-    for k in written_armatures(model):
-        raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")

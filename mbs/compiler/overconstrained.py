@@ -94,7 +94,7 @@ def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Correct
 def closed_loops(
     tolerance: float,
 ) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
-    """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `to_system`.
+    """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `compile`.
 
     `tolerance`: see `corrected_joints`.
 

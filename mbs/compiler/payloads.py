@@ -10,8 +10,8 @@ from scipy import sparse
 
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
+from mbs.common.vectors import in_space
 from mbs.compiler.polynomial import substitute
-from mbs.compiler.spanning_tree import in_space
 from mbs.compiler.tables import Signals
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.model import Model

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs.common.vectors import in_space
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint, JointPlaces
 from mbs.model.model import Model
@@ -220,12 +221,6 @@ def _depth_first(ground: Group) -> list[Group]:
         groups.append(group)
         stack += sorted(group.children, key=lambda g: g.height)
     return groups
-
-
-def in_space(v: ArrayLike) -> Array:
-    """Three components; a plane is z = 0."""
-    given = np.asarray(v, dtype=float)
-    return given if len(given) == 3 else np.array([*given, 0.0])
 
 
 def frame_along(axis: ArrayLike | None) -> Array:

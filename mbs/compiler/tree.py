@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler import armatures, written_axes, written_inertias
+from mbs.common.vectors import in_space
+from mbs.compiler.armatures import written_armatures
 from mbs.compiler.natural import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,
@@ -20,7 +21,6 @@ from mbs.compiler.spanning_tree import (
     Group,
     NoTreeError,
     frame_along,
-    in_space,
     rows_of,
     spanning_tree,
     turning,
@@ -35,17 +35,12 @@ EQUAL_MOMENTS = 1e-12
 """Largest relative difference of two principal moments of inertia that count as equal."""
 CARRIED = 5
 """Numbers per coordinate that the kernel's state has for what a method carries."""
-NAMES = (
-    *("parent", "slides", "base", "mass", "centre", "inertia", "gravity", "frame"),
-    *("out_body", "out_local", "out_col", "cut_body", "cut_rows", "cut_place"),
-    *("angle_col", "angle_ptr", "angle_joint", "angle_sign", "angle_inertia", "payload_body", "payload_place"),
-)
 
 
 def tree_arrays(
     model: Model, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
 ) -> tuple[dict[str, Any], str]:
-    """The `tree_` arrays; all empty, with the reason in words, where the model has no tree.
+    """The `tree_` arrays; none, with the reason in words, where the model has no tree.
 
     `signals`: takes the frames of the bodies; `remaining`: natural coordinates that are z; `new`: place of each z in
     elimination order.
@@ -61,9 +56,7 @@ def tree_arrays(
             raise NoTreeError(
                 f"{len(moving)} joints and {rows} rows of loops are many for {len(remaining)} coordinates"
             )
-        armatures.refuse_in_trees(model)
-        written_inertias.refuse_in_trees(model)
-        written_axes.refuse_in_trees(model)
+        _refuse_written(model)
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],
@@ -78,7 +71,17 @@ def tree_arrays(
         }
         return {f"tree_{name}": values for name, values in arrays.items()}, ""
     except NoTreeError as reason:
-        return {f"tree_{name}": [] for name in NAMES}, str(reason)
+        return {}, str(reason)
+
+
+def _refuse_written(model: Model) -> None:
+    """Trees take inertias as constant, and know no wheels."""
+    for k in written_armatures(model):
+        raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
+    for body in model.written_inertias:
+        raise NoTreeError(f"parameters write the inertia of '{body.name}'")
+    for axis in model.written_axes:
+        raise NoTreeError(f"parameters write the axis of '{axis.name}'")
 
 
 def _joined(parts: Sequence[Array]) -> Array:

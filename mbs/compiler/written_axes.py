@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.polynomial import substitute
-from mbs.compiler.spanning_tree import NoTreeError
 from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.carried import WrittenAxis
 from mbs.model.model import Model
@@ -73,9 +72,3 @@ def _reals(model: Model) -> list[float]:
 def _drawn(axis: WrittenAxis) -> list[float]:
     """f, g and the axis of a wheel as drawn, along the axes of its carrier."""
     return [float(v) for vector in axis.spin.drawn for v in vector]
-
-
-def refuse_in_trees(model: Model) -> None:
-    """Trees know no wheels."""
-    for axis in model.written_axes:
-        raise NoTreeError(f"parameters write the axis of '{axis.name}'")

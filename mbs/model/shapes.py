@@ -27,6 +27,7 @@ from mbs.common.checks import (
     whole,
 )
 from mbs.common.errors import ModelError
+from mbs.common.vectors import in_space
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
@@ -366,13 +367,6 @@ def origin_of(owner: Owner) -> Vector:
         rows = [[owner.centre[k].terms.get(carrier.start + 3 * (m + 1) + k, 0.0) for m in range(3)] for k in range(3)]
         return np.asarray(carrier.com + np.array(rows[0]))
     return in_space(owner.com)
-
-
-def in_space(place: Vector) -> Vector:
-    """Three components of two or three."""
-    found = np.zeros(3)
-    found[: len(place)] = place
-    return found
 
 
 def place_of(place: ArrayLike, dimension: int, what: str) -> Vector:

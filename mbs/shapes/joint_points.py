@@ -10,13 +10,14 @@ import numpy as np
 
 from mbs.common.affine import Affine
 from mbs.common.checks import Vector
+from mbs.common.vectors import in_space
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
-from mbs.model.shapes import in_space, origin_of
+from mbs.model.shapes import origin_of
 from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
 SAME = 1e-6  # parts of the extent: nearer points count as the same

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.checks import Vector
+from mbs.common.vectors import in_space
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
-from mbs.model.shapes import Shape, in_space
+from mbs.model.shapes import Shape
 from mbs.model.tabled import TabledBody
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults

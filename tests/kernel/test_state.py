@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from mbs.kernel import binding
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 
 from .scenes import everything, four_bar
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mbs.compiler.model_to_system import to_system
+from mbs.compiler.model_to_system import compiled
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model import Model
@@ -48,10 +48,10 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
 
 def _standing(flexible: FlexibleFrame, model: Model) -> np.ndarray:
     """Amplitudes of the car as it stands at the start."""
-    system = to_system(model)
+    system = compiled(model)
     names = list(system.meta["coordinates"])
-    state = StandingSystem(system).state
-    return np.array([state.q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])
+    q = StandingSystem(system).q
+    return np.array([q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])
 
 
 def _rounded_up(value: float) -> float:
