@@ -21,7 +21,7 @@ from mbs.common.checks import (
     vector,
 )
 from mbs.common.errors import ModelError
-from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.modal_body import ModalBody
 from mbs.model.body import SAME_PLACE, Body, Ground, PointMass
 from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
@@ -195,14 +195,14 @@ class BodyVocabulary(ModelCore):
         return new
 
     def flexible_body(
-        self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None
+        self, name: str, reduced: ModalBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None
     ) -> FlexibleBody:
         """A flexible body from a reduced finite-element model.
 
         Parameters
         ----------
-        reduced : ReducedBody
-            For instance of `mbs.flexible.craig_bampton`.
+        reduced : ModalBody
+            A `ReducedBody`, for instance of `mbs.flexible.craig_bampton`.
         origin : array_like, shape (3,)
             Where the origin of the finite-element model is in the reference configuration, earth axes, m.
         axes : array_like, shape (3, 3), optional
@@ -222,7 +222,7 @@ class BodyVocabulary(ModelCore):
         if self.dimension != 3:
             raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
         given: object = reduced
-        if not isinstance(given, ReducedBody):
+        if not isinstance(given, ModalBody):
             kind = type(given).__name__
             raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(given)}.")
         place = vector(origin, 3, f"the origin of {what}")

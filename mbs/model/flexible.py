@@ -15,7 +15,7 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
-from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.modal_body import ModalBody
 from mbs.model.body import SAME_PLACE, Body
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.core import ModelCore
@@ -32,7 +32,7 @@ class FlexibleBody(Body):
 
     Attributes
     ----------
-    reduced : ReducedBody
+    reduced : ModalBody
         Modes and matrices in the axes of the finite-element model.
     axes : ndarray, shape (3, 3)
         Columns are those axes in the earth in the reference configuration.
@@ -50,7 +50,7 @@ class FlexibleBody(Body):
         self,
         model: ModelCore,
         name: str,
-        reduced: ReducedBody,
+        reduced: ModalBody,
         origin: Vector,
         axes: NDArray[np.float64],
         start: int,
