@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mbs.flexible.sparse import Sparse
+
 
 @dataclass(frozen=True)
 class InterfaceModes:
@@ -26,7 +28,7 @@ class InterfaceModes:
 class ModalBody:
     """Modes of a flexible body in its floating frame: origin at the reference node, axes of the finite-element model.
 
-    ``m`` modes, ``n`` nodes, ``p`` mass points.
+    ``m`` modes, ``n`` nodes, ``p`` mass points, ``d`` degrees of freedom of the finite-element model.
     """
 
     origin: np.ndarray
@@ -38,6 +40,8 @@ class ModalBody:
     node_rotations: np.ndarray
     """`node_translations`, `node_rotations`, shape (n, 3, m): displacement and rotation of every node per unit
     amplitude; zero rotations where a node has none."""
+    modes: np.ndarray
+    """Shape (d, m): the same over the degrees of freedom of the finite-element model."""
     mass_positions: np.ndarray
     """Shape (p, 3): mass points from the reference node, m."""
     masses: np.ndarray
@@ -55,3 +59,18 @@ class ModalBody:
     def n_modes(self) -> int:
         """Number of modes."""
         return int(self.K.shape[0])
+
+    def recovery(self, rows: np.ndarray | Sparse) -> np.ndarray:
+        """Outputs per unit amplitude from outputs per nodal displacement.
+
+        Parameters
+        ----------
+        rows : ndarray or sparse array, shape (k, d)
+            Such as `section_forces` gives.
+
+        Returns
+        -------
+        ndarray, shape (k, m)
+            For `FlexibleBody.combination`, row by row.
+        """
+        return np.asarray(rows @ self.modes)

@@ -1,4 +1,4 @@
-"""A flexible body after reduction: what the engine needs, and what stress recovery and pictures do."""
+"""A flexible body after reduction: what the engine, further reductions and pictures need."""
 
 from __future__ import annotations
 
@@ -10,18 +10,12 @@ from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
 from mbs.flexible.modal_body import InterfaceModes, ModalBody
-from mbs.flexible.sparse import Sparse
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReducedBody(ModalBody):
-    """A `ModalBody` with what is recovered from its amplitudes.
+    """A `ModalBody` with what reductions of it and pictures need."""
 
-    ``d`` degrees of freedom of the finite-element model.
-    """
-
-    modes: np.ndarray
-    """Shape (d, m): displacement and rotation per unit amplitude over these degrees of freedom."""
     M: np.ndarray
     """Shape (m, m): modal mass."""
     n_static: int
@@ -62,21 +56,6 @@ class ReducedBody(ModalBody):
             The node is no interface; the message lists what there is.
         """
         return np.asarray(self.node_translations[self.interface(name).node])
-
-    def recovery(self, rows: np.ndarray | Sparse) -> np.ndarray:
-        """Outputs per unit amplitude from outputs per nodal displacement.
-
-        Parameters
-        ----------
-        rows : ndarray or sparse array, shape (k, d)
-            Such as `section_forces` gives.
-
-        Returns
-        -------
-        ndarray, shape (k, m)
-            For `FlexibleBody.combination`, row by row.
-        """
-        return np.asarray(rows @ self.modes)
 
     def transformed(self, V: np.ndarray, names: tuple[str, ...], frequencies: np.ndarray) -> ReducedBody:
         """The body in the amplitudes zeta of eta = V zeta, all counted as dynamic modes.
