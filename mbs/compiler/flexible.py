@@ -12,7 +12,7 @@ from scipy import sparse
 from mbs.common.affine import Affine
 from mbs.compiler.front_arrays import Locate
 from mbs.model.flexible import FlexibleBody
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 PAIRS = ((1, 2), (2, 0), (0, 1))
@@ -21,22 +21,22 @@ TIME = 0.1
 """What moves within this time, s, should deform bodies as little as possible when the start is made consistent."""
 
 
-def flexible_bodies(model: Model) -> list[FlexibleBody]:
+def flexible_bodies(model: Mechanism) -> list[FlexibleBody]:
     """Flexible bodies of a model."""
     return [b for b in model.bodies if isinstance(b, FlexibleBody)]
 
 
-def flexible_coordinates(model: Model) -> set[int]:
+def flexible_coordinates(model: Mechanism) -> set[int]:
     """Full coordinates that are never eliminated: frames and amplitudes."""
     return {i for b in flexible_bodies(model) for i in range(b.start, b.start + b.size)}
 
 
-def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def flexible_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each body couples in the tangent."""
     return [_places(b, full) for b in flexible_bodies(model)]
 
 
-def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
+def deformation_metric(model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
     """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
     rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
     for body in flexible_bodies(model):
@@ -48,7 +48,9 @@ def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int
     return sparse.coo_matrix((np.concatenate(values), places_of), shape=(len(new), len(new))).tocsr()
 
 
-def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:
+def flexible_arrays(
+    model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate
+) -> dict[str, Any]:
     """The `flex_` arrays; amplitudes in the order of their coordinates."""
     counts, frames, modes, fronts, locs = [0], [], [], [], []
     data: dict[str, list[Array]] = {name: [] for name in ("gravity", "P", "c", "T", "K", "C")}

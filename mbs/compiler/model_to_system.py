@@ -58,29 +58,29 @@ from mbs.compiler.written_axes import axis_arrays, axis_cliques, axis_room
 from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
 from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS
 from mbs.model.equation import Equation
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 from mbs.system.compiled_model import CompiledModel
 
 Array = NDArray[np.float64]
 Tables = dict[str, Any]
 Corrections = dict[str, tuple[float, float]]
 LoopWatch = Callable[
-    [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
+    [Mechanism, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
 NO_TREE: Tables = {name: [] for name in FLOAT_ARRAYS + INTEGER_ARRAYS if name.startswith("tree_")}
-Trees = Callable[[Model, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
+Trees = Callable[[Mechanism, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
 
 
-def checked(model: Model) -> Model:
+def checked(model: Mechanism) -> Mechanism:
     """What can be compiled: a Model with a body."""
-    instance_of(Model, model, "What compile takes", "a Model")
+    instance_of(Mechanism, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     return model
 
 
 def compiled(
-    model: Model, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
+    model: Mechanism, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
 ) -> CompiledModel:
     """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it, and have no loops to close.
 
@@ -212,7 +212,7 @@ def compiled(
     return CompiledModel(tables, meta, frames, modes)
 
 
-def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
+def _equations(model: Mechanism) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
     linear, others = [], []
     for j, joint in enumerate(model.joints):
@@ -228,13 +228,13 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     return linear, others
 
 
-def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def _added_mass(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) between which parameters change the mass matrix."""
     return payload_cliques(model, full) + inertia_cliques(model, full) + axis_cliques(model, full)
 
 
 def _symbolic(
-    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
+    model: Mechanism, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
 ) -> tuple[Fronts, int]:
     """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
     entries = mass.tocoo()

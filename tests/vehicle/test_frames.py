@@ -12,7 +12,7 @@ import mbs
 from mbs.common.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.vehicle import Car, Fidelity, load
-from mbs.vehicle.car_file import CarFileError
+from mbs.vehicle.errors import CarFileError
 from tests.vehicle.frame_cars import (
     PROTOTYPE,
     SMALL_GAUGES,

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from mbs.common.affine import AffineVector
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
+from mbs.model.mechanism import Mechanism
 from mbs.model.ports import PortedBody
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -45,7 +45,7 @@ def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Itera
     return FlexibleFrame(frame, car.folder, structure, joints)
 
 
-def flexible_chassis(m: Model, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
+def flexible_chassis(m: Mechanism, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
     """Add the chassis. `fidelity`: how much of it is modelled, from QUASI_STATIC on."""
     origin = data.reference
     if fidelity is Fidelity.QUASI_STATIC:
@@ -92,7 +92,7 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     return combination(np.append(origin, 1.0)), axes, origin
 
 
-def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
+def stress_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
     """Moments and stresses at the gauges; zero for the rigid chassis, where `COMPUTED` says so."""
     note = f"; zero where {COMPUTED} is 0"
     for k, reading in enumerate(flexible.structure.readings):
@@ -118,7 +118,7 @@ def amplitude_names(flexible: FlexibleFrame) -> list[str]:
     return [f"chassis.mode_{k + 1}" for k in range(flexible.drawn.n_modes)]
 
 
-def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
+def amplitude_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame) -> None:
     """Amplitudes of the modes of fidelity 3, with which `stress_scene` draws the chassis at any fidelity.
 
     A flexible chassis with other modes gives the amplitudes that are nearest in the energy norm, the quasi-static one

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mbs.compiler.model_to_system import compiled
-from mbs.model import Model
+from mbs.model.mechanism import Mechanism
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.car_content import CarContent
 
@@ -77,7 +77,7 @@ class Rest:
                 )
 
 
-def settled(model: Model, car: CarContent) -> Rest:
+def settled(model: Mechanism, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium.
 
     Raises
