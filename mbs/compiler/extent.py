@@ -6,7 +6,6 @@ import numpy as np
 
 from mbs.common.checks import Vector
 from mbs.model.body import Body
-from mbs.model.flexible import FlexibleBody
 from mbs.model.mechanism import Mechanism
 
 SPIN = 0.1
@@ -39,18 +38,18 @@ def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> li
 
 def unit_vectors(model: Mechanism, numbers: list[int]) -> list[bool]:
     """Whether full coordinates are components of unit vectors, as of flexible bodies and bases; others are in m."""
-    axes = {b.start + k for b in model.bodies if isinstance(b, FlexibleBody) or b.is_base for k in range(3, 12)}
+    axes = {b.start + k for b in model.bodies if b.flexibility is not None or b.is_base for k in range(3, 12)}
     return [k in axes for k in numbers]
 
 
 def _points(body: Body) -> list[Vector]:
-    if isinstance(body, FlexibleBody):
-        return list(np.asarray(body.node_positions))
+    if body.flexibility is not None:
+        return list(body.flexibility.nodes)
     own = [] if body.is_ground else [body.com]
     return own + [body.com + p for p in body.joint_points]
 
 
 def _gyration(body: Body) -> float:
-    if body.is_point or isinstance(body, FlexibleBody) or not body.mass:
+    if body.is_point or body.flexibility is not None or not body.mass:
         return 0.0
     return float(np.sqrt(np.trace(body.second_moment) / body.mass))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,24 +10,19 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.affine import AffineVector
 from mbs.common.checks import (
     Vector,
-    array,
     capital,
     direction,
     is_number,
-    mapping,
     not_negative,
     positive,
     shown,
     vector,
 )
 from mbs.common.errors import ModelError
-from mbs.flexible.modal_body import ModalBody
 from mbs.model.body import SAME_PLACE, Body, Ground, PointMass
 from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
-from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.inertia import inertia_matrix
-from mbs.model.ports import PortedBody
 
 SIZES = (1e-12, 1e8)
 """Radii of gyration, m."""
@@ -139,10 +134,8 @@ class BodyVocabulary(ModelCore):
             if np.linalg.norm(drawn - place) > SAME_PLACE:
                 raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
             carrier = point
-        elif isinstance(body, FlexibleBody):  # the origin of a floating frame is no material point, a node is
-            carrier = body.interface_at(place, what).point()
-        else:
-            carrier = body.point(place)
+        else:  # the origin of a floating frame is no material point, a node is
+            carrier = body.at(place, what).point(place)
         new = Payload(self.unique("payload", name), body, place, carrier, m, point is not None)
         self.payloads.append(new)
         return new
@@ -194,72 +187,6 @@ class BodyVocabulary(ModelCore):
         self.written_inertias.append(new)
         return new
 
-    def flexible_body(
-        self, name: str, reduced: ModalBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None
-    ) -> FlexibleBody:
-        """A flexible body from a reduced finite-element model.
-
-        Parameters
-        ----------
-        reduced : ModalBody
-            A `ReducedBody`, for instance of `mbs.flexible.craig_bampton`.
-        origin : array_like, shape (3,)
-            Where the origin of the finite-element model is in the reference configuration, earth axes, m.
-        axes : array_like, shape (3, 3), optional
-            Columns: axes of the finite-element model in earth axes there; by default the same.
-
-        Returns
-        -------
-        FlexibleBody
-            Its nodes, `FlexibleBody.interface`, take joints, forces and sensors.
-
-        Raises
-        ------
-        ModelError
-            The model is planar, the axes are no rotation, or all mass lies on a line.
-        """
-        what = f"flexible body {shown(name)}"
-        if self.dimension != 3:
-            raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-        given: object = reduced
-        if not isinstance(given, ModalBody):
-            kind = type(given).__name__
-            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(given)}.")
-        place = vector(origin, 3, f"the origin of {what}")
-        R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
-        if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
-            raise ModelError(f"The axes of {what} must be the columns of a rotation matrix.")
-        new = FlexibleBody(self, self.unique("body", name), reduced, place, R, len(self.coordinates))
-        self._register(new)
-        return new
-
-    def ported(self, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
-        """A rigid body with ports: joints and springs given the result leave the forces there to be read.
-
-        Parameters
-        ----------
-        ports : mapping of str to array_like, shape (3,)
-            Places by name, earth axes in the reference configuration, m.
-
-        Returns
-        -------
-        PortedBody
-            To be used in place of the body.
-
-        Raises
-        ------
-        ModelError
-            The body is not rigid, or the model is planar.
-        """
-        self.owned(body, "The ports")
-        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
-            raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
-        given = mapping(ports, f"The ports of body '{body.name}'", "names to places")
-        if not given:
-            raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
-        places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
-        return PortedBody(self, body, places)
-
     def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
         """Start velocity of a body: of its centre of mass, its angular velocity, or both.
 
@@ -278,7 +205,7 @@ class BodyVocabulary(ModelCore):
         """
         what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
         self.owned(body, f"The {what}")
-        if body.is_ground or body.is_tabled or isinstance(body, Interface):
+        if body.is_ground or body.is_tabled or body.is_node:
             raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
         d, size = self.dimension, 1 if self.dimension == 2 else 3
         if linear is None and angular is None:
@@ -342,7 +269,7 @@ class BodyVocabulary(ModelCore):
         """
         self.owned(body, what)
         unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
-        if isinstance(body, FlexibleBody):
+        if body.flexibility is not None:
             raise ModelError(
                 f"The {what} needs an axis of flexible body '{body.name}': name the node, {body.name}.interface(node)."
             )

@@ -19,7 +19,6 @@ from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 from mbs.model.core import ModelCore
-from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input
 
@@ -265,7 +264,7 @@ class GuideVocabulary(BodyVocabulary):
         several: Any = guide if isinstance(guide, (list, tuple)) else [guide]
         guides = [owned_guide(self, g, f"The {what}") for g in several]
         start = self.anchor(body, point, what)
-        turning = body.frame if isinstance(body, FlexibleBody) else body
+        turning = body.frame
         rows = at_right_angles(direction, len(guides), self.dimension, what) if several is guide else [direction]
         ways = tuple((self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True))
         return SlidingPoint(self.unique("slide", name), body, start, ways)

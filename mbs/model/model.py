@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mbs.common.checks import number
 from mbs.model.coordinate import Coordinate
+from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
@@ -11,7 +12,14 @@ from mbs.model.table_vocabulary import TableVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
-class Model(TransmissionVocabulary, JointVocabulary, TableVocabulary, ForceVocabulary, JointSensorVocabulary):
+class Model(
+    TransmissionVocabulary,
+    JointVocabulary,
+    TableVocabulary,
+    ForceVocabulary,
+    JointSensorVocabulary,
+    FlexibleVocabulary,
+):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
     Points, axes and inertias are given in earth axes in the reference configuration, as read off a drawing. Where the

@@ -32,8 +32,6 @@ from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
-from mbs.model.flexible import Interface
-from mbs.model.ports import PortedBody
 
 Kind: TypeAlias = Literal[
     "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"
@@ -275,14 +273,10 @@ class ShapeVocabulary(BodyVocabulary):
                 raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{self.name}'.")
             return owner
         body = self.owned(owner, f"The {what}")  # type: ignore[arg-type]
-        if isinstance(body, Interface):
-            return body.owner
-        if isinstance(body, PortedBody):
-            return next(b for b in self.bodies if b.start == body.start and not b.is_point)
         return body if body.is_ground or body in self.bodies else self._member(body)
 
     def _member(self, body: Body) -> Body:
-        """The body of the model that has the coordinates of another one, such as the frame of a flexible body."""
+        """The body of the model that has the coordinates of another one, as a node, a frame or a body with ports."""
         return next(b for b in self.bodies if b.start == body.start)
 
     def _local(self, owner: Owner, place: ArrayLike, what: str) -> Vector:

@@ -12,7 +12,6 @@ from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.ends import FixedEnd, body_and_point, different
-from mbs.model.flexible import FlexibleBody
 
 
 class SpringVocabulary(BodyVocabulary):
@@ -48,7 +47,7 @@ class SpringVocabulary(BodyVocabulary):
         what = f"spring-damper '{name}'"
         p1, p2 = self._end(end_1, what), self._end(end_2, what)
         first, second = body_and_point(end_1, what)[0], body_and_point(end_2, what)[0]
-        if not isinstance(first, FlexibleBody):  # which has many nodes
+        if first.flexibility is None:  # which has many nodes
             different(first, second, what)
         if stops is not None:
             instance_of(EndStops, stops, f"The stops of {what}", "EndStops")

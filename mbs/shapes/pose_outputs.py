@@ -22,7 +22,7 @@ def pose_outputs(model: Mechanism) -> None:
     sensed = {sensor.name for sensor in model.sensors}
     for body in model.bodies:
         stem = _stem(body.name, sensed, ("x", "qw"))
-        moving = body.frame if isinstance(body, FlexibleBody) else body
+        moving = body.frame
         _position(model, body.name, moving, stem)
         _orientation(model, body.name, moving, stem)
         sensed |= {f"{stem}.x", f"{stem}.qw"}

@@ -23,7 +23,8 @@ def car_names() -> list[str]:
 def read_car(kind: type[C], car: str | Path) -> C:
     """`mbs.vehicle.load`, which describes the argument `car`, for a car of any class."""
     if isinstance(car, str) and car in car_names():
-        return _of_package(kind, car)
+        known: C = _of_package(kind, car)
+        return known
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
@@ -62,4 +63,7 @@ def file_of(car: str | Path) -> Path:
 def _of_package(kind: type[C], name: str) -> C:
     path = CARS / name / FILE
     content = read_toml(path, CarFileError)
-    return checked_car(kind, content, path.parent, str(path), at_rest=False)  # a test holds that they stand as drawn
+    found: C = checked_car(
+        kind, content, path.parent, str(path), at_rest=False
+    )  # a test holds that they stand as drawn
+    return found

@@ -12,7 +12,6 @@ from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.ends import PointPair, different
 from mbs.model.equation import Equation, dot_products
-from mbs.model.flexible import bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.perpendicular import perpendicular
 from mbs.model.turning import Turning
@@ -35,7 +34,7 @@ def shared_axis(
     a1, a2 = point_pair(axis, model.dimension, what, "axis")
     if may_share(body_1, body_2):
         return equal_vectors(name, "axis", model.anchor_axis(body_1, a1, what), model.anchor_axis(body_2, a2, what))
-    if bends(body_2) and not bends(body_1):
+    if body_2.bends and not body_1.bends:
         body_1, body_2, a1, a2 = body_2, body_1, a2, a1
     along = model.anchor_axis(body_1, a1, what)
     across = perpendicular(direction(a2, 3, f"the axis of {what} on body '{body_2.name}'"))
@@ -61,7 +60,7 @@ def may_share(body_1: Body, body_2: Body) -> bool:
     if not (body_1.is_flexible or body_2.is_flexible):
         return True
     rigid = body_2 if body_1.is_flexible else body_1
-    return not (bends(body_1) or bends(body_2) or rigid.is_ground or rigid.is_flexible)
+    return not (body_1.bends or body_2.bends or rigid.is_ground or rigid.is_flexible)
 
 
 def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair) -> Joint:
@@ -69,7 +68,7 @@ def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, poin
     what = f"spherical joint '{name}'"
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, model.dimension, what)
-    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
+    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
     joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
@@ -86,7 +85,7 @@ def revolute(
     what = f"revolute joint '{name}'"
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, model.dimension, what)
-    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
+    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
     equations = shared_point(model, name, body_1, body_2, point, what)
     if model.dimension == 3:
         if axis is None:
@@ -119,7 +118,7 @@ def universal(
         raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, model.dimension, what)
-    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
+    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
     u1, u2 = direction(axis_1, 3, f"axis_1 of {what}"), direction(axis_2, 3, f"axis_2 of {what}")
     cosine = float(np.dot(u1, u2))
     if abs(cosine) > _BIG:

@@ -12,7 +12,6 @@ from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.ends import PointPair, body_and_point, different
 from mbs.model.equation import Equation, dot_products
-from mbs.model.flexible import Interface, bends, located
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import may_share, points_of, shared_axis, shared_point, turning_about
 from mbs.model.perpendicular import perpendicular
@@ -52,7 +51,7 @@ def _sliding_ends(
     """The point of body 1 slides along the axis of body 2."""
     (body_1, p1), (body_2, p2) = end_1, end_2
     # a vector of a node that bends would bring rows of its own
-    turning = body_2.owner if isinstance(body_2, Interface) and body_2.bends else body_2
+    turning = body_2.owner if body_2.bends else body_2
     along = turning.vector(direction(axis, body_2.dimension, f"the axis of {what}"))
     return JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), along, slides=True)
 
@@ -65,7 +64,7 @@ def same_orientation(model: BodyVocabulary, name: str, body_1: Body, body_2: Bod
             raise ModelError(f"The {what} needs bodies with axes; '{body.name}' is a point mass.")
     if may_share(body_1, body_2):
         return [e for u in axes for e in equal_vectors(name, "axis", body_1.vector(u), body_2.vector(u))]
-    if bends(body_2) and not bends(body_1):
+    if body_2.bends and not body_1.bends:
         body_1, body_2 = body_2, body_1
     first = [model.anchor_axis(body_1, u, what) for u in axes[:2]]
     second = [model.anchor_axis(body_2, u, what) for u in axes[1:]]
@@ -110,7 +109,7 @@ def cylindrical(
         raise ModelError(f"The {what} needs a spatial model; in the plane use point_on_line.")
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, 3, what)
-    body_1, body_2 = located(body_1, p1, what), located(body_2, p2, what)
+    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
     equations = shared_axis(model, name, body_1, body_2, axis, what)
     axes = point_pair(axis, 3, what, "axis")
     a1, a2 = axes
@@ -159,7 +158,7 @@ def weld(model: BodyVocabulary, name: str, body_1: Body, body_2: Body) -> Joint:
     """Both bodies move as one; all equations are linear."""
     what = f"weld '{name}'"
     different(body_1, body_2, what)
-    point = body_2.com if body_1.is_ground or isinstance(body_2, Interface) else body_1.com
+    point = body_2.com if body_1.is_ground or body_2.is_node else body_1.com
     if body_1.is_point or body_2.is_point:
         point = body_1.com if body_1.is_point else body_2.com
         joint = Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)

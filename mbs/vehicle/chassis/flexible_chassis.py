@@ -9,6 +9,7 @@ import numpy as np
 from mbs.common.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
+from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.mechanism import Mechanism
 from mbs.model.ports import PortedBody
 from mbs.vehicle.builder import CarBuilder
@@ -50,9 +51,9 @@ def flexible_chassis(m: Mechanism, data: Chassis, flexible: FlexibleFrame, fidel
     origin = data.reference
     if fidelity is Fidelity.QUASI_STATIC:
         rigid = rigid_chassis(m, data).body
-        ports = m.ported(rigid, {name: flexible.place(name) for name in flexible.interfaces})
+        ports = FlexibleVocabulary.ported(m, rigid, {name: flexible.place(name) for name in flexible.interfaces})
         return Mount(ports, rigid, rigid, origin, _drive_axes(ports, flexible), _mean_frame(ports, flexible))
-    body = m.flexible_body("chassis", flexible.reduced(fidelity))
+    body = FlexibleVocabulary.flexible_body(m, "chassis", flexible.reduced(fidelity))
     return Mount(body, body.frame, body, origin, _drive_axes(body, flexible), _mean_frame(body, flexible))
 
 
@@ -100,8 +101,8 @@ def stress_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame, fidelity
         if fidelity.rigid:
             m.sense_constant(name, 0.0, unit=unit, description=text + note, computed=False)
         elif isinstance(mount.body, PortedBody):
-            m.sense_quasi_static(
-                name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
+            FlexibleVocabulary.sense_quasi_static(
+                m, name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
             )
         else:
             body = mount.body
@@ -133,8 +134,8 @@ def amplitude_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame) -> No
             assert rows is not None
             m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)
         elif isinstance(body, PortedBody):
-            m.sense_quasi_static(
-                name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
+            FlexibleVocabulary.sense_quasi_static(
+                m, name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
             )
         else:
             m.sense_constant(name, 0.0, unit=unit, description=text, computed=False)
