@@ -12,14 +12,13 @@ from mbs.common.checks import (
     Vector,
     capital,
     direction,
-    is_number,
     not_negative,
     positive,
     shown,
     vector,
 )
 from mbs.common.errors import ModelError
-from mbs.model.body import SAME_PLACE, Body, Ground, PointMass
+from mbs.model.body import SAME_PLACE, Body, Ground
 from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.inertia import inertia_matrix
@@ -65,23 +64,6 @@ class BodyVocabulary(ModelCore):
         J = 0.5 * np.trace(I) * np.eye(3) - I if self.dimension == 3 else np.diag([0.5 * I[2, 2], 0.5 * I[2, 2], 0.0])
         new = Body(self, self.unique("body", name), centre, len(self.coordinates))
         new.add_mass(m, centre, J)
-        self._register(new)
-        return new
-
-    def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
-        """A particle.
-
-        Parameters
-        ----------
-        mass : float
-            kg.
-        position : array_like, shape (dimension,)
-            In earth axes in the reference configuration, m.
-        """
-        m = positive(mass, f"The mass of point mass {shown(name)}")
-        centre = vector(position, self.dimension, f"the position of point mass {shown(name)}")
-        new = PointMass(self, self.unique("body", name), centre, len(self.coordinates))
-        new.add_mass(m, centre, np.zeros((3, 3)))
         self._register(new)
         return new
 
@@ -187,35 +169,6 @@ class BodyVocabulary(ModelCore):
         self.written_inertias.append(new)
         return new
 
-    def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
-        """Start velocity of a body: of its centre of mass, its angular velocity, or both.
-
-        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
-        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. Of the given part the joints take away what they do not allow, and no more.
-
-        Parameters
-        ----------
-        body : Body
-            Of this model; not the ground and not a node of a flexible body.
-        linear : array_like, shape (dimension,), optional
-            Velocity of its centre of mass, earth axes, m/s.
-        angular : float or array_like, shape (3,), optional
-            Angular velocity, earth axes, rad/s; planar a number.
-        """
-        what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
-        self.owned(body, f"The {what}")
-        if body.is_ground or body.is_tabled or body.is_node:
-            raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
-        d, size = self.dimension, 1 if self.dimension == 2 else 3
-        if linear is None and angular is None:
-            linear, angular = np.zeros(d), np.zeros(size)
-        v = None if linear is None else vector(linear, d, f"the linear {what}")
-        w = None if angular is None else _angular(angular, size, f"the angular {what}")
-        if body.is_point and v is None:
-            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
-        self.body_velocities[body.number] = (v, w)
-
     def owned(self, body: Body, what: str) -> Body:
         """A body, if it is one of this model.
 
@@ -294,8 +247,3 @@ def _check_size(mass: float, inertia: NDArray[np.float64], what: str) -> None:
             f"The inertia {np.max(np.abs(inertia)):g} kg m2 of {what} and its mass {mass:g} kg are those of something "
             f"{radius:.1g} m in size; between {SIZES[0]:g} and {SIZES[1]:g} m were expected."
         )
-
-
-def _angular(value: ArrayLike, size: int, what: str) -> Vector:
-    """Angular velocity, shape (size,); in the plane a number will do."""
-    return vector([value] if size == 1 and is_number(value) else value, size, what)

@@ -13,9 +13,10 @@ from mbs.common.checks import number, one_of, shown
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
+from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.mechanism import Mechanism
-from mbs.model.reactions import Term, folded, force_on_first, moment_terms, rod_terms
+from mbs.model.reactions import Term, folded
 from mbs.model.sensor import Sensor
 from mbs.model.sensors import component_number
 

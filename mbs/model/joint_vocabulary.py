@@ -9,9 +9,11 @@ from mbs.model.carried import Spin
 from mbs.model.ends import PointPair
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.pin import pin
-from mbs.model.joints.points import revolute, universal
+from mbs.model.joints.prismatic import prismatic
+from mbs.model.joints.revolute import revolute
 from mbs.model.joints.rolling import rolling, skate
-from mbs.model.joints.sliding import prismatic, weld
+from mbs.model.joints.universal import universal
+from mbs.model.joints.weld import weld
 from mbs.model.mechanism import Mechanism
 
 

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from mbs.common.checks import number
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.common.checks import Vector, is_number, number, positive, shown, vector
+from mbs.common.errors import ModelError
+from mbs.model.body import Body, PointMass
+from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
+from mbs.model.time_guides import TimeGuideVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
@@ -19,6 +26,8 @@ class Model(
     ForceVocabulary,
     JointSensorVocabulary,
     FlexibleVocabulary,
+    ContactVocabulary,
+    TimeGuideVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
@@ -79,3 +88,54 @@ class Model(
         """
         index = self.owned_coordinate(coordinate, "An initial rate").index
         self.coordinate_rates[index] = number(rate, f"The initial rate of '{coordinate.name}'")
+
+    def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
+        """A particle.
+
+        Parameters
+        ----------
+        mass : float
+            kg.
+        position : array_like, shape (dimension,)
+            In earth axes in the reference configuration, m.
+        """
+        m = positive(mass, f"The mass of point mass {shown(name)}")
+        centre = vector(position, self.dimension, f"the position of point mass {shown(name)}")
+        new = PointMass(self, self.unique("body", name), centre, len(self.coordinates))
+        new.add_mass(m, centre, np.zeros((3, 3)))
+        self._register(new)
+        return new
+
+    def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
+        """Start velocity of a body: of its centre of mass, its angular velocity, or both.
+
+        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
+        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
+        rest. Of the given part the joints take away what they do not allow, and no more.
+
+        Parameters
+        ----------
+        body : Body
+            Of this model; not the ground and not a node of a flexible body.
+        linear : array_like, shape (dimension,), optional
+            Velocity of its centre of mass, earth axes, m/s.
+        angular : float or array_like, shape (3,), optional
+            Angular velocity, earth axes, rad/s; planar a number.
+        """
+        what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
+        self.owned(body, f"The {what}")
+        if body.is_ground or body.is_tabled or body.is_node:
+            raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
+        d, size = self.dimension, 1 if self.dimension == 2 else 3
+        if linear is None and angular is None:
+            linear, angular = np.zeros(d), np.zeros(size)
+        v = None if linear is None else vector(linear, d, f"the linear {what}")
+        w = None if angular is None else _angular(angular, size, f"the angular {what}")
+        if body.is_point and v is None:
+            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
+        self.body_velocities[body.number] = (v, w)
+
+
+def _angular(value: ArrayLike, size: int, what: str) -> Vector:
+    """Angular velocity, shape (size,); in the plane a number will do."""
+    return vector([value] if size == 1 and is_number(value) else value, size, what)

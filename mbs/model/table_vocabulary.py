@@ -14,14 +14,8 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.inertia import inertia_matrix
 from mbs.model.mechanism import Mechanism
-from mbs.model.tabled import (
-    TabledBody,
-    TabledNumber,
-    check_drawn,
-    checked_parameters,
-    pose_functions,
-    smooth_table,
-)
+from mbs.model.smooth_table import check_drawn, checked_parameters, pose_functions, smooth_table
+from mbs.model.tabled import TabledBody, TabledNumber
 
 
 class TableVocabulary(Mechanism):

@@ -16,6 +16,7 @@ from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.wind import Wind
 from mbs.model.carried import Spin
+from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.mechanism import Mechanism
 from mbs.model.records import Ahead
 from mbs.vehicle.builder import CarBuilder
@@ -98,7 +99,9 @@ def road_ports(m: Mechanism, road: RoadSection) -> tuple[int, dict[str, int]]:
         Those under the wheels.
     """
     friction = road.friction * road.friction_factor
-    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
+    first = {
+        w: ContactVocabulary.road_answer(m, f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS
+    }
     under = {w: m.road(PortRoad([k])) for w, k in first.items()}
     return m.road(PortRoad(list(first.values()))), under
 
