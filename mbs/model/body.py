@@ -75,7 +75,13 @@ class Body:
         return self
 
     def at(self, position: ArrayLike, what: str) -> Body:
-        """What a joint at a place acts on: of a flexible body its node there."""
+        """What a joint at a place acts on: of a flexible body its node there.
+
+        Parameters
+        ----------
+        position : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+        """
         return self
 
     def point(self, position: ArrayLike) -> AffineVector:
