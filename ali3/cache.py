@@ -8,8 +8,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from ali3.errors import FileError
-from ali3.files import reason
+from ali3.errors import FileError, reason
 
 VARIABLE = "ALI3_CACHE"
 

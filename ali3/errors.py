@@ -13,3 +13,9 @@ class FileError(UserError, OSError):
 
 class TableError(FileError, ValueError):
     """A table that cannot be read, or holds something else; the message names file and line."""
+
+
+def reason(error: OSError) -> str:
+    """The words of the operating system without number and file name, such as ``no space left on device``."""
+    text = error.strerror or str(error)
+    return text[:1].lower() + text[1:]

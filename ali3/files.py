@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ali3.errors import FileError
+from ali3.errors import FileError, reason
 
 WRITING = ".writing-"
 
@@ -101,9 +101,3 @@ def _check_file(file: str | os.PathLike[str], target: Path) -> None:
     except (OSError, ValueError) as error:
         words = reason(error) if isinstance(error, OSError) else str(error)
         raise FileError(f"{file} cannot be written: {words}.") from None
-
-
-def reason(error: OSError) -> str:
-    """The words of the operating system without number and file name, such as ``no space left on device``."""
-    text = error.strerror or str(error)
-    return text[:1].lower() + text[1:]

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ali3.errors import FileError
-from ali3.files import WRITING, make_folder, reason
+from ali3.errors import FileError, reason
+from ali3.files import WRITING, make_folder
 
 
 @contextmanager

@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ali3.errors import FileError
-from ali3.files import make_folder, reason
+from ali3.errors import FileError, reason
+from ali3.files import make_folder
 
 
 @contextmanager

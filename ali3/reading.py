@@ -18,8 +18,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ali3.errors import FileError
-from ali3.files import reason
+from ali3.errors import FileError, reason
 from ali3.words import brief, one_line, place_words
 
 Error = type[Exception]

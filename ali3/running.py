@@ -7,8 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from ali3.errors import UserError
-from ali3.files import reason
+from ali3.errors import UserError, reason
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened
 

@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.errors import FileError
-from ali3.files import reason
+from ali3.errors import FileError, reason
 from ali3.reading import Error, check_file, other_encoding
 from ali3.words import brief
 

@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     from mbs.simulation.run import simulate
     from mbs.simulation.state import Pose
     from mbs.simulation.stepping import Simulation
-    from mbs.system.system import System, SystemFileError
+    from mbs.system.compiled_model import SystemFileError
+    from mbs.system.system import System
 
 # imported when they are first asked for: commands that need no engine start fast
 _LAZY = {
@@ -46,7 +47,7 @@ _LAZY = {
     "Model": "mbs.model",
     "ModelError": "mbs.model",
     "System": "mbs.system.system",
-    "SystemFileError": "mbs.system.system",
+    "SystemFileError": "mbs.system.compiled_model",
     "compile": "mbs.compiler.compile",
     "Accuracy": "mbs.results.accuracy",
     "AccuracyWarning": "mbs.results.accuracy",

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from mbs.elements import ElementType
-from mbs.kernel.header.enumerations import SensorType
+from mbs.kernel.header.enumerations import ElementType, SensorType
 
 Array = NDArray[np.float64]
 SPRING = ElementType.SPRING_DAMPER  # whose energy is counted

@@ -10,8 +10,7 @@ import mbs
 from benchmarks.car.road_faces import SPEED
 from benchmarks.shared.pages import Row, table
 from hosts.common.wheels import WHEELS
-from mbs.elements import KerbRoad
-from mbs.elements.road import ANSWER
+from mbs.elements.road import ANSWER, KerbRoad
 from mbs.vehicle import load
 
 EDGE, STEP, TIME, UP = 0.9, 0.002, 1.0, np.array([0.0, 0.0, 1.0])  # m, s, s

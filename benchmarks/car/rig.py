@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mbs import Trajectory, compile, simulate
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.road import PlaneRoad
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.vehicle import Car
 
 DURATION, STEP = 4.0, 0.002  # s

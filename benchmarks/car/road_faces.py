@@ -8,7 +8,7 @@ import numpy as np
 
 import mbs
 from benchmarks.shared.pages import Row, table
-from mbs.elements import GridRoad, KerbRoad
+from mbs.elements.road import GridRoad, KerbRoad
 from mbs.vehicle import load
 
 SPEED, STEP, FACE = 3.0, 0.001, 2.0  # m/s, s, m from where the car starts

@@ -13,7 +13,7 @@ from benchmarks.shared.instructions import instructions
 from benchmarks.shared.pages import Row
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import unpack
-from mbs.elements import GridRoad
+from mbs.elements.road import GridRoad
 from mbs.roads import write_road
 
 ROADS = {"level": 0.0, "waves of 30 mm, 2 m long": 0.015}  # m, amplitude; of its own a plane and a file

@@ -39,7 +39,7 @@ def command_of(scene: Scene, program: Path, folder: Path) -> list[str]:
         start = Simulation(system, inputs=dict(zip(names, inputs[0], strict=True)), parameters=parameters, pose=pose)
     else:
         inputs, start = np.empty((1, 0)), Simulation(system)
-    contents = (system.to_bytes(drawing=False), start.save(), inputs[1:].astype("<f8").tobytes())
+    contents = (system.kernel_bytes(), start.save(), inputs[1:].astype("<f8").tobytes())
     for file, data in zip(files, contents, strict=True):
         file.write_bytes(data)
     return [str(program), *map(str, files), repr(scene.step), str(scene.steps)]

@@ -7,7 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from benchmarks.shared.pages import Row, table
-from mbs.elements import MagicTyre, Tyre
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.elements.tyre import Tyre
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
 from mbs.vehicle import load

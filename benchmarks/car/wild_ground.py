@@ -9,7 +9,7 @@ import numpy as np
 
 import mbs
 from hosts.driving.wild_driver import Target
-from mbs.elements import GridRoad
+from mbs.elements.road import GridRoad
 
 EDGE, SPACING = 150.0, 0.25  # m: half the side of the square, between points
 KERB, KERB_LENGTH, KERB_DISTANCE = 0.08, 2.0, 15.0  # m

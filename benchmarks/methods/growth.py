@@ -50,7 +50,7 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
                     "coordinates": system.nq,
                     "rows": system.nc,
                     "factor_nonzeros": system.report["factor_nonzeros"],
-                    "system_bytes": len(system.to_bytes(drawing=False)),
+                    "system_bytes": len(system.kernel_bytes()),
                     "state_bytes": simulation.instance.system.state_size,
                     "resident_bytes": max(after - before, 0),
                     "compile_s": compiled,
@@ -108,7 +108,7 @@ def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
                 "modes": len(system.arrays["flex_mode"]),
                 "coordinates": system.nq,
                 "factor_nonzeros": system.report["factor_nonzeros"],
-                "system_bytes": len(system.to_bytes(drawing=False)),
+                "system_bytes": len(system.kernel_bytes()),
                 "state_bytes": simulation.instance.system.state_size,
                 "iterations": simulation.report.mean_iterations,
             }

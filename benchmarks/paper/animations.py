@@ -13,7 +13,7 @@ import mbs
 from benchmarks.car import fidelity_runs, manoeuvres, proving_ground
 from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.scenes import (
     bicycle,
     bricard,

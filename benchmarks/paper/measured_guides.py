@@ -19,7 +19,7 @@ from scipy.interpolate import PchipInterpolator, PPoly
 from ali3.low_pass import low_pass
 from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
 from mbs import Settings, Trajectory, compile, simulate
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.scenes import kerb_test, prototype_car
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 import mbs
 from benchmarks import references
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.scenes import (
     bicycle,
     bricard,

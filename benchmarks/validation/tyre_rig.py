@@ -17,7 +17,9 @@ import numpy as np
 
 from benchmarks.validation.published import Published
 from mbs import Model, compile, simulate
-from mbs.elements import MagicTyre, PlaneRoad, Tyre
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.elements.road import PlaneRoad
+from mbs.elements.tyre import Tyre
 from mbs.tyre_files.fits import tmeasy_of_magic
 
 LATERAL = (1.30, -22.1, 1011.0, 1078.0, 1.82, 0.208, 0.0, -0.354, 0.707)

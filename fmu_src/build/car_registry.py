@@ -13,7 +13,7 @@ from ali3.words import shortened
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.posed import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load
-from mbs.vehicle.ports import chosen_ports
+from mbs.vehicle.chosen_ports import chosen_ports
 from mbs.vehicle.summary import grip_row
 
 FOLDER = "resources/car"

@@ -11,7 +11,8 @@ import numpy as np
 
 import mbs
 from fmu_src.variables.variables import Variable
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 
 SECONDS = 4.0
 _SPEED = 15.0  # m/s, where the pose has one
@@ -60,7 +61,7 @@ def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dic
     moved = [v for v in table if v.source == "input" and not v.whole]
     largest = np.zeros(max(sensed.values(), default=-1) + 1)
     for system in systems:
-        kernel = Instance(LoadedSystem(system.to_bytes(drawing=False)))
+        kernel = Instance(LoadedSystem(system.kernel_bytes()))
         h = float(system.meta["experiment"]["step_s"])
         try:
             if system.meta["floating"]:

@@ -11,7 +11,8 @@ import random
 from collections.abc import Callable
 
 import mbs
-from mbs.kernel.binding import Instance, KernelError
+from mbs.kernel.binding import KernelError
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import ParameterTarget
 
 _DISPLACEMENTS = (0.0, 0.01, 0.05, 0.2, 0.5, 1.0, 2.0)  # m, of coordinates beside the start: all stops act

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import mbs
 from fmu_src.description.parameter_groups import parameter_groups
 from fmu_src.variables.variables import Variable
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import SENSOR_READS, ElementType, SensorReads, SensorType
 
 _SEED = 20_261_120
@@ -65,7 +66,7 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
     for system in systems:
-        tries.system(system, Instance(LoadedSystem(system.to_bytes(drawing=False))))
+        tries.system(system, Instance(LoadedSystem(system.kernel_bytes())))
     tries.close(systems)
     return Dependencies(
         {i: tuple(sorted(tries.step[i])) for i in outputs},

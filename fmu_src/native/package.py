@@ -104,7 +104,7 @@ class NativeContents:
     @property
     def resources(self) -> dict[str, bytes]:
         """Systems and roads as they lie in the FMU, and what they were made from."""
-        contents = [system.to_bytes(drawing=False) for system in self.systems]
+        contents = [system.kernel_bytes() for system in self.systems]
         systems = {f"resources/system_{k}.ali3": content for k, content in enumerate(contents)}
         scene = {GEOMETRY: self.geometry} if self.geometry else {}
         return systems | road_resources(self.system.meta) | dict(self.origin) | scene

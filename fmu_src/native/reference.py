@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 import mbs
 from fmu_src.description.description import number, to_bytes
 from fmu_src.variables.variables import Variable
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.simulation.refusal import refusal
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
@@ -99,7 +100,7 @@ def _run(
 ) -> ReferenceRun:
     simulation = mbs.Simulation(system)
     instance = simulation.instance
-    ported = None if follower is None else Instance(LoadedSystem(follower.to_bytes(drawing=False)))
+    ported = None if follower is None else Instance(LoadedSystem(follower.kernel_bytes()))
     sensors = system.meta["sensors"]
     left_out = np.array([not entry.get("computed", True) for entry in sensors])
     names, starts = [e["name"] for e in system.meta["inputs"]], np.arange(steps) * step

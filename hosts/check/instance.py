@@ -11,7 +11,7 @@ from pathlib import Path
 from fmpy import extract, read_model_description
 from fmpy.model_description import ModelDescription, ScalarVariable
 
-from ali3.files import reason
+from ali3.errors import reason
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ali3.files import reason
+from ali3.errors import reason
 from ali3.reading import other_encoding
 from ali3.tables import cells_of
 from hosts.common.errors import HostError

@@ -11,8 +11,7 @@ from typing import Any
 import ali3
 from ali3.cache import cache_folder
 from ali3.commands import COMMANDS
-from ali3.errors import FileError
-from ali3.files import reason
+from ali3.errors import FileError, reason
 from ali3.folders import forget_oldest, whole_folder
 from ali3.locks import locked
 from ali3.reading import read_toml

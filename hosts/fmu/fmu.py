@@ -20,7 +20,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
-from ali3.files import reason
+from ali3.errors import reason
 from ali3.near_names import did_you_mean
 from ali3.reading import no_file
 from ali3.running import command_name, memory_words

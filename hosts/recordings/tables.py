@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ali3.files import reason
+from ali3.errors import reason
 from ali3.tables import TextTable
 from ali3.words import brief, one_line
 from hosts.common.errors import HostError

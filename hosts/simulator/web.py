@@ -16,7 +16,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from ali3.files import reason
+from ali3.errors import reason
 from hosts.common.errors import HostError
 from hosts.simulator.guard import Guard
 

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import zarr
 
-from ali3.errors import FileError
-from ali3.files import reason
+from ali3.errors import FileError, reason
 from hosts.study.folder import SIGNALS
 from hosts.study.job import Job
 from hosts.study.work import Chunk, Outcome

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
@@ -13,3 +13,11 @@ def cross(a: Array, b: Array) -> Array:
     x, y, z = a[..., 0], a[..., 1], a[..., 2]
     u, v, w = b[..., 0], b[..., 1], b[..., 2]
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
+
+
+def in_space(v: ArrayLike) -> Array:
+    """A new vector of three components, of two or three; a plane is z = 0."""
+    found = np.zeros(3)
+    given = np.asarray(v, dtype=float)
+    found[: len(given)] = given
+    return found

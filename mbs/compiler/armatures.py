@@ -11,18 +11,17 @@ from numpy.typing import NDArray
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import substitute
-from mbs.compiler.spanning_tree import NoTreeError
 from mbs.kernel.header.enumerations import ParameterTarget
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 
-def written_armatures(model: Model) -> list[int]:
+def written_armatures(model: Mechanism) -> list[int]:
     """Numbers of the armatures whose ratio a parameter writes; all others are in the mass matrix for good."""
     targets = [where for p in model.parameters for where in p.targets]
     return sorted({k for family, k, *_ in targets if family == ParameterTarget.ARMATURE})
 
 
-def armature_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> dict[str, Any]:
+def armature_arrays(model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64]) -> dict[str, Any]:
     """The `armature_` arrays; the mass matrix has their inertia with the ratio as drawn."""
     columns, inertias, ratios = [], [], []
     for armature in (model.armatures[k] for k in written_armatures(model)):
@@ -37,9 +36,3 @@ def armature_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
         inertias.append(armature.inertia * factor * factor)
         ratios.append(armature.ratio)
     return {"armature_col": columns, "armature_inertia": inertias, "armature_ratio": ratios}
-
-
-def refuse_in_trees(model: Model) -> None:
-    """Trees have the inertia of their angles once and for all."""
-    for k in written_armatures(model):
-        raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
-from mbs.compiler.model_to_system import to_system
+from mbs.compiler.model_to_system import checked, compiled
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
 from mbs.compiler.ports import with_ports_of
-from mbs.model.model import Model
+from mbs.compiler.tree import tree_arrays
+from mbs.model.mechanism import Mechanism
+from mbs.system.compiled_model import CompiledModel
+from mbs.system.drawing import Drawing
 from mbs.system.system import System
 
+Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]
+"""Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
 
-def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
+
+def compile(model: Mechanism, *, tolerance: float = TOLERANCE) -> System:
     """Compile a model.
 
     Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
@@ -37,4 +46,23 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     ModelError
         If the assembly cannot be closed or the model is not possible; the message names the joints.
     """
-    return to_system(model, closing=closed_loops(tolerance), drawing=drawing, watch=mode_arrays, ports=with_ports_of)
+    closing = closed_loops(tolerance)
+    corrected, made = _closed(model, closing)
+    frames, start, make = made.frames, made.arrays["q0"], model.with_ports
+    assert frames is not None
+
+    def draw() -> Drawing:
+        with corrected():
+            return drawing(model, frames.T, frames.constant, start)
+
+    def ported(system: System) -> System | None:
+        return None if make is None else with_ports_of(System.of(_closed(make(), closing)[1]), system)
+
+    return System.of(made, model.drawn_late(draw), None if make is None else ported)
+
+
+def _closed(model: Mechanism, closing: Callable[[Mechanism], Correction]) -> tuple[Correction, CompiledModel]:
+    """What a model is compiled to with its loops closed, and the context in which they are."""
+    corrected = closing(checked(model))
+    with corrected() as closed:
+        return corrected, compiled(model, closed, watch=mode_arrays, trees=tree_arrays)

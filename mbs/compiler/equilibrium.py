@@ -11,14 +11,15 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import number
 from mbs.common.errors import ModelError
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, open_row
-from mbs.system.system import System
+from mbs.kernel.binding import KernelError, LoadedSystem, open_row
+from mbs.kernel.binding.standing_instance import StandingInstance
+from mbs.system.compiled_model import CompiledModel
 
 TOLERANCE = 1e-8  # N
 MAX_ITERATIONS = 400
 
 
-def start_arrays(system: System | None, parameters: Mapping[str, float]) -> dict[str, Any]:
+def start_arrays(system: CompiledModel | None, parameters: Mapping[str, float]) -> dict[str, Any]:
     """The `static_` arrays: whether a System starts in equilibrium, where that is sought from (the start of `system`),
     and parameters that hold meanwhile.
     """
@@ -33,12 +34,12 @@ def start_arrays(system: System | None, parameters: Mapping[str, float]) -> dict
     }
 
 
-def equilibrium(system: System, parameters: Mapping[str, float]) -> NDArray[np.float64]:
+def equilibrium(system: CompiledModel, parameters: Mapping[str, float]) -> NDArray[np.float64]:
     """Coordinates, shape (nq,), where all forces balance with the inputs at their start values.
 
     `parameters` hold only while it is sought: a drive that pushes has no equilibrium.
     """
-    instance = Instance(LoadedSystem(system.to_bytes(drawing=False, modes=False)))
+    instance = StandingInstance(LoadedSystem(system.kernel_bytes(modes=False)))
     names = [entry["name"] for entry in system.meta["parameters"]]
     unknown = [name for name in parameters if name not in names]
     if unknown:

@@ -6,14 +6,13 @@ import numpy as np
 
 from mbs.common.checks import Vector
 from mbs.model.body import Body
-from mbs.model.flexible import FlexibleBody
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 SPIN = 0.1
 """Radius of a wheel in parts of the length: its spin has no lever of its own."""
 
 
-def model_length(model: Model) -> float:
+def model_length(model: Mechanism) -> float:
     """The stated length, or the diagonal of the box around all bodies and joints as drawn, m.
 
     A single body without joints has twice its radius of gyration; where nothing has an extent the length is 1 m.
@@ -37,20 +36,20 @@ def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> li
     return [length if unit else of_kind.get(kind, 1.0) for kind, unit in zip(kinds, units, strict=True)]
 
 
-def unit_vectors(model: Model, numbers: list[int]) -> list[bool]:
+def unit_vectors(model: Mechanism, numbers: list[int]) -> list[bool]:
     """Whether full coordinates are components of unit vectors, as of flexible bodies and bases; others are in m."""
-    axes = {b.start + k for b in model.bodies if isinstance(b, FlexibleBody) or b.is_base for k in range(3, 12)}
+    axes = {b.start + k for b in model.bodies if b.flexibility is not None or b.is_base for k in range(3, 12)}
     return [k in axes for k in numbers]
 
 
 def _points(body: Body) -> list[Vector]:
-    if isinstance(body, FlexibleBody):
-        return list(np.asarray(body.node_positions))
+    if body.flexibility is not None:
+        return list(body.flexibility.nodes)
     own = [] if body.is_ground else [body.com]
     return own + [body.com + p for p in body.joint_points]
 
 
 def _gyration(body: Body) -> float:
-    if body.is_point or isinstance(body, FlexibleBody) or not body.mass:
+    if body.is_point or body.flexibility is not None or not body.mass:
         return 0.0
     return float(np.sqrt(np.trace(body.second_moment) / body.mass))

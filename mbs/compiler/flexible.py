@@ -11,8 +11,9 @@ from scipy import sparse
 
 from mbs.common.affine import Affine
 from mbs.compiler.front_arrays import Locate
-from mbs.model.flexible import FlexibleBody
-from mbs.model.model import Model
+from mbs.model.body import Body
+from mbs.model.flexibility import Flexibility
+from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 PAIRS = ((1, 2), (2, 0), (0, 1))
@@ -21,38 +22,40 @@ TIME = 0.1
 """What moves within this time, s, should deform bodies as little as possible when the start is made consistent."""
 
 
-def flexible_bodies(model: Model) -> list[FlexibleBody]:
-    """Flexible bodies of a model."""
-    return [b for b in model.bodies if isinstance(b, FlexibleBody)]
+def flexible_bodies(model: Mechanism) -> list[tuple[Body, Flexibility]]:
+    """Flexible bodies of a model, and how they bend."""
+    return [(b, b.flexibility) for b in model.bodies if b.flexibility is not None]
 
 
-def flexible_coordinates(model: Model) -> set[int]:
+def flexible_coordinates(model: Mechanism) -> set[int]:
     """Full coordinates that are never eliminated: frames and amplitudes."""
-    return {i for b in flexible_bodies(model) for i in range(b.start, b.start + b.size)}
+    return {i for b, _ in flexible_bodies(model) for i in range(b.start, b.start + b.size)}
 
 
-def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def flexible_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each body couples in the tangent."""
-    return [_places(b, full) for b in flexible_bodies(model)]
+    return [_places(b, full) for b, _ in flexible_bodies(model)]
 
 
-def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
+def deformation_metric(model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
     """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
     rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
-    for body in flexible_bodies(model):
+    for body, bending in flexible_bodies(model):
         places = new[_places(body, full)][12:]
         rows.append(np.repeat(places, len(places)))
         columns.append(np.tile(places, len(places)))
-        values.append(TIME**2 * body.reduced.K.ravel())
+        values.append(TIME**2 * bending.K.ravel())
     places_of = (np.concatenate(rows), np.concatenate(columns))
     return sparse.coo_matrix((np.concatenate(values), places_of), shape=(len(new), len(new))).tocsr()
 
 
-def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:
+def flexible_arrays(
+    model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate
+) -> dict[str, Any]:
     """The `flex_` arrays; amplitudes in the order of their coordinates."""
     counts, frames, modes, fronts, locs = [0], [], [], [], []
     data: dict[str, list[Array]] = {name: [] for name in ("gravity", "P", "c", "T", "K", "C")}
-    for body in flexible_bodies(model):
+    for body, s in flexible_bodies(model):
         places = new[_places(body, full)]
         order = np.argsort(places[12:])
         frame, mode = places[:12], places[12:][order]
@@ -62,13 +65,13 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
         modes.append(mode)
         fronts.append(front)
         locs += loc
-        s, pick = body.integrals, np.ix_(order, order)
+        pick = np.ix_(order, order)
         data["gravity"].append(model.gravity)
         data["P"].append(s.P[:, order])
         data["c"].append(s.c[:, order].transpose(0, 2, 1))
         data["T"].append(_products(s.T[pick]))
-        data["K"].append(body.reduced.K[pick])
-        data["C"].append(body.reduced.C[pick])
+        data["K"].append(s.K[pick])
+        data["C"].append(s.C[pick])
     return {
         "flex_mode_ptr": np.cumsum(counts),
         "flex_frame": np.concatenate([np.zeros(0, int), *frames]),
@@ -79,7 +82,7 @@ def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]
     }
 
 
-def _places(body: FlexibleBody, full: Sequence[Affine]) -> list[int]:
+def _places(body: Body, full: Sequence[Affine]) -> list[int]:
     """Coordinates of z: a frame and amplitudes are never eliminated."""
     return [next(iter(full[i].terms)) for i in range(body.start, body.start + body.size)]
 

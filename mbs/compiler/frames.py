@@ -8,11 +8,10 @@ from scipy import sparse
 
 from mbs.common.frames import FlexibleShapes, Frames
 from mbs.compiler.tabled import tabled_coordinates
-from mbs.model.flexible import FlexibleBody
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 
-def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64]) -> Frames:
+def frames_of(model: Mechanism, T: sparse.csr_matrix, constant: NDArray[np.float64]) -> Frames:
     """Frames of a model whose full coordinates are ``T q + constant``."""
     points: list[int] = []
     vectors: list[int] = []
@@ -25,9 +24,9 @@ def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64])
             scalars.append(i)
     rigid = tuple(b.start for b in model.bodies if not (b.is_point or b.is_flexible))
     flexible = tuple(
-        FlexibleShapes(b.name, b.start + 12, b.reduced.node_rotations)
+        FlexibleShapes(b.name, b.start + 12, b.flexibility.node_rotations)
         for b in model.bodies
-        if isinstance(b, FlexibleBody)
+        if b.flexibility is not None
     )
     tabled = tabled_coordinates(model)
     if tabled:  # no affine function of q: what asks for one sees that it is none

@@ -11,7 +11,7 @@ from scipy import sparse
 from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.structure import rank_at
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ IMPOSSIBLE = 1e-6
 
 
 def check_motion(
-    model: Model, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
+    model: Mechanism, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
 ) -> None:
     """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 

@@ -1,9 +1,8 @@
-"""From a Model to a System, one chain of steps."""
+"""From a Model to the arrays of a System, one chain of steps."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 import numpy as np
@@ -55,73 +54,46 @@ from mbs.compiler.tabled import (
     tell_apart,
 )
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
-from mbs.compiler.tree import tree_arrays
 from mbs.compiler.written_axes import axis_arrays, axis_cliques, axis_room
 from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
+from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS
 from mbs.model.equation import Equation
-from mbs.model.model import Model
-from mbs.system.drawing import Drawing
-from mbs.system.system import System
+from mbs.model.mechanism import Mechanism
+from mbs.system.compiled_model import CompiledModel
 
 Array = NDArray[np.float64]
-Drawer = Callable[[Model, sparse.csr_matrix, Array, Array], Drawing]
 Tables = dict[str, Any]
-Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]
-"""Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
+Corrections = dict[str, tuple[float, float]]
 LoopWatch = Callable[
-    [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
+    [Mechanism, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
-Ports = Callable[[System, System], System | None]
+NO_TREE: Tables = {name: [] for name in FLOAT_ARRAYS + INTEGER_ARRAYS if name.startswith("tree_")}
+Trees = Callable[[Mechanism, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
 
 
-def to_system(
-    model: Model,
-    *,
-    closing: Callable[[Model], Correction] | None = None,
-    drawing: Drawer | None = None,
-    watch: LoopWatch | None = None,
-    ports: Ports | None = None,
-) -> System:
+def checked(model: Mechanism) -> Mechanism:
+    """What can be compiled: a Model with a body."""
+    instance_of(Mechanism, model, "What compile takes", "a Model")
+    if not model.bodies:
+        raise ModelError(f"The model '{model.name}' has no bodies.")
+    return model
+
+
+def compiled(
+    model: Mechanism, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
+) -> CompiledModel:
     """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it, and have no loops to close.
 
     Parameters
     ----------
-    closing : callable, optional
-        `closed_loops`: finds what corrects the drawing of overconstrained loops.
+    closed : dict of str to tuple of float, optional
+        How far joints were moved to close the loops of the model, by name, m and rad; for the report.
     watch : callable, optional
         `mode_arrays`: makes what steps are watched by.
-    drawing : callable, optional
-        Makes what the System carries for those who draw it, of the model, the matrix T (full, nq) and the constant
-        (full,) of its full coordinates ``T q + constant``, and the start q (nq,).
-    ports : callable, optional
-        `with_ports_of`: makes the System with ports that follows the one without.
+    trees : callable, optional
+        `tree_arrays`: makes what methods in relative coordinates step.
     """
-    instance_of(Model, model, "What compile takes", "a Model")
-    if not model.bodies:
-        raise ModelError(f"The model '{model.name}' has no bodies.")
-    corrected: Correction = closing(model) if closing else lambda: nullcontext({})
-    with corrected() as closed:
-        system = _compile(model, closed, closing, watch, ports)
-    if drawing is None:
-        return system
-    frames, start = system.frames, system.arrays["q0"]
-    assert frames is not None
-
-    def draw() -> Drawing:
-        with corrected():
-            return drawing(model, frames.T, frames.constant, start)
-
-    return system.with_drawing(model.drawn_late(draw))
-
-
-def _compile(
-    model: Model,
-    closed: dict[str, tuple[float, float]],
-    closing: Callable[[Model], Correction] | None,
-    watch: LoopWatch | None,
-    ports: Ports | None,
-) -> System:
-    """The System of a model whose loops are closed; `closed` is for its report."""
+    checked(model)
     linear, others = _equations(model)
     natural = natural_coordinates(model)
     held = {*tabled_coordinates(model)}
@@ -180,7 +152,7 @@ def _compile(
     signals = Signals(known.seen, places, axis_room(model, known.seen))
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
-    tree, no_tree = tree_arrays(model, signals, remaining, new)
+    tree, no_tree = trees(model, signals, remaining, new) if trees else ({}, "nobody asked for one")
     triads, modes = watch(model, holding, full, q[new], guides, signals) if watch else ({}, None)
     tables: Tables = {
         "q0": q,
@@ -208,6 +180,7 @@ def _compile(
         **flexible_arrays(model, full, new, locate),
         **tabled_arrays(model, known.seen, new),
         **pose_arrays(model, natural, remaining, of_z, q[new], order),
+        **NO_TREE,
         **tree,
         **triads,
         **start_arrays(None, {}),
@@ -221,7 +194,7 @@ def _compile(
         "dependent_rows": dependent,
         "tangent_nonzeros": tangent_nonzeros,
         "no_tree": no_tree,
-        "closed": closed,
+        "closed": closed or {},
     }
     frames = frames_of(model, T[:, order], z0)
     info = [natural.info[remaining[k]] for k in order]
@@ -230,26 +203,16 @@ def _compile(
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)
     if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch, ports))
+        return CompiledModel(tables, meta, frames, modes)
     parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
-    resting = System(tables, meta, frames)
+    resting = CompiledModel(tables, meta)
     q = equilibrium(resting, parameters)
     tables.update(start_arrays(resting, parameters))
     tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return System(tables, meta, frames, modes=modes, ported=_ported(model, closing, watch, ports))
+    return CompiledModel(tables, meta, frames, modes)
 
 
-def _ported(
-    model: Model, closing: Callable[[Model], Correction] | None, watch: LoopWatch | None, ports: Ports | None
-) -> Callable[[System], System | None] | None:
-    """What makes the System with ports of the System of a model."""
-    make = model.with_ports
-    if make is None or ports is None:
-        return None
-    return lambda system: ports(to_system(make(), closing=closing, watch=watch), system)
-
-
-def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
+def _equations(model: Mechanism) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
     linear, others = [], []
     for j, joint in enumerate(model.joints):
@@ -265,13 +228,13 @@ def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equat
     return linear, others
 
 
-def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def _added_mass(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) between which parameters change the mass matrix."""
     return payload_cliques(model, full) + inertia_cliques(model, full) + axis_cliques(model, full)
 
 
 def _symbolic(
-    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
+    model: Mechanism, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
 ) -> tuple[Fronts, int]:
     """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
     entries = mass.tocoo()

@@ -29,7 +29,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.loop_conditions import EXACT, Condition, Loops, Places, loops_of
 from mbs.compiler.mobility import Closed, close, motion
 from mbs.model.joints.joint import Joint
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ class Corrected:
     correction: Correction
 
 
-def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Corrected]:
+def corrected_joints(model: Mechanism, tolerance: float = TOLERANCE) -> list[Corrected]:
     """The joints of overconstrained loops that move only if their drawing is corrected, with what they should be.
 
     `tolerance`: largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it
@@ -93,8 +93,8 @@ def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Correct
 
 def closed_loops(
     tolerance: float,
-) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
-    """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `to_system`.
+) -> Callable[[Mechanism], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
+    """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `compile`.
 
     `tolerance`: see `corrected_joints`.
 

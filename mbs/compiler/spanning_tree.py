@@ -12,9 +12,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mbs.common.vectors import in_space
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint, JointPlaces
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 from mbs.model.perpendicular import perpendicular
 
 Array = NDArray[np.float64]
@@ -68,7 +69,7 @@ class Cut:
     groups: tuple[Group, Group]
 
 
-def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
+def spanning_tree(model: Mechanism) -> tuple[list[Group], list[Cut]]:
     """Groups in depth-first order, the ground first, and the joints that are cut.
 
     Raises
@@ -124,7 +125,7 @@ def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
     return _depth_first(ground), cuts
 
 
-def check(model: Model) -> None:
+def check(model: Mechanism) -> None:
     """Raise `NoTreeError` for what is not a matter of rigid bodies and their joints."""
     for body in model.bodies:
         if body.is_flexible or body.is_point:
@@ -139,7 +140,7 @@ def check(model: Model) -> None:
             raise NoTreeError(f"joint '{joint.name}' is neither revolute, prismatic, spherical nor a weld")
 
 
-def turning(model: Model, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
+def turning(model: Mechanism, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
     Raises
@@ -164,12 +165,12 @@ def turning(model: Model, groups: list[Group], joint: Joint) -> list[tuple[int, 
     return sorted(found.items())
 
 
-def rows_of(model: Model, cut: Cut) -> tuple[int, int]:
+def rows_of(model: Mechanism, cut: Cut) -> tuple[int, int]:
     """Rows of a cut joint: of points and of axes."""
     return model.dimension, 0 if cut.places.axes is None else 2
 
 
-def _check_size(model: Model, n_joints: int, cuts: list[Cut]) -> None:
+def _check_size(model: Mechanism, n_joints: int, cuts: list[Cut]) -> None:
     rows = sum(sum(rows_of(model, cut)) for cut in cuts)
     if n_joints > MOST_JOINTS or rows > MOST_CUT_ROWS:
         raise NoTreeError(
@@ -180,7 +181,7 @@ def _check_size(model: Model, n_joints: int, cuts: list[Cut]) -> None:
             raise NoTreeError(f"the prismatic joint '{cut.joint.name}' closes a loop of prismatic joints")
 
 
-def _welded(model: Model) -> dict[int, Group]:
+def _welded(model: Mechanism) -> dict[int, Group]:
     """The group of every body by its identity."""
     group_of = {id(body): Group([body]) for body in (model.ground, *model.bodies)}
     for joint in model.joints:
@@ -220,12 +221,6 @@ def _depth_first(ground: Group) -> list[Group]:
         groups.append(group)
         stack += sorted(group.children, key=lambda g: g.height)
     return groups
-
-
-def in_space(v: ArrayLike) -> Array:
-    """Three components; a plane is z = 0."""
-    given = np.asarray(v, dtype=float)
-    return given if len(given) == 3 else np.array([*given, 0.0])
 
 
 def frame_along(axis: ArrayLike | None) -> Array:

@@ -15,14 +15,14 @@ from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
 from mbs.kernel.header.enumerations import GuideType
 from mbs.model.guides import of_table
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
 def reference_position(
-    model: Model,
+    model: Mechanism,
     natural: NaturalCoordinates,
     remaining: list[int],
     T: sparse.csr_matrix,
@@ -38,7 +38,7 @@ def reference_position(
     return np.atleast_1d(z)
 
 
-def guide_start(model: Model) -> tuple[Array, Array]:
+def guide_start(model: Mechanism) -> tuple[Array, Array]:
     """Value and rate of the guides at time zero."""
     values = np.array([g.start for g in model.guides], dtype=float)
     rates = np.zeros(len(model.guides))
@@ -56,7 +56,7 @@ def guide_start(model: Model) -> tuple[Array, Array]:
 
 
 def velocity(
-    model: Model,
+    model: Mechanism,
     full: list[Affine],
     T: sparse.csr_matrix,
     z: Array,

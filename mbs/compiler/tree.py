@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.compiler import armatures, written_axes, written_inertias
+from mbs.common.vectors import in_space
+from mbs.compiler.armatures import written_armatures
 from mbs.compiler.natural import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,
@@ -20,14 +21,13 @@ from mbs.compiler.spanning_tree import (
     Group,
     NoTreeError,
     frame_along,
-    in_space,
     rows_of,
     spanning_tree,
     turning,
 )
 from mbs.compiler.tables import Signals
 from mbs.model.body import Body
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
 
@@ -35,17 +35,12 @@ EQUAL_MOMENTS = 1e-12
 """Largest relative difference of two principal moments of inertia that count as equal."""
 CARRIED = 5
 """Numbers per coordinate that the kernel's state has for what a method carries."""
-NAMES = (
-    *("parent", "slides", "base", "mass", "centre", "inertia", "gravity", "frame"),
-    *("out_body", "out_local", "out_col", "cut_body", "cut_rows", "cut_place"),
-    *("angle_col", "angle_ptr", "angle_joint", "angle_sign", "angle_inertia", "payload_body", "payload_place"),
-)
 
 
 def tree_arrays(
-    model: Model, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
+    model: Mechanism, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
 ) -> tuple[dict[str, Any], str]:
-    """The `tree_` arrays; all empty, with the reason in words, where the model has no tree.
+    """The `tree_` arrays; none, with the reason in words, where the model has no tree.
 
     `signals`: takes the frames of the bodies; `remaining`: natural coordinates that are z; `new`: place of each z in
     elimination order.
@@ -61,9 +56,7 @@ def tree_arrays(
             raise NoTreeError(
                 f"{len(moving)} joints and {rows} rows of loops are many for {len(remaining)} coordinates"
             )
-        armatures.refuse_in_trees(model)
-        written_inertias.refuse_in_trees(model)
-        written_axes.refuse_in_trees(model)
+        _refuse_written(model)
         arrays = {
             "parent": [g.parent.number for g in moving if g.parent is not None],
             "slides": [int(g.slides) for g in moving],
@@ -78,7 +71,17 @@ def tree_arrays(
         }
         return {f"tree_{name}": values for name, values in arrays.items()}, ""
     except NoTreeError as reason:
-        return {f"tree_{name}": [] for name in NAMES}, str(reason)
+        return {}, str(reason)
+
+
+def _refuse_written(model: Mechanism) -> None:
+    """Trees take inertias as constant, and know no wheels."""
+    for k in written_armatures(model):
+        raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
+    for body in model.written_inertias:
+        raise NoTreeError(f"parameters write the inertia of '{body.name}'")
+    for axis in model.written_axes:
+        raise NoTreeError(f"parameters write the axis of '{axis.name}'")
 
 
 def _joined(parts: Sequence[Array]) -> Array:
@@ -130,7 +133,7 @@ def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
 
 
 def _coordinates(
-    model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
+    model: Mechanism, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
 ) -> dict[str, Any]:
     """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
     owner = {id(body): group for group in groups for body in group.bodies}
@@ -151,7 +154,7 @@ def _coordinates(
     return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
 
 
-def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
+def _payloads(model: Mechanism, groups: Sequence[Group]) -> dict[str, Any]:
     """Bodies of the payloads and places in their frames."""
     owner = {body.start: group for group in groups for body in group.bodies if not body.is_ground}
     on = [owner[p.body.start] for p in model.payloads]
@@ -164,7 +167,9 @@ def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
     return {"payload_body": [g.number for g in on], "payload_place": _joined(places)}
 
 
-def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
+def _angles(
+    model: Mechanism, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
+) -> dict[str, Any]:
     """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
     place = {i: int(new[z]) for z, i in enumerate(remaining)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
@@ -194,7 +199,7 @@ def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
     return path.issuperset(numbers)
 
 
-def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:
+def _cut_arrays(model: Mechanism, cuts: Sequence[Cut]) -> dict[str, Any]:
     """Bodies, numbers of rows, point and normals of the axis on the first body, point and axis on the second."""
     bodies: list[int] = []
     rows: list[int] = []

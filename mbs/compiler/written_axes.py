@@ -10,16 +10,15 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.polynomial import substitute
-from mbs.compiler.spanning_tree import NoTreeError
 from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.carried import WrittenAxis
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 ROUND = 1e-12
 """rad, by which a value that a parameter writes may differ from the drawn one in its last bits."""
 
 
-def axis_room(model: Model, full: Sequence[Affine]) -> dict[int, frozenset[int]]:
+def axis_room(model: Mechanism, full: Sequence[Affine]) -> dict[int, frozenset[int]]:
     """Coordinates of z, before ordering, that components of the vectors of such wheels may have, by their identity."""
     found: dict[int, frozenset[int]] = {}
     for axis in model.written_axes:
@@ -28,7 +27,7 @@ def axis_room(model: Model, full: Sequence[Affine]) -> dict[int, frozenset[int]]
     return found
 
 
-def axis_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def axis_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that a wheel couples in the mass matrix of its carrier."""
     axes = [a for a in model.written_axes if not a.spin.carrier.is_tabled]
     return [sorted(_room(axis, k, full)) for axis in axes for k in range(3)]
@@ -39,7 +38,7 @@ def _room(axis: WrittenAxis, k: int, full: Sequence[Affine]) -> frozenset[int]:
     return frozenset(j for v in axis.frame for j in substitute(v.components[k], full).terms)
 
 
-def axis_arrays(model: Model, signals: Any, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
+def axis_arrays(model: Mechanism, signals: Any, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
     """The `axis_` arrays, of `mbs.compiler.tables.Signals` and expressions of z."""
     tables = {id(t): k for k, t in enumerate(model.tabled)}
     axes = model.written_axes
@@ -59,7 +58,7 @@ def axis_arrays(model: Model, signals: Any, seen: Sequence[Affine], new: NDArray
     }
 
 
-def _reals(model: Model) -> list[float]:
+def _reals(model: Mechanism) -> list[float]:
     """As drawn, with the last bits that parameters write: an instance knows by these that nothing has changed."""
     found = [list(a.reals) for a in model.written_axes]
     for p in model.parameters:
@@ -73,9 +72,3 @@ def _reals(model: Model) -> list[float]:
 def _drawn(axis: WrittenAxis) -> list[float]:
     """f, g and the axis of a wheel as drawn, along the axes of its carrier."""
     return [float(v) for vector in axis.spin.drawn for v in vector]
-
-
-def refuse_in_trees(model: Model) -> None:
-    """Trees know no wheels."""
-    for axis in model.written_axes:
-        raise NoTreeError(f"parameters write the axis of '{axis.name}'")

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from mbs.common.affine import Affine
+from mbs.common.vectors import in_space
 from mbs.compiler.polynomial import substitute
-from mbs.compiler.spanning_tree import NoTreeError, in_space
 from mbs.compiler.tables import Signals
-from mbs.model.model import Model
+from mbs.model.mechanism import Mechanism
 
 
-def inertia_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
+def inertia_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each component of the vectors of a body couples in the mass matrix."""
     return [
         sorted({j for v in body.vectors for j in substitute(v.components[k], full).terms})
@@ -21,7 +21,7 @@ def inertia_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     ]
 
 
-def inertia_arrays(model: Model, signals: Signals) -> dict[str, Any]:
+def inertia_arrays(model: Mechanism, signals: Signals) -> dict[str, Any]:
     """The `inertia_` arrays."""
     return {
         "inertia_real": [r for body in model.written_inertias for r in body.reals],
@@ -30,15 +30,3 @@ def inertia_arrays(model: Model, signals: Signals) -> dict[str, Any]:
         ],
         "inertia_gravity": in_space(model.gravity) if model.written_inertias else [],
     }
-
-
-def refuse_in_trees(model: Model) -> None:
-    """Refuse tree coordinates to a model in which parameters write an inertia: trees take it as constant.
-
-    Raises
-    ------
-    NoTreeError
-        With the name of the body.
-    """
-    for body in model.written_inertias:
-        raise NoTreeError(f"parameters write the inertia of '{body.name}'")

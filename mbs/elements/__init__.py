@@ -1,31 +1,76 @@
 """Force elements: their data, checked, and the records that `compile()` reads."""
 
-from mbs.elements.automatic_drive import AutomaticDrive
-from mbs.elements.body_force import BodyForce
-from mbs.elements.body_torque import BodyTorque
-from mbs.elements.brake import Brake
-from mbs.elements.contact_points import ContactPoints
-from mbs.elements.coordinate_friction import CoordinateFriction
-from mbs.elements.drag import Drag
-from mbs.elements.electric_drive import ElectricDrive
-from mbs.elements.gyroscopic_spin import GyroscopicSpin
-from mbs.elements.hub_wrench import HubWrench
-from mbs.elements.input_force import InputForce
-from mbs.elements.lift import Lift
-from mbs.elements.magic_tyre import MagicTyre
-from mbs.elements.record import ElementRecord, Output
-from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
-from mbs.elements.scalar_spring_damper import ScalarSpringDamper
-from mbs.elements.spin_angle import SpinAngle
-from mbs.elements.spin_torque import SpinTorque
-from mbs.elements.spring_damper import EndStops, SpringDamper
-from mbs.elements.spring_damper_table import SpringDamperTable
-from mbs.elements.torsion_bar import TorsionBar
-from mbs.elements.tyre import Tyre, TyreCurve
-from mbs.elements.tyre_bore import TyreBore
-from mbs.elements.wind import Wind
-from mbs.elements.wind_drag import WindDrag
-from mbs.kernel.header.enumerations import ElementType
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from mbs.common.lazy_modules import lazy_modules
+
+if TYPE_CHECKING:
+    from mbs.elements.automatic_drive import AutomaticDrive
+    from mbs.elements.body_force import BodyForce
+    from mbs.elements.body_torque import BodyTorque
+    from mbs.elements.brake import Brake
+    from mbs.elements.contact_points import ContactPoints
+    from mbs.elements.coordinate_friction import CoordinateFriction
+    from mbs.elements.drag import Drag
+    from mbs.elements.electric_drive import ElectricDrive
+    from mbs.elements.gyroscopic_spin import GyroscopicSpin
+    from mbs.elements.hub_wrench import HubWrench
+    from mbs.elements.input_force import InputForce
+    from mbs.elements.lift import Lift
+    from mbs.elements.magic_tyre import MagicTyre
+    from mbs.elements.record import ElementRecord, Output
+    from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
+    from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+    from mbs.elements.spin_angle import SpinAngle
+    from mbs.elements.spin_torque import SpinTorque
+    from mbs.elements.spring_damper import EndStops, SpringDamper
+    from mbs.elements.spring_damper_table import SpringDamperTable
+    from mbs.elements.torsion_bar import TorsionBar
+    from mbs.elements.tyre import Tyre, TyreCurve
+    from mbs.elements.tyre_bore import TyreBore
+    from mbs.elements.wind import Wind
+    from mbs.elements.wind_drag import WindDrag
+    from mbs.kernel.header.enumerations import ElementType
+
+# imported when they are first asked for: who reads one element needs no other
+_LAZY = {
+    "AutomaticDrive": "mbs.elements.automatic_drive",
+    "BodyForce": "mbs.elements.body_force",
+    "BodyTorque": "mbs.elements.body_torque",
+    "Brake": "mbs.elements.brake",
+    "ContactPoints": "mbs.elements.contact_points",
+    "CoordinateFriction": "mbs.elements.coordinate_friction",
+    "Drag": "mbs.elements.drag",
+    "ElectricDrive": "mbs.elements.electric_drive",
+    "ElementRecord": "mbs.elements.record",
+    "ElementType": "mbs.kernel.header.enumerations",
+    "EndStops": "mbs.elements.spring_damper",
+    "GridRoad": "mbs.elements.road",
+    "GyroscopicSpin": "mbs.elements.gyroscopic_spin",
+    "HubWrench": "mbs.elements.hub_wrench",
+    "InputForce": "mbs.elements.input_force",
+    "KerbRoad": "mbs.elements.road",
+    "Lift": "mbs.elements.lift",
+    "MagicTyre": "mbs.elements.magic_tyre",
+    "Output": "mbs.elements.record",
+    "PlaneRoad": "mbs.elements.road",
+    "PortRoad": "mbs.elements.road",
+    "Road": "mbs.elements.road",
+    "ScalarSpringDamper": "mbs.elements.scalar_spring_damper",
+    "SpinAngle": "mbs.elements.spin_angle",
+    "SpinTorque": "mbs.elements.spin_torque",
+    "SpringDamper": "mbs.elements.spring_damper",
+    "SpringDamperTable": "mbs.elements.spring_damper_table",
+    "TorsionBar": "mbs.elements.torsion_bar",
+    "Tyre": "mbs.elements.tyre",
+    "TyreBore": "mbs.elements.tyre_bore",
+    "TyreCurve": "mbs.elements.tyre",
+    "Wind": "mbs.elements.wind",
+    "WindDrag": "mbs.elements.wind_drag",
+}
+__getattr__ = lazy_modules(__name__, (), _LAZY)
 
 __all__ = [
     "AutomaticDrive",

@@ -20,10 +20,11 @@ if TYPE_CHECKING:
     from mbs.flexible.load_paths import interface_loads, load_path_modes
     from mbs.flexible.material import Material
     from mbs.flexible.matrix_files import external_model, read_matrix, read_model
+    from mbs.flexible.modal_body import InterfaceModes
     from mbs.flexible.mode_choice import ModeChoice, modes_for_output
     from mbs.flexible.nastran import read_nastran
     from mbs.flexible.recovery import StrainGauge, gauge_rows, section_forces, stress_field
-    from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
+    from mbs.flexible.reduced_body import ReducedBody
     from mbs.flexible.relief_matrices import InertiaRelief
     from mbs.flexible.section import Section, rectangle, round_bar, tube
 
@@ -34,7 +35,7 @@ _LAZY = {
     "Frame": "mbs.flexible.frame",
     "InertiaRelief": "mbs.flexible.relief_matrices",
     "Interface": "mbs.flexible.fixed_interface",
-    "InterfaceModes": "mbs.flexible.reduced_body",
+    "InterfaceModes": "mbs.flexible.modal_body",
     "Material": "mbs.flexible.material",
     "ModeChoice": "mbs.flexible.mode_choice",
     "RayleighDamping": "mbs.flexible.damping",

@@ -13,7 +13,8 @@ from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface, Interface
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.reduced_body import InterfaceModes, ReducedBody
+from mbs.flexible.modal_body import InterfaceModes
+from mbs.flexible.reduced_body import ReducedBody
 
 DEPENDENT = 1e-10  # of the mass norm: inertia modes that add nothing new are left out
 MOST_MODES = 10**6

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.modal_body import ModalBody
 
 
 @dataclass(frozen=True)
@@ -40,12 +40,12 @@ class ShapeIntegrals:
         return np.asarray(np.einsum("jlii->jl", self.T))
 
 
-def shape_integrals(body: ReducedBody) -> ShapeIntegrals:
+def shape_integrals(body: ModalBody) -> ShapeIntegrals:
     """Sums over the mass points of a reduced body.
 
     Parameters
     ----------
-    body : ReducedBody
+    body : ModalBody
         With its mass points and their shapes.
 
     Returns

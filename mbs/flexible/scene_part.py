@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import Beam, BeamFrame
+from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.recovery import fibre_stresses, section_force_field
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import Section
@@ -21,7 +22,7 @@ MOST_POINTS = 4000
 
 
 def flexible_parts(
-    body: ReducedBody,
+    body: ModalBody,
     frame: str,
     amplitudes: Sequence[str],
     *,
@@ -41,8 +42,8 @@ def flexible_parts(
 
     Parameters
     ----------
-    body : ReducedBody
-        Modes, and the beams of its frame.
+    body : ModalBody
+        Modes, and of a `ReducedBody` the beams of its frame.
     amplitudes : sequence of str
         One column of the recording per mode.
     axes : array_like, shape (3, 3), optional
@@ -82,11 +83,12 @@ def flexible_parts(
             **more,
         }
 
-    if body.frame is None:
+    beams = body.frame if isinstance(body, ReducedBody) else None
+    if beams is None:
         return [entry(*_points(len(body.node_names)))]
-    kinds = np.array([is_round(beam.section) for beam in body.frame.beams])
+    kinds = np.array([is_round(beam.section) for beam in beams.beams])
     groups = [(np.flatnonzero(kinds), "round"), (np.flatnonzero(~kinds), "fibres")]
-    return [_beams(body, body.frame, group, rule, entry, full_scale) for group, rule in groups if len(group)]
+    return [_beams(body, beams, group, rule, entry, full_scale) for group, rule in groups if len(group)]
 
 
 def is_round(section: Section) -> bool:
@@ -101,7 +103,7 @@ def _points(count: int) -> tuple[NDArray[np.int64], dict[str, Any]]:
 
 
 def _beams(
-    body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64], rule: str, entry: Any, scale: float | None
+    body: ModalBody, frame: BeamFrame, group: NDArray[np.int64], rule: str, entry: Any, scale: float | None
 ) -> dict[str, Any]:
     beams = [frame.beams[k] for k in group]
     nodes, ends = np.unique([[beam.i, beam.j] for beam in beams], return_inverse=True)
@@ -133,7 +135,7 @@ def _radius(beam: Beam) -> float:
     return float(np.sqrt(half[0] * half[1]))
 
 
-def _round_rows(body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64]) -> Array:
+def _round_rows(body: ModalBody, frame: BeamFrame, group: NDArray[np.int64]) -> Array:
     """Axial stress and two bending stresses per mode, shape (beams, 2, 3, modes)."""
     forces = body.recovery(section_force_field(frame)).reshape(len(frame.beams), 2, 6, body.n_modes)[group]
     sections = [frame.beams[k].section for k in group]
@@ -142,7 +144,7 @@ def _round_rows(body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64]) -
     return np.stack([forces[:, :, 0] / area, forces[:, :, 4] * bending, forces[:, :, 5] * bending], axis=2)
 
 
-def _fibre_rows(body: ReducedBody, frame: BeamFrame, group: NDArray[np.int64]) -> Array:
+def _fibre_rows(body: ModalBody, frame: BeamFrame, group: NDArray[np.int64]) -> Array:
     """Stress of each fibre per mode, shape (beams, 2, fibres, modes); a section with fewer fibres repeats its first."""
     most = max(len(frame.beams[k].section.fibres) for k in group)
     rows = np.empty((len(group), 2, most, body.n_modes))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,24 +10,18 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.affine import AffineVector
 from mbs.common.checks import (
     Vector,
-    array,
     capital,
     direction,
-    is_number,
-    mapping,
     not_negative,
     positive,
     shown,
     vector,
 )
 from mbs.common.errors import ModelError
-from mbs.flexible.reduced_body import ReducedBody
-from mbs.model.body import SAME_PLACE, Body, Ground, PointMass
+from mbs.model.body import SAME_PLACE, Body, Ground
 from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
-from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.inertia import inertia_matrix
-from mbs.model.ports import PortedBody
 
 SIZES = (1e-12, 1e8)
 """Radii of gyration, m."""
@@ -70,23 +64,6 @@ class BodyVocabulary(ModelCore):
         J = 0.5 * np.trace(I) * np.eye(3) - I if self.dimension == 3 else np.diag([0.5 * I[2, 2], 0.5 * I[2, 2], 0.0])
         new = Body(self, self.unique("body", name), centre, len(self.coordinates))
         new.add_mass(m, centre, J)
-        self._register(new)
-        return new
-
-    def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
-        """A particle.
-
-        Parameters
-        ----------
-        mass : float
-            kg.
-        position : array_like, shape (dimension,)
-            In earth axes in the reference configuration, m.
-        """
-        m = positive(mass, f"The mass of point mass {shown(name)}")
-        centre = vector(position, self.dimension, f"the position of point mass {shown(name)}")
-        new = PointMass(self, self.unique("body", name), centre, len(self.coordinates))
-        new.add_mass(m, centre, np.zeros((3, 3)))
         self._register(new)
         return new
 
@@ -139,10 +116,8 @@ class BodyVocabulary(ModelCore):
             if np.linalg.norm(drawn - place) > SAME_PLACE:
                 raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
             carrier = point
-        elif isinstance(body, FlexibleBody):  # the origin of a floating frame is no material point, a node is
-            carrier = body.interface_at(place, what).point()
-        else:
-            carrier = body.point(place)
+        else:  # the origin of a floating frame is no material point, a node is
+            carrier = body.at(place, what).point(place)
         new = Payload(self.unique("payload", name), body, place, carrier, m, point is not None)
         self.payloads.append(new)
         return new
@@ -193,101 +168,6 @@ class BodyVocabulary(ModelCore):
         )
         self.written_inertias.append(new)
         return new
-
-    def flexible_body(
-        self, name: str, reduced: ReducedBody, *, origin: ArrayLike = (0.0, 0.0, 0.0), axes: ArrayLike | None = None
-    ) -> FlexibleBody:
-        """A flexible body from a reduced finite-element model.
-
-        Parameters
-        ----------
-        reduced : ReducedBody
-            For instance of `mbs.flexible.craig_bampton`.
-        origin : array_like, shape (3,)
-            Where the origin of the finite-element model is in the reference configuration, earth axes, m.
-        axes : array_like, shape (3, 3), optional
-            Columns: axes of the finite-element model in earth axes there; by default the same.
-
-        Returns
-        -------
-        FlexibleBody
-            Its nodes, `FlexibleBody.interface`, take joints, forces and sensors.
-
-        Raises
-        ------
-        ModelError
-            The model is planar, the axes are no rotation, or all mass lies on a line.
-        """
-        what = f"flexible body {shown(name)}"
-        if self.dimension != 3:
-            raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
-        given: object = reduced
-        if not isinstance(given, ReducedBody):
-            kind = type(given).__name__
-            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(given)}.")
-        place = vector(origin, 3, f"the origin of {what}")
-        R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
-        if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
-            raise ModelError(f"The axes of {what} must be the columns of a rotation matrix.")
-        new = FlexibleBody(self, self.unique("body", name), reduced, place, R, len(self.coordinates))
-        self._register(new)
-        return new
-
-    def ported(self, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
-        """A rigid body with ports: joints and springs given the result leave the forces there to be read.
-
-        Parameters
-        ----------
-        ports : mapping of str to array_like, shape (3,)
-            Places by name, earth axes in the reference configuration, m.
-
-        Returns
-        -------
-        PortedBody
-            To be used in place of the body.
-
-        Raises
-        ------
-        ModelError
-            The body is not rigid, or the model is planar.
-        """
-        self.owned(body, "The ports")
-        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
-            raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
-        given = mapping(ports, f"The ports of body '{body.name}'", "names to places")
-        if not given:
-            raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
-        places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
-        return PortedBody(self, body, places)
-
-    def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
-        """Start velocity of a body: of its centre of mass, its angular velocity, or both.
-
-        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
-        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. Of the given part the joints take away what they do not allow, and no more.
-
-        Parameters
-        ----------
-        body : Body
-            Of this model; not the ground and not a node of a flexible body.
-        linear : array_like, shape (dimension,), optional
-            Velocity of its centre of mass, earth axes, m/s.
-        angular : float or array_like, shape (3,), optional
-            Angular velocity, earth axes, rad/s; planar a number.
-        """
-        what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
-        self.owned(body, f"The {what}")
-        if body.is_ground or body.is_tabled or isinstance(body, Interface):
-            raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
-        d, size = self.dimension, 1 if self.dimension == 2 else 3
-        if linear is None and angular is None:
-            linear, angular = np.zeros(d), np.zeros(size)
-        v = None if linear is None else vector(linear, d, f"the linear {what}")
-        w = None if angular is None else _angular(angular, size, f"the angular {what}")
-        if body.is_point and v is None:
-            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
-        self.body_velocities[body.number] = (v, w)
 
     def owned(self, body: Body, what: str) -> Body:
         """A body, if it is one of this model.
@@ -342,7 +222,7 @@ class BodyVocabulary(ModelCore):
         """
         self.owned(body, what)
         unit = direction(axis, self.dimension, f"the axis of {what} on body '{body.name}'")
-        if isinstance(body, FlexibleBody):
+        if body.flexibility is not None:
             raise ModelError(
                 f"The {what} needs an axis of flexible body '{body.name}': name the node, {body.name}.interface(node)."
             )
@@ -367,8 +247,3 @@ def _check_size(mass: float, inertia: NDArray[np.float64], what: str) -> None:
             f"The inertia {np.max(np.abs(inertia)):g} kg m2 of {what} and its mass {mass:g} kg are those of something "
             f"{radius:.1g} m in size; between {SIZES[0]:g} and {SIZES[1]:g} m were expected."
         )
-
-
-def _angular(value: ArrayLike, size: int, what: str) -> Vector:
-    """Angular velocity, shape (size,); in the plane a number will do."""
-    return vector([value] if size == 1 and is_number(value) else value, size, what)

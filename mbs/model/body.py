@@ -14,6 +14,7 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
 from mbs.common.errors import ModelError
 from mbs.model.coordinate import CoordinateInfo
+from mbs.model.flexibility import Flexibility
 from mbs.model.register import Register
 
 SAME_PLACE = 1e-6
@@ -36,6 +37,9 @@ class Body:
     is_flexible = False
     is_tabled = False
     is_base = False  # of tabled bodies
+    is_node = False  # of a flexible body
+    bends = False  # its vectors turn with its deformation
+    flexibility: Flexibility | None = None  # of a body with nodes
 
     def __init__(self, model: Register, name: str, com: Vector, start: int) -> None:
         self.model = model
@@ -64,6 +68,21 @@ class Body:
     def size(self) -> int:
         """Number of its full coordinates."""
         return 12 if self.dimension == 3 else 4
+
+    @property
+    def frame(self) -> Body:
+        """The rigid body whose points do not take part in a deformation."""
+        return self
+
+    def at(self, position: ArrayLike, what: str) -> Body:
+        """What a joint at a place acts on: of a flexible body its node there.
+
+        Parameters
+        ----------
+        position : array_like, shape (dimension,)
+            Earth axes in the reference configuration, m.
+        """
+        return self
 
     def point(self, position: ArrayLike) -> AffineVector:
         """A material point of the body.

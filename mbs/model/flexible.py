@@ -15,11 +15,12 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
-from mbs.flexible.reduced_body import ReducedBody
+from mbs.flexible.modal_body import ModalBody
 from mbs.model.body import SAME_PLACE, Body
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, Product
+from mbs.model.flexibility import Flexibility
 from mbs.model.joints.joint import Joint
 
 ON_A_LINE = 1e-12  # second moment of mass across, share of that along
@@ -32,7 +33,7 @@ class FlexibleBody(Body):
 
     Attributes
     ----------
-    reduced : ReducedBody
+    reduced : ModalBody
         Modes and matrices in the axes of the finite-element model.
     axes : ndarray, shape (3, 3)
         Columns are those axes in the earth in the reference configuration.
@@ -50,7 +51,7 @@ class FlexibleBody(Body):
         self,
         model: ModelCore,
         name: str,
-        reduced: ReducedBody,
+        reduced: ModalBody,
         origin: Vector,
         axes: NDArray[np.float64],
         start: int,
@@ -63,6 +64,10 @@ class FlexibleBody(Body):
         self.mass = self.integrals.mass
         self.first_moment = self.integrals.S0
         self.second_moment = self.integrals.J0
+        i = self.integrals
+        self.flexibility = Flexibility(
+            i.P, i.c, i.T, reduced.K, reduced.C, np.asarray(self.node_positions), reduced.node_rotations
+        )
         self._interfaces: dict[int, Interface] = {}
 
     @property
@@ -129,6 +134,10 @@ class FlexibleBody(Body):
         if number not in self._interfaces:
             self._interfaces[number] = Interface(self, number)
         return self._interfaces[number]
+
+    def at(self, position: ArrayLike, what: str) -> Body:
+        """See `Body.at`."""
+        return self.interface_at(position, what)
 
     def interface_at(self, position: ArrayLike, what: str) -> Interface:
         """The node at a place. `position`: earth axes in the reference configuration, m, shape (3,).
@@ -243,6 +252,7 @@ class Interface(Body):
     """
 
     is_flexible = True
+    is_node = True
 
     owner: FlexibleBody
     model: ModelCore
@@ -255,14 +265,10 @@ class Interface(Body):
         R, reduced = owner.axes, owner.reduced
         self.translation = _without_round_off(R @ reduced.node_translations[node])  # (3, modes), m per amplitude
         self.rotation = _without_round_off(R @ reduced.node_rotations[node])  # (3, modes), rad per amplitude
+        self.bends = bool(np.any(self.rotation))  # it turns against the floating frame
         self._point: AffineVector | None = None
         self._turn: AffineVector | None = None  # rotation against the frame, earth axes, rad
         self._vectors: dict[tuple[float, ...], AffineVector] = {}
-
-    @property
-    def bends(self) -> bool:
-        """Whether it turns against the floating frame."""
-        return bool(np.any(self.rotation))
 
     def point(self, position: ArrayLike | None = None) -> AffineVector:
         """The node, or a point fixed to it by a rigid arm.
@@ -343,16 +349,6 @@ class Interface(Body):
         self.model.unique("joint", what)
         numbers = [self.model.new_coordinate(f"{what}.{'xyz'[k]}", kind, float(drawn[k]), k) for k in range(3)]
         return AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
-
-
-def located(body: Body, position: ArrayLike, what: str) -> Body:
-    """The body a joint at `position` acts on: of a flexible body its node there."""
-    return body.interface_at(position, what) if isinstance(body, FlexibleBody) else body
-
-
-def bends(body: Body) -> bool:
-    """Whether vectors of the body turn with its deformation."""
-    return isinstance(body, Interface) and body.bends
 
 
 def _without_round_off(X: NDArray[np.float64]) -> NDArray[np.float64]:

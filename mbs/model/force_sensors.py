@@ -1,4 +1,4 @@
-"""Sensors of forces and energies: outputs of force elements, work, energy, and what a flexible body recovers."""
+"""Sensors of forces and energies: outputs of force elements, work and energy."""
 
 from __future__ import annotations
 
@@ -6,15 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import overload
 
-import numpy as np
-from numpy.typing import ArrayLike
-
-from mbs.common.checks import instance_of, number, one_of, shown, whole
+from mbs.common.checks import number, one_of, shown
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
-from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.kernel.header.enumerations import SensorType
-from mbs.model.ports import PortedBody
 from mbs.model.sensor import Sensor
 from mbs.model.sensors import SensorBase
 
@@ -178,47 +173,3 @@ class ForceSensorVocabulary(SensorBase):
     def sense_mass(self, name: str, *, unit: str = "kg", description: str = "") -> Sensor:
         """Mass of all bodies and payloads, kg."""
         return self._sense(name, unit, description, SensorType.MASS)
-
-    def sense_quasi_static(
-        self,
-        name: str,
-        body: PortedBody,
-        relief: InertiaRelief,
-        output: int,
-        origin: ArrayLike,
-        *,
-        unit: str = "",
-        description: str = "",
-    ) -> Sensor:
-        """An output of a structure that follows the forces at the ports of a rigid body and its motion at once.
-
-        Parameters
-        ----------
-        relief : InertiaRelief
-            Interfaces in the order of the ports, axes those of the earth in the reference configuration.
-        output : int
-            Row of its matrices.
-        origin : array_like, shape (3,)
-            Its origin in the reference configuration, m.
-
-        Raises
-        ------
-        ModelError
-            The body has no ports, or the matrices have other ports or no such row.
-        """
-        what = f"sensor '{name}'"
-        if not isinstance(self.owned(body, f"The {what}"), PortedBody):
-            raise ModelError(f"The {what} needs a body with ports, not '{body.name}'.")
-        instance_of(InertiaRelief, relief, f"The relief of {what}", "an InertiaRelief")
-        n, row = len(body.ports), whole(output, f"The output of {what}", 0)
-        if relief.forces.shape[1] != 3 * n or not row < len(relief.forces):
-            raise ModelError(
-                f"The {what} needs matrices of {n} interfaces and a row of them; they have "
-                f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {shown(output)}."
-            )
-        signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
-        weights = np.concatenate([relief.forces[row], relief.acceleration[row], relief.rotation[row]])
-        reals = [*self.gravity, *weights]
-        return self._sense(
-            name, unit, description, SensorType.QUASI_STATIC, signals, [n], reals, joints=list(body.ports.values())
-        )

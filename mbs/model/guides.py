@@ -1,6 +1,4 @@
-"""Guides: prescribed motions s(t) with two continuous rates, from a description in time or from an input through a
-filter, or by a table from another guide.
-"""
+"""Guides: motions s(t) with two continuous rates, from an input through a filter or by a table from another guide."""
 
 from __future__ import annotations
 
@@ -10,16 +8,15 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicHermiteSpline, CubicSpline, PchipInterpolator, PPoly
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
-from mbs.common.checks import LARGEST, array, number, positive, shown, text
+from mbs.common.checks import array, number, positive, shown, text
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import GuideType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 from mbs.model.core import ModelCore
-from mbs.model.flexible import FlexibleBody
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input
 
@@ -29,20 +26,6 @@ def pair(given: object, what: str) -> tuple[Any, Any]:
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise ModelError(f"{what} must be two, as (first, second), not {shown(given)}.")
     return given[0], given[1]
-
-
-def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
-    """A spline through points that begins and ends at rest."""
-    if not isinstance(motion, (tuple, list)) or len(motion) != 2:
-        raise ModelError(f"The motion of {what} must be a PPoly or (times, values), not {shown(motion)}.")
-    times = array(motion[0], (None,), f"the times of {what}")
-    values = array(motion[1], (None,), f"the values of {what}")
-    if len(times) < 2 or len(times) != len(values) or not np.all(np.diff(times) > 0.0):
-        raise ModelError(
-            f"The motion of {what} has {len(times)} times and {len(values)} values; it needs two or more rising times "
-            "and a value for each."
-        )
-    return CubicSpline(times, values, bc_type="clamped")
 
 
 def of_table(guide: Guide, u: float) -> tuple[float, float]:
@@ -76,7 +59,7 @@ def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
     return guide
 
 
-def _register(
+def new_guide(
     model: ModelCore,
     name: str,
     type: GuideType,
@@ -86,6 +69,7 @@ def _register(
     unit: str,
     second: int = -1,
 ) -> Guide:
+    """A guide, noted in the model."""
     text(unit, f"The unit of guide {shown(name)}")
     checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
     guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit, second)
@@ -113,7 +97,7 @@ class GuideVocabulary(BodyVocabulary):
         owned_input(self, input, f"The guide '{name}'")
         w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
         k = number(gain, f"The gain of guide '{name}'")
-        return _register(self, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
+        return new_guide(self, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
 
     def guide_inputs(
         self,
@@ -154,35 +138,7 @@ class GuideVocabulary(BodyVocabulary):
         asked = k_1 * first.start + k_2 * second.start
         start = min(max(asked, low), high)
         reals = [w, k_1, start, k_2, low, high]
-        return _register(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
-
-    def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
-        """A prescribed motion in time; it stands still outside its pieces, so it should begin and end with zero rates.
-
-        Parameters
-        ----------
-        motion : scipy.interpolate.PPoly or (times, values)
-            Pieces of degree 5 or less over s; or points, of shape (n,) each, through which a cubic spline goes that
-            begins and ends at rest.
-        unit : str
-            Of the guide, rad or m.
-
-        Raises
-        ------
-        ModelError
-            The degree is above 5, or the times do not rise.
-        """
-        pieces = motion if isinstance(motion, PPoly) else _spline(motion, f"guide '{name}'")
-        c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
-        if c.ndim != 2 or c.shape[0] > 6:
-            raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
-        if not (np.all(np.abs(c) < LARGEST) and np.all(np.abs(b) < LARGEST) and np.all(np.diff(b) > 0.0)):
-            raise ModelError(f"The motion of guide '{name}' needs finite coefficients and rising times.")
-        ascending = np.zeros((c.shape[1], 6))
-        ascending[:, : c.shape[0]] = c[::-1].T
-        reals = [float(c.shape[1]), *b, *ascending.ravel()]
-        start = float(pieces(min(max(0.0, b[0]), b[-1])))
-        return _register(self, name, GuideType.OF_TIME, -1, reals, start, unit)
+        return new_guide(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
 
     def guide_table(
         self, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
@@ -224,7 +180,7 @@ class GuideVocabulary(BodyVocabulary):
         given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
         m = curve(rows).derivative()(rows[:, 0]) if given is None else given
         reals = [float(x) for x in np.concatenate([*rows.T, m])]
-        guide = _register(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
+        guide = new_guide(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
         value, _ = of_table(guide, u.start)
         self.guides[-1] = replace(guide, start=value)
         return self.guides[-1]
@@ -265,7 +221,7 @@ class GuideVocabulary(BodyVocabulary):
         several: Any = guide if isinstance(guide, (list, tuple)) else [guide]
         guides = [owned_guide(self, g, f"The {what}") for g in several]
         start = self.anchor(body, point, what)
-        turning = body.frame if isinstance(body, FlexibleBody) else body
+        turning = body.frame
         rows = at_right_angles(direction, len(guides), self.dimension, what) if several is guide else [direction]
         ways = tuple((self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True))
         return SlidingPoint(self.unique("slide", name), body, start, ways)

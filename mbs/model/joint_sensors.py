@@ -13,21 +13,19 @@ from mbs.common.checks import number, one_of, shown
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
+from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
-from mbs.model.reactions import Term, folded, force_on_first, moment_terms, rod_terms
+from mbs.model.mechanism import Mechanism
+from mbs.model.reactions import Term, folded
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import SensorBase, component_number
+from mbs.model.sensors import component_number
 
 
-class JointSensorVocabulary(SensorBase):
+class JointSensorVocabulary(Mechanism):
     """What can be read of a joint."""
 
-    def _sense_terms(self, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
-        joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
-        return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
-
     def sense_joint(
-        self,
+        self: Mechanism,
         name: str,
         joint: Joint | str,
         component: str = "x",
@@ -72,86 +70,18 @@ class JointSensorVocabulary(SensorBase):
         if not isinstance(on, str) or on not in ("first", "second"):
             raise ModelError(f"The sensor '{name}' asks for the {kind} on {shown(on)}; it must be 'first' or 'second'.")
         if kind == "moment" and not (found.type == "drive" and found.equations[0].kind == "drive"):
-            return self._joint_moment(name, found, component, on, axes, point, unit, description)
+            return _joint_moment(self, name, found, component, on, axes, point, unit, description)
         if on != "first" or not isinstance(axes, str) or axes != "earth" or point is not None:
             raise ModelError(
                 f"The sensor '{name}' reads the force of joint '{found.name}' on its first body in earth axes; on, "
                 "axes and point are for moments."
             )
         if kind == "moment":
-            return self._joint_force(name, found, "drive", self._unit(unit, "N.m"), description)
-        return self._joint_force(name, found, component, unit, description)
-
-    def _joint_force(self, name: str, found: Joint, component: str, unit: str, description: str) -> Sensor:
-        rows = found.force_equations
-        if not rows:
-            raise ModelError(
-                f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
-                "drop links, drives, gears, racks and screws have one."
-            )
-        unit = self._unit(unit, "N m" if found.type == "gear" else "N")
-        if found.equations[rows[0]].kind == "driven_distance":
-            return self._driven_distance(name, found, component, unit, description)
-        if found.normals:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            if any(n[k].terms for n in found.normals):  # the line turns with its body
-                terms = [t for row, w, n in force_on_first(found) for t in folded(Term(w, row, (n[k],)))]
-                return self._sense_terms(name, unit, description, found, terms)
-            rows, weights = list(rows), [-n[k].constant for n in found.normals]
-        elif found.type in SCALAR_FORCES:
-            expected = SCALAR_FORCES[found.type]
-            if component not in (expected, "x"):
-                raise ModelError(
-                    f"The component of sensor '{name}' is {shown(component)}; for a {found.type} it must be "
-                    f"'{expected}'."
-                )
-            sign = 1.0 if expected == "tension" else -1.0
-            rows, weights = rows[:1], [sign * found.rows_weight]
-        else:
-            k = component_number(component, self.dimension, f"sensor '{name}'")
-            rows, weights = rows[k : k + 1], [-found.rows_weight]
-        found.as_rows = True
-        return self._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=found)
-
-    def _driven_distance(self, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:
-        """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
-        signs = {"tension": 1.0, "drive": -1.0, "x": -1.0}
-        if not isinstance(component, str) or component not in signs:
-            raise ModelError(
-                f"The component of sensor '{name}' is {shown(component)}; for a driven distance it must be "
-                "'tension' or 'drive'."
-            )
-        (row,) = joint.force_equations
-        term = Term(signs[component], row, (), joint.equations[row].guides[0].guide)
-        return self._sense_terms(name, unit, description, joint, [term])
-
-    def _joint_moment(
-        self,
-        name: str,
-        found: Joint,
-        component: str,
-        on: str,
-        axes: Body | str,
-        point: ArrayLike | None,
-        unit: str,
-        description: str,
-    ) -> Sensor:
-        axis = self._axis(name, component, axes)
-        about = None
-        if not found.turns:
-            raise ModelError(
-                f"The joint '{found.name}' ({found.type}) transmits no moment; revolute, cylindrical, universal and "
-                "prismatic joints, welds and drives of an angle do."
-            )
-        if point is not None:
-            if found.places is None:
-                raise ModelError(f"The moment of joint '{found.name}' ({found.type}) is taken at its own point only.")
-            about = found.places.bodies[on == "second"].point(point)
-        terms = moment_terms(found, found.hold_turning(), axis, about, on == "first")
-        return self._sense_terms(name, self._unit(unit, "N.m"), description, found, terms)
+            return _joint_force(self, name, found, "drive", self._unit(unit, "N.m"), description)
+        return _joint_force(self, name, found, component, unit, description)
 
     def sense_rod_force(
-        self,
+        self: Mechanism,
         name: str,
         rods: Sequence[Joint],
         body: Body,
@@ -189,17 +119,91 @@ class JointSensorVocabulary(SensorBase):
             terms += [replace(t, weight=factor * t.weight) for t in rod_terms(joint, body, along)]
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, terms=terms)
 
-    def _axis(self, name: str, component: str, axes: Body | str) -> AffineVector:
-        """Three components of the axis of a moment; in the plane one."""
-        if self.dimension == 2:
-            if component != "z":
-                raise ModelError(
-                    f"The component of sensor '{name}' is {shown(component)}; in the plane it must be 'z'."
-                )
-            return AffineVector.constant([1.0])
-        e = np.eye(3)[component_number(component, 3, f"sensor '{name}'")]
-        if isinstance(axes, Body):
-            return self.owned(axes, f"The sensor '{name}'").vector(e)
-        if not isinstance(axes, str) or axes != "earth":
-            raise ModelError(f"The axes of sensor '{name}' are {shown(axes)}; they must be 'earth' or a body.")
-        return AffineVector.constant(e)
+
+def _sense_terms(m: Mechanism, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
+    joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
+    return m._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
+
+
+def _joint_force(m: Mechanism, name: str, found: Joint, component: str, unit: str, description: str) -> Sensor:
+    rows = found.force_equations
+    if not rows:
+        raise ModelError(
+            f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
+            "drop links, drives, gears, racks and screws have one."
+        )
+    unit = m._unit(unit, "N m" if found.type == "gear" else "N")
+    if found.equations[rows[0]].kind == "driven_distance":
+        return _driven_distance(m, name, found, component, unit, description)
+    if found.normals:
+        k = component_number(component, m.dimension, f"sensor '{name}'")
+        if any(n[k].terms for n in found.normals):  # the line turns with its body
+            terms = [t for row, w, n in force_on_first(found) for t in folded(Term(w, row, (n[k],)))]
+            return _sense_terms(m, name, unit, description, found, terms)
+        rows, weights = list(rows), [-n[k].constant for n in found.normals]
+    elif found.type in SCALAR_FORCES:
+        expected = SCALAR_FORCES[found.type]
+        if component not in (expected, "x"):
+            raise ModelError(
+                f"The component of sensor '{name}' is {shown(component)}; for a {found.type} it must be '{expected}'."
+            )
+        sign = 1.0 if expected == "tension" else -1.0
+        rows, weights = rows[:1], [sign * found.rows_weight]
+    else:
+        k = component_number(component, m.dimension, f"sensor '{name}'")
+        rows, weights = rows[k : k + 1], [-found.rows_weight]
+    found.as_rows = True
+    return m._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=found)
+
+
+def _driven_distance(m: Mechanism, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:
+    """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
+    signs = {"tension": 1.0, "drive": -1.0, "x": -1.0}
+    if not isinstance(component, str) or component not in signs:
+        raise ModelError(
+            f"The component of sensor '{name}' is {shown(component)}; for a driven distance it must be "
+            "'tension' or 'drive'."
+        )
+    (row,) = joint.force_equations
+    term = Term(signs[component], row, (), joint.equations[row].guides[0].guide)
+    return _sense_terms(m, name, unit, description, joint, [term])
+
+
+def _joint_moment(
+    m: Mechanism,
+    name: str,
+    found: Joint,
+    component: str,
+    on: str,
+    axes: Body | str,
+    point: ArrayLike | None,
+    unit: str,
+    description: str,
+) -> Sensor:
+    axis = _axis(m, name, component, axes)
+    about = None
+    if not found.turns:
+        raise ModelError(
+            f"The joint '{found.name}' ({found.type}) transmits no moment; revolute, cylindrical, universal and "
+            "prismatic joints, welds and drives of an angle do."
+        )
+    if point is not None:
+        if found.places is None:
+            raise ModelError(f"The moment of joint '{found.name}' ({found.type}) is taken at its own point only.")
+        about = found.places.bodies[on == "second"].point(point)
+    terms = moment_terms(found, found.hold_turning(), axis, about, on == "first")
+    return _sense_terms(m, name, m._unit(unit, "N.m"), description, found, terms)
+
+
+def _axis(m: Mechanism, name: str, component: str, axes: Body | str) -> AffineVector:
+    """Three components of the axis of a moment; in the plane one."""
+    if m.dimension == 2:
+        if component != "z":
+            raise ModelError(f"The component of sensor '{name}' is {shown(component)}; in the plane it must be 'z'.")
+        return AffineVector.constant([1.0])
+    e = np.eye(3)[component_number(component, 3, f"sensor '{name}'")]
+    if isinstance(axes, Body):
+        return m.owned(axes, f"The sensor '{name}'").vector(e)
+    if not isinstance(axes, str) or axes != "earth":
+        raise ModelError(f"The axes of sensor '{name}' are {shown(axes)}; they must be 'earth' or a body.")
+    return AffineVector.constant(e)

@@ -1,36 +1,24 @@
-"""Joints by name: thin wrappers around the functions of `mbs.model.joints`."""
+"""More joints by name: thin wrappers around the functions of `mbs.model.joints`."""
 
 from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from mbs.common.affine import Affine
-from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
-from mbs.model.coordinate import Coordinate
-from mbs.model.ends import End, PointPair
-from mbs.model.joints.distance import distance
-from mbs.model.joints.drive import drive
+from mbs.model.ends import PointPair
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.pin import pin
-from mbs.model.joints.points import revolute, spherical, universal
+from mbs.model.joints.prismatic import prismatic
+from mbs.model.joints.revolute import revolute
 from mbs.model.joints.rolling import rolling, skate
-from mbs.model.joints.sliding import cylindrical, point_on_line, prismatic, weld
-from mbs.model.records import Guide
+from mbs.model.joints.universal import universal
+from mbs.model.joints.weld import weld
+from mbs.model.mechanism import Mechanism
 
 
-class JointVocabulary(BodyVocabulary):
-    """The joints of a model; each method returns the joint, for sensors.
-
-    Points and axes are given in earth axes in the reference configuration. Where the drawing does not close, `point`
-    (or `axis`) may be a pair, one per body.
-    """
-
-    def _join(self, joint: Joint) -> Joint:
-        self.unique("joint", joint.name)
-        self.joints.append(joint)
-        return joint
+class JointVocabulary(Mechanism):
+    """Joints as those of `LinkVocabulary`."""
 
     def revolute(
         self, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis: PointPair | None = None
@@ -52,18 +40,6 @@ class JointVocabulary(BodyVocabulary):
             The bodies are the same, or the axis is missing in space or given in the plane.
         """
         return self._join(revolute(self, name, body_1, body_2, point, axis))
-
-    def spherical(self, name: str, body_1: Body, body_2: Body, *, point: PointPair) -> Joint:
-        """Spherical joint: the bodies share a point.
-
-        Parameters
-        ----------
-        body_1, body_2 : Body
-            Bodies, point masses, the ground, or nodes of flexible bodies.
-        point : array_like, shape (dimension,), or pair of them
-            Earth axes in the reference configuration, m; a pair is one point per body.
-        """
-        return self._join(spherical(self, name, body_1, body_2, point))
 
     def universal(
         self, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis_1: ArrayLike, axis_2: ArrayLike
@@ -87,7 +63,7 @@ class JointVocabulary(BodyVocabulary):
         return self._join(universal(self, name, body_1, body_2, point, axis_1, axis_2))
 
     def prismatic(
-        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike, point: PointPair | None = None
+        self: Mechanism, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike, point: PointPair | None = None
     ) -> Joint:
         """Prismatic joint: the bodies share their orientation, and body 1 slides along an axis of body 2.
 
@@ -108,25 +84,6 @@ class JointVocabulary(BodyVocabulary):
         """
         return self._join(prismatic(self, name, body_1, body_2, point, axis))
 
-    def cylindrical(self, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis: PointPair) -> Joint:
-        """Cylindrical joint: the bodies share an axis, along which they slide and about which they turn.
-
-        Parameters
-        ----------
-        body_1, body_2 : Body
-            Bodies, the ground, or nodes of flexible bodies of a spatial model.
-        point : array_like, shape (3,), or pair of them
-            Point of body 1 on the axis of body 2, m.
-        axis : array_like, shape (3,), or pair of them
-            Of any length; a pair is one axis per body.
-
-        Raises
-        ------
-        ModelError
-            The model is planar, or the bodies are the same.
-        """
-        return self._join(cylindrical(self, name, body_1, body_2, point, axis))
-
     def weld(self, name: str, body_1: Body, body_2: Body) -> Joint:
         """Weld: the bodies move as one.
 
@@ -136,77 +93,6 @@ class JointVocabulary(BodyVocabulary):
             Bodies, point masses, the ground, or nodes of flexible bodies.
         """
         return self._join(weld(self, name, body_1, body_2))
-
-    def point_on_line(
-        self, name: str, end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], *, axis: ArrayLike
-    ) -> Joint:
-        """A point of body 1 stays on a line fixed in body 2.
-
-        Parameters
-        ----------
-        end_1 : (Body, array_like of shape (dimension,))
-            Body 1 and its point, m.
-        end_2 : (Body, array_like of shape (dimension,))
-            Body 2 and a point of the line, m.
-        axis : array_like, shape (dimension,)
-            Direction of the line, fixed in body 2, of any length.
-
-        Raises
-        ------
-        ModelError
-            The bodies are the same, or body 2 is a point mass.
-        """
-        return self._join(point_on_line(self, name, end_1, end_2, axis))
-
-    def distance(self, name: str, end_1: End, end_2: End, *, length: float | None = None) -> Joint:
-        """Massless rod: the distance of two points is constant.
-
-        Parameters
-        ----------
-        end_1, end_2 : (Body, array_like), Body or SlidingPoint
-            A body and its point, m; a body alone for its centre of mass; or a point that a guide slides (one of the
-            two at most).
-        length : float, optional
-            m; by default as drawn.
-
-        Returns
-        -------
-        Joint
-            For sensors: its force is the tension.
-
-        Raises
-        ------
-        ModelError
-            Both ends are on the same body, or the length is not positive.
-        """
-        return self._join(distance(self, name, end_1, end_2, length))
-
-    def drive(
-        self, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide, *, switch: bool | None = None
-    ) -> Joint:
-        """Prescribed motion: a coordinate, a component of a point, or the distance of two points follows a guide.
-
-        Parameters
-        ----------
-        driven : Coordinate, Affine or (end, end)
-            A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
-        guide : Guide
-            Of this model, rad or m.
-        switch : bool, optional
-            With a switch of the same name, on or off at the start: the drive can let go. One that is turned on later
-            keeps the distance to its guide that there is then.
-
-        Returns
-        -------
-        Joint
-            For sensors: its force is that of the drive, zero while it is off.
-
-        Raises
-        ------
-        ModelError
-            What is driven cannot move, an end slides, or a driven distance starts at zero.
-        """
-        return self._join(drive(self, name, driven, guide, switch))
 
     def pin(self, name: str, body: Body, point: ArrayLike | None = None, *, on: bool = False) -> Joint:
         """Hold a point of a body by a switch of the same name, which a running `Simulation` turns on and off.

@@ -2,49 +2,32 @@
 
 from __future__ import annotations
 
-import math
-
+import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import not_negative, number, positive, shown
-from mbs.elements.record import ElementRecord
-from mbs.model.air import AirVocabulary
-from mbs.model.angle import relative_angle
-from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
-from mbs.model.body import Body
-from mbs.model.channel_sensors import ChannelSensorVocabulary
+from mbs.common.checks import Vector, is_number, number, positive, shown, vector
+from mbs.common.errors import ModelError
+from mbs.model.body import Body, PointMass
+from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.coordinate import Coordinate
-from mbs.model.force_sensors import ForceSensorVocabulary
+from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
-from mbs.model.guides import GuideVocabulary
-from mbs.model.inputs import new_input
 from mbs.model.joint_sensors import JointSensorVocabulary
-from mbs.model.motion_sensors import MotionSensorVocabulary
-from mbs.model.orientation_sensors import OrientationSensorVocabulary
-from mbs.model.parameters import ParameterVocabulary
-from mbs.model.records import Armature, Input
-from mbs.model.road_vocabulary import RoadVocabulary
-from mbs.model.sliding_shapes import SlidingVocabulary
-from mbs.model.spin import SpinVocabulary
+from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
+from mbs.model.time_guides import TimeGuideVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
 class Model(
     TransmissionVocabulary,
+    JointVocabulary,
     TableVocabulary,
     ForceVocabulary,
-    AirVocabulary,
-    RoadVocabulary,
-    MotionSensorVocabulary,
-    OrientationSensorVocabulary,
-    ForceSensorVocabulary,
     JointSensorVocabulary,
-    ChannelSensorVocabulary,
-    SlidingVocabulary,
-    SpinVocabulary,
-    GuideVocabulary,
-    ParameterVocabulary,
+    FlexibleVocabulary,
+    ContactVocabulary,
+    TimeGuideVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 
@@ -95,36 +78,6 @@ class Model(
     >>> joint = m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
     """
 
-    def __init__(
-        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
-    ) -> None:
-        super().__init__(name, dimension, gravity, length)
-        self.coordinate_rates: dict[int, float] = {}
-
-    # --- coordinates ---
-    def relative_angle(
-        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
-    ) -> Coordinate:
-        """Angle of body 2 against body 1 about an axis, not wrapped, as one more coordinate.
-
-        Parameters
-        ----------
-        body_1, body_2 : Body
-            Bodies with axes, or the ground.
-        axis : array_like, shape (3,), optional
-            In space only: earth axes in the reference configuration, of any length.
-        zero : float
-            The angle in the reference configuration, rad.
-
-        Raises
-        ------
-        ModelError
-            The bodies are the same or have no axes, or the axis is missing in space or given in the plane.
-        """
-        coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
-        self._join(joint)
-        return coordinate
-
     def initial_rate(self, coordinate: Coordinate, rate: float) -> None:
         """Start rate of a relative angle or a spin.
 
@@ -136,119 +89,53 @@ class Model(
         index = self.owned_coordinate(coordinate, "An initial rate").index
         self.coordinate_rates[index] = number(rate, f"The initial rate of '{coordinate.name}'")
 
-    def armature(self, name: str, coordinate: Coordinate, *, inertia: float, ratio: float = 1.0) -> Armature:
-        """Inertia that turns with a relative angle, such as the rotor of a motor behind a gear.
-
-        Its moment on what carries it is left out: the rotor is small, or the carrier turns slowly.
+    def point_mass(self, name: str, *, mass: float, position: ArrayLike) -> PointMass:
+        """A particle.
 
         Parameters
         ----------
-        coordinate : Coordinate
-            A relative angle or a spin of this model.
-        inertia : float
-            About its own axis, kg m2; `inertia` times ``ratio**2`` is added to what the coordinate has already.
-        ratio : float
-            Its turns for one of the coordinate. A fixed parameter may write it.
+        mass : float
+            kg.
+        position : array_like, shape (dimension,)
+            In earth axes in the reference configuration, m.
         """
-        self.owned_coordinate(coordinate, f"The armature '{name}'")
-        own = not_negative(inertia, f"The inertia of armature '{name}'")
-        turns = positive(ratio, f"The ratio of armature '{name}'")
-        new = Armature(self.unique("armature", name), coordinate.affine, own, turns)
-        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
-        self.armatures.append(new)
+        m = positive(mass, f"The mass of point mass {shown(name)}")
+        centre = vector(position, self.dimension, f"the position of point mass {shown(name)}")
+        new = PointMass(self, self.unique("body", name), centre, len(self.coordinates))
+        new.add_mass(m, centre, np.zeros((3, 3)))
+        self._register(new)
         return new
 
-    def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
-        """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
+    def initial_velocity(self, body: Body, linear: ArrayLike | None = None, angular: ArrayLike | None = None) -> None:
+        """Start velocity of a body: of its centre of mass, its angular velocity, or both.
 
-        What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
-        the carrier turns slowly.
-
-        Parameters
-        ----------
-        inertia : float
-            kg m2; without one something must hold or weigh it, such as a rack or a drive.
-        """
-        value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
-        index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
-        self.inertias[index] = value
-        return Coordinate(name, index, "rad")
-
-    def anti_roll_bar(
-        self,
-        name: str,
-        left: Coordinate | Body,
-        right: Coordinate | Body,
-        *,
-        stiffness: float,
-        damping: float = 0.0,
-        stiffness_factor: float = 1.0,
-        carrier: Body | None = None,
-        axis: ArrayLike | None = None,
-        free_twist: float | None = None,
-        mirrored: bool = False,
-    ) -> ElementRecord:
-        """A torsion spring between two arms; its torque on the left one is the output ``force`` of the element.
-
-        Drop links between the arms and the suspension are `distance` joints; without them the arms are those of the
-        suspension.
+        What is left out follows from the joints: of all velocities that have the given part, the start takes the one
+        with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
+        rest. Of the given part the joints take away what they do not allow, and no more.
 
         Parameters
         ----------
-        left, right : Coordinate or Body
-            Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
-        stiffness, damping : float
-            N m/rad and N m s/rad of the twist.
-        stiffness_factor : float
-            Factor on the stiffness, for a parameter.
-        carrier : Body, optional
-            With arms given as bodies: what they turn on.
-        axis : array_like, shape (3,), optional
-            With arms given as bodies, in space.
-        free_twist : float, optional
-            Twist without torque, rad; by default as drawn.
-        mirrored : bool
-            The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
-
-        Raises
-        ------
-        ModelError
-            The arms are the same, a body and an angle, or a spin; or bodies are given without a carrier.
+        body : Body
+            Of this model; not the ground and not a node of a flexible body.
+        linear : array_like, shape (dimension,), optional
+            Velocity of its centre of mass, earth axes, m/s.
+        angular : float or array_like, shape (3,), optional
+            Angular velocity, earth axes, rad/s; planar a number.
         """
-        angles, joints = arm_angles(self, name, (left, right), carrier, axis)
-        bar = anti_roll_bar(self, name, angles, stiffness, damping, stiffness_factor, free_twist, mirrored)
-        for joint in joints:
-            self._join(joint)
-        return bar
+        what = f"initial velocity of body {shown(getattr(body, 'name', body))}"
+        self.owned(body, f"The {what}")
+        if body.is_ground or body.is_tabled or body.is_node:
+            raise ModelError(f"'{body.name}' cannot have an initial velocity of its own; give it to a body.")
+        d, size = self.dimension, 1 if self.dimension == 2 else 3
+        if linear is None and angular is None:
+            linear, angular = np.zeros(d), np.zeros(size)
+        v = None if linear is None else vector(linear, d, f"the linear {what}")
+        w = None if angular is None else _angular(angular, size, f"the angular {what}")
+        if body.is_point and v is None:
+            raise ModelError(f"The {what} is angular; a point mass has a linear one only.")
+        self.body_velocities[body.number] = (v, w)
 
-    # --- inputs, guides, parameters ---
-    def input(
-        self,
-        name: str,
-        *,
-        start: float = 0.0,
-        min: float = -math.inf,
-        max: float = math.inf,
-        unit: str = "1",
-        description: str = "",
-        whole: bool = False,
-        port: bool = False,
-    ) -> Input:
-        """A number that a host sets.
 
-        Parameters
-        ----------
-        start : float
-            Value at the start, in `unit`.
-        min, max : float
-            Limits, in `unit`; values beyond them are refused. They may be infinite.
-        unit : str
-            "1" for a pure number.
-        whole : bool
-            Whether it takes whole numbers only, such as the position of a lever: an integer of an FMU. Over time it
-            keeps a value until the next one.
-        port : bool
-            Whether another program sets it at every step: an FMU then holds its last value, with one warning, where a
-            value is not finite, and says before the first step if it was not set.
-        """
-        return new_input(self, name, start, min, max, unit, description, whole, port)
+def _angular(value: ArrayLike, size: int, what: str) -> Vector:
+    """Angular velocity, shape (size,); in the plane a number will do."""
+    return vector([value] if size == 1 and is_number(value) else value, size, what)

@@ -1,19 +1,14 @@
 """Forces and moments of joints as sums of multipliers times products of expressions: what their sensors read.
 
-A row Phi with the multiplier lam puts the generalised force -Phi_q' lam on its coordinates (M qdd + Phi_q' lam = Q), so
-a row u . v of vectors of both bodies turns the first one with the moment -lam u x v.
+A row Phi with the multiplier lam puts the generalised force -Phi_q' lam on its coordinates (M qdd + Phi_q' lam = Q).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from mbs.common.affine import Affine, AffineVector
-from mbs.model.body import Body
+from mbs.common.affine import Affine
 from mbs.model.joints.joint import Joint
-from mbs.model.turning import Turning
 
 MOST_FACTORS = 3
 
@@ -31,43 +26,6 @@ class Term:
     guide: int = -1
     joint: Joint | None = None
     slope: int = -1
-
-
-def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:
-    """Equation, weight and direction in earth axes of each part: the force is the sum of weight lam direction."""
-    rows = joint.force_equations
-    if joint.normals:
-        return [(row, -1.0, normal) for row, normal in zip(rows, joint.normals, strict=True)]
-    directions = np.eye(len(rows))
-    return [(row, -joint.rows_weight, AffineVector.constant(e)) for row, e in zip(rows, directions, strict=True)]
-
-
-def moment_terms(
-    joint: Joint, turning: Turning, axis: AffineVector, about: AffineVector | None, on_first: bool
-) -> list[Term]:
-    """Moment of a joint on one of its bodies, about a point (None: of the joint), along an axis of three components or,
-    in the plane, about z (axis of one).
-    """
-    sign = 1.0 if on_first else -1.0
-    terms = []
-    for row, (u, v, _) in zip(joint.turning_equations, turning.pairs, strict=True):
-        terms += _cross(row, -sign, u, v, axis)
-    if about is None and (on_first or not joint.normals):
-        return terms
-    arm = turning.points[0] - (turning.points[1] if about is None else about)
-    for row, weight, direction in force_on_first(joint):
-        terms += _cross(row, sign * weight, arm, direction, axis)
-    return terms
-
-
-def _cross(row: int, weight: float, a: AffineVector, b: AffineVector, axis: AffineVector) -> list[Term]:
-    """Terms of ``weight * lam * axis . (a x b)``; in the plane a x b is a number."""
-    parts = [(0, 0, 1)] if len(a) == 2 else [(k, (k + 1) % 3, (k + 2) % 3) for k in range(3)]
-    terms = []
-    for k, i, j in parts:
-        for first, second, sign in ((i, j, 1.0), (j, i, -1.0)):
-            terms += folded(Term(sign * weight, row, (axis[k], a[first], b[second])))
-    return terms
 
 
 def folded(term: Term) -> list[Term]:
@@ -97,12 +55,3 @@ def guide_terms(joint: Joint, guide: int) -> list[Term]:
                 terms += folded(Term(weight * c, row, (a, b), square, joint))
             terms += folded(Term(weight, row, (part.linear,), square, joint))
     return terms
-
-
-def rod_terms(rod: Joint, body: Body, along: AffineVector) -> list[Term]:
-    """Force of a massless rod on the body at one of its ends, along a vector: lam (p_1 - p_2) on the second end."""
-    assert rod.ends is not None
-    first, second = rod.ends.points
-    sign = 1.0 if rod.ends.bodies[1] is body else -1.0
-    gap = first - second
-    return [t for k in range(len(gap)) for t in folded(Term(sign, 0, (gap[k], along[k]), -1, rod))]

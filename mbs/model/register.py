@@ -93,13 +93,7 @@ class Register:
             self._undo = None
 
     def put_off(self, looks: Callable[[], None]) -> None:
-        """Leave what only adds looks until the model is drawn or changes.
-
-        Parameters
-        ----------
-        looks : callable
-            Adds shapes to this model.
-        """
+        """Leave what only adds looks until the model is drawn or changes. `looks`: adds shapes to this model."""
         self._looks.append(looks)
 
     def look(self) -> None:
@@ -119,10 +113,7 @@ class Register:
         """What a compiled model is drawn by: made when it is asked for, or before the model changes, but at once where
         no looks were put off.
 
-        Parameters
-        ----------
-        drawing : callable
-            Makes it of the model as it is.
+        `drawing`: makes it of the model as it is.
         """
         late = Later(drawing)
         if not self._looks:
@@ -133,10 +124,7 @@ class Register:
     def remember(self, thing: object) -> None:
         """Note the attributes of what is about to change, so that a refused call can restore them.
 
-        Parameters
-        ----------
-        thing : object
-            The model, or a body or a joint of it.
+        `thing`: the model, or a body or a joint of it.
         """
         if self._undo is None:
             return
@@ -156,12 +144,7 @@ class Register:
         self._undo.append(restore)
 
     def unique(self, family: str, name: str) -> str:
-        """Claim a name among the things of a family.
-
-        Parameters
-        ----------
-        family : str
-            What the name is for: body, joint, element, sensor ...
+        """Claim a name among the things of a family, as body, joint, element, sensor.
 
         Raises
         ------
@@ -188,23 +171,11 @@ class Register:
         return len(self.coordinates) - 1
 
     def drawn(self) -> Vector:
-        """Full coordinates in the reference configuration.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            In the order of `coordinates`.
-        """
+        """Full coordinates in the reference configuration, shape (n,), in the order of `coordinates`."""
         return np.array([c.reference for c in self.coordinates])
 
     def owned_coordinate(self, coordinate: Coordinate, what: str) -> Coordinate:
-        """A coordinate, if it is one of this model.
-
-        Parameters
-        ----------
-        coordinate : Coordinate
-            A relative angle or a spin.
-        """
+        """A relative angle or a spin, if it is one of this model."""
         if not isinstance(coordinate, Coordinate):
             raise ModelError(f"{what} needs a relative angle or a spin, got {shown(coordinate)}.")
         i = coordinate.index
@@ -223,12 +194,8 @@ class Register:
         return given
 
     def expressions(self, given: AffineVector, what: str) -> AffineVector:
-        """A point or vector of bodies, if its coordinates are those of this model.
-
-        Parameters
-        ----------
-        given : AffineVector
-            Such as ``body.point((0, 0, 1))``.
+        """A point or vector of bodies, such as ``body.point((0, 0, 1))``, if its coordinates are those of this
+        model.
         """
         if not isinstance(given, AffineVector):
             raise ModelError(

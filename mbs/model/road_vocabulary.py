@@ -1,26 +1,18 @@
-"""Roads of a model, and points of bodies that touch them."""
+"""Roads of a model."""
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import ArrayLike
-
-from mbs.common.checks import array, instance_of, named, not_negative, shown, text, whole
+from mbs.common.checks import instance_of
 from mbs.common.errors import ModelError
-from mbs.elements.contact_points import ContactPoints
-from mbs.elements.record import ElementRecord
 from mbs.elements.road import ANSWER, GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, RoadOfFile
 from mbs.model.bodies import BodyVocabulary
-from mbs.model.body import Body
-from mbs.model.inputs import new_input
-from mbs.model.records import RoadFileParameter, Role
+from mbs.model.records import RoadFileParameter
 
 
 class RoadVocabulary(BodyVocabulary):
-    """Roads, answers on them, and contact with them."""
+    """Roads."""
 
     def road(self, road: Road | RoadOfFile, *, file: str | None = None) -> int:
         """Add a road.
@@ -65,91 +57,3 @@ class RoadVocabulary(BodyVocabulary):
             self.road_files.append(RoadFileParameter(self.unique("parameter", file), k, start))
         self.roads.append(road)
         return k
-
-    def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
-        """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
-
-        They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
-        normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,
-        ``name_normal_z`` and ``name_friction``. The road goes on from there as the plane that they give. They start as
-        level ground at height 0. A step with a normal that is no unit vector upwards is refused.
-
-        Parameters
-        ----------
-        friction : float
-            Coefficient of friction at the start.
-        near : str, optional
-            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU tells, once, when
-            the point of the answer is more than 10 m away from it.
-
-        Returns
-        -------
-        int
-            The number of the first input.
-        """
-        what = f"road answer '{named(name, 'a road answer')}'"
-        grip = not_negative(friction, f"The friction of {what}")
-        text(near, f"The near of {what}")
-        up, roles = ("normal_x", "normal_y", "normal_z"), {"x": Role.ANSWER, "normal_x": Role.NORMAL}
-        starts = {"normal_z": 1.0, "friction": grip}
-        limits = {"friction": (0.0, 10.0)} | dict.fromkeys(up, (-1.1, 1.1))
-        units, words = dict.fromkeys(("x", "y", "height"), "m"), {"x": "x", "y": "y", "height": "height"}
-        first = len(self.inputs)
-        for part in ANSWER:
-            at = "of the point that the answer on the road holds for, earth" if part in "xy" else "of the road there"
-            word = words.get(part, f"{part[-1]} of the unit normal, earth, upwards," if part in up else part)
-            new_input(
-                self,
-                f"{name}_{part}",
-                starts.get(part, 0.0),
-                *limits.get(part, (-math.inf, math.inf)),
-                units.get(part, "1"),
-                f"{word} {at}",
-                False,
-                True,
-                roles.get(part, Role.NONE),
-                near if part == "x" else "",
-                {"x": 1.0, "y": 1.0, "height": 0.02, "friction": 0.2 * grip}.get(part, 0.02),
-            )
-        return first
-
-    def contact_points(
-        self, name: str, body: Body, points: ArrayLike, *, road: int, contact: ContactPoints
-    ) -> ElementRecord:
-        """Points of a body that touch a road, with friction.
-
-        Parameters
-        ----------
-        body : Body
-            A rigid body of a spatial model.
-        points : array_like, shape (n, 3)
-            Earth axes in the reference configuration, m.
-        contact : ContactPoints
-            How they touch; `ContactPoints.for_mass` chooses numbers.
-        """
-        what = f"contact points '{name}'"
-        self.owned(body, f"The {what}")
-        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
-            raise ModelError(f"The {what} need a rigid body in space, not '{body.name}'.")
-        instance_of(ContactPoints, contact, f"The contact of {what}", "ContactPoints")
-        k = whole(road, f"The road of {what}", 0)
-        if k >= len(self.roads):
-            raise ModelError(f"The {what} ask for road {k}; the model has {len(self.roads)}.")
-        places = array(points, (None, 3), f"the places of {what}")
-        axes = [body.vector(v) for v in np.eye(3)]
-        return self.add(contact.record(name, body.point(body.com), axes, places - body.com, k))
-
-    def contact_point(
-        self, name: str, body: Body, point: ArrayLike, *, road: int, contact: ContactPoints
-    ) -> ElementRecord:
-        """One point of a body that touches a road; see `contact_points`.
-
-        Parameters
-        ----------
-        body : Body
-            A rigid body of a spatial model.
-        point : array_like, shape (3,)
-            Earth axes in the reference configuration, m.
-        """
-        place = array(point, (3,), f"the place of contact point {shown(name)}")
-        return self.contact_points(name, body, place[None], road=road, contact=contact)

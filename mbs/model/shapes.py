@@ -27,12 +27,11 @@ from mbs.common.checks import (
     whole,
 )
 from mbs.common.errors import ModelError
+from mbs.common.vectors import in_space
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
-from mbs.model.flexible import Interface
-from mbs.model.ports import PortedBody
 
 Kind: TypeAlias = Literal[
     "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"
@@ -274,14 +273,10 @@ class ShapeVocabulary(BodyVocabulary):
                 raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{self.name}'.")
             return owner
         body = self.owned(owner, f"The {what}")  # type: ignore[arg-type]
-        if isinstance(body, Interface):
-            return body.owner
-        if isinstance(body, PortedBody):
-            return next(b for b in self.bodies if b.start == body.start and not b.is_point)
         return body if body.is_ground or body in self.bodies else self._member(body)
 
     def _member(self, body: Body) -> Body:
-        """The body of the model that has the coordinates of another one, such as the frame of a flexible body."""
+        """The body of the model that has the coordinates of another one, as a node, a frame or a body with ports."""
         return next(b for b in self.bodies if b.start == body.start)
 
     def _local(self, owner: Owner, place: ArrayLike, what: str) -> Vector:
@@ -366,13 +361,6 @@ def origin_of(owner: Owner) -> Vector:
         rows = [[owner.centre[k].terms.get(carrier.start + 3 * (m + 1) + k, 0.0) for m in range(3)] for k in range(3)]
         return np.asarray(carrier.com + np.array(rows[0]))
     return in_space(owner.com)
-
-
-def in_space(place: Vector) -> Vector:
-    """Three components of two or three."""
-    found = np.zeros(3)
-    found[: len(place)] = place
-    return found
 
 
 def place_of(place: ArrayLike, dimension: int, what: str) -> Vector:

@@ -7,49 +7,22 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import array, named, number, one_of, positive, shown, vector
+from mbs.common.checks import array, named, positive, shown, vector
 from mbs.common.errors import ModelError
-from mbs.model.bodies import ROTATION, BodyVocabulary
+from mbs.model.bodies import ROTATION
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.inertia import inertia_matrix
-from mbs.model.tabled import (
-    TabledBody,
-    TabledNumber,
-    check_drawn,
-    checked_parameters,
-    pose_functions,
-    smooth_table,
-)
+from mbs.model.mechanism import Mechanism
+from mbs.model.smooth_table import check_drawn, checked_parameters, pose_functions, smooth_table
+from mbs.model.tabled import TabledBody, TabledNumber
 
 
-class TableVocabulary(BodyVocabulary):
+class TableVocabulary(Mechanism):
     """What a table moves."""
 
-    coordinate_rates: dict[int, float]
-
-    def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
-        """A coordinate that tables are functions of, 0 as drawn.
-
-        What it moves gives it its inertia; something must move with it, or a drive must hold it.
-
-        Parameters
-        ----------
-        unit : {"m", "rad"}
-            A length or an angle.
-        rate : float
-            At the start, m/s or rad/s.
-        """
-        one_of(unit, ("m", "rad"), f"The unit of travel {shown(name)}")
-        start = number(rate, f"The rate of travel {shown(name)}")
-        index = self.new_coordinate(self.unique("travel", name), "angle", 0.0)
-        self.inertias[index] = 0.0
-        if start:
-            self.coordinate_rates[index] = start
-        return Coordinate(name, index, unit)
-
     def tabled_body(
-        self,
+        self: Mechanism,
         name: str,
         *,
         base: Body,
@@ -105,7 +78,7 @@ class TableVocabulary(BodyVocabulary):
             raise ModelError(f"The rotations of {what} must be rotation matrices.")
         where = array(places, (*given.shape[:-2], 3), f"the places of {what}")
         table = smooth_table(axes, pose_functions(base, where, given), (12,), what)
-        self._same_axes(len(table.axes), len(coordinates), what)
+        _same_axes(len(table.axes), len(coordinates), what)
         drawn = pose_functions(base, centre, np.eye(3))
         check_drawn(table.value(*[0.0] * len(coordinates)), drawn, what)
         new = TabledBody(self, self.unique("body", name), centre, len(self.coordinates))
@@ -119,7 +92,7 @@ class TableVocabulary(BodyVocabulary):
         return new
 
     def tabled_number(
-        self,
+        self: Mechanism,
         name: str,
         *,
         parameters: Coordinate | Sequence[Coordinate],
@@ -143,14 +116,14 @@ class TableVocabulary(BodyVocabulary):
         what = f"tabled number {shown(name)}"
         coordinates = tuple(self.owned_coordinate(c, f"The {what}") for c in checked_parameters(parameters, what))
         table = smooth_table(axes, values, (), what)
-        self._same_axes(len(table.axes), len(coordinates), what)
+        _same_axes(len(table.axes), len(coordinates), what)
         drawn = float(table.value(*[0.0] * len(coordinates))[0])
         index = self.new_coordinate(self.unique("tabled number", name), "tabled", drawn)
         new = TabledNumber(name, index, named(unit, "a unit"), coordinates, table)
         self.tabled.append(new)
         return new
 
-    @staticmethod
-    def _same_axes(axes: int, parameters: int, what: str) -> None:
-        if axes != parameters:
-            raise ModelError(f"The {what} has {axes} axes for {parameters} coordinates; there must be one for each.")
+
+def _same_axes(axes: int, parameters: int, what: str) -> None:
+    if axes != parameters:
+        raise ModelError(f"The {what} has {axes} axes for {parameters} coordinates; there must be one for each.")

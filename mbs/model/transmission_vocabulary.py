@@ -1,4 +1,4 @@
-"""Transmissions by name: gears, racks, screws and levers with a link."""
+"""Transmissions by name: gears, racks and screws."""
 
 from __future__ import annotations
 
@@ -6,19 +6,18 @@ from numpy.typing import ArrayLike
 
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
-from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.joints.coupled_slides import Slide, coupled_slides
-from mbs.model.joints.drop_link import drop_link
 from mbs.model.joints.gear import gear
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.rack import rack
 from mbs.model.joints.screw import Screw, screw
+from mbs.model.mechanism import Mechanism
 
 
-class TransmissionVocabulary(JointVocabulary):
+class TransmissionVocabulary(Mechanism):
     """The transmissions of a model; each method returns the joint, for sensors."""
 
-    def gear(self, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
+    def gear(self: Mechanism, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
         """Two wheels that turn in a constant ratio.
 
         Parameters
@@ -42,7 +41,7 @@ class TransmissionVocabulary(JointVocabulary):
         return self._join(gear(self, name, wheel_1, wheel_2, ratio))
 
     def rack(
-        self,
+        self: Mechanism,
         name: str,
         pinion: Coordinate,
         body: Body,
@@ -139,43 +138,3 @@ class TransmissionVocabulary(JointVocabulary):
         self._join(joint)
         self._join(angle)
         return joint
-
-    def drop_link(
-        self,
-        name: str,
-        carrier: Body,
-        body: Body,
-        *,
-        pivot: ArrayLike,
-        axis: ArrayLike,
-        lever_end: ArrayLike,
-        link_end: ArrayLike,
-    ) -> Coordinate:
-        """A lever that turns on a carrier and a rod from its end to a point of another body, both without mass.
-
-        Two of them and `anti_roll_bar` are an anti-roll bar with its links. Against two bodies with joints it costs one
-        coordinate and one equation. The tension of the rod is a joint force.
-
-        Parameters
-        ----------
-        carrier, body : Body
-            What the lever turns on, and where the rod ends; in space, not point masses.
-        pivot, axis : array_like, shape (3,)
-            A point of the lever's axis, m, and its direction, fixed in the carrier; earth axes as drawn.
-        lever_end, link_end : array_like, shape (3,)
-            Ends of the rod on the lever and on the body, earth axes as drawn, m.
-
-        Returns
-        -------
-        Coordinate
-            Angle of the lever about the axis, rad, 0 as drawn and not wrapped.
-
-        Raises
-        ------
-        ModelError
-            The bodies are the same, the lever lies along its axis, or the rod pulls along the lever or across its plane
-            and could not turn it.
-        """
-        coordinate, joint = drop_link(self, name, carrier, body, pivot, axis, lever_end, link_end)
-        self._join(joint)
-        return coordinate

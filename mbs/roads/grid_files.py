@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.errors import reason
 from ali3.extras import missing_package
-from ali3.files import reason
 from ali3.reading import check_file
 from ali3.tables import Row, TextTable, is_number
 from ali3.words import one_line

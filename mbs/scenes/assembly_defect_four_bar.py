@@ -23,8 +23,8 @@ from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.material import Material
 from mbs.flexible.recovery import section_forces
 from mbs.flexible.section import round_bar
-from mbs.model import Model
 from mbs.model.flexible import FlexibleBody
+from mbs.model.model import Model
 
 A, B, C, D = (0.0, 0.0, 0.0), (0.0, 0.12, 0.0), (0.24, 0.12, 0.0), (0.24, 0.0, 0.0)  # m
 TILT = 5.0  # degrees

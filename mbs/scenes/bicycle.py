@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.common.checks import flag, number
-from mbs.model import Model
+from mbs.model.model import Model
 
 WHEELBASE, TRAIL, TILT = 1.02, 0.08, np.pi / 10.0  # m, m, rad
 REAR_RADIUS, FRONT_RADIUS = 0.3, 0.35  # m

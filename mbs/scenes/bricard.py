@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.model import Model
+from mbs.model.model import Model
 
 LENGTH = 1.0  # m
 MASS = 1.0  # kg

@@ -4,7 +4,7 @@ falls almost straight down and the cart swings round beneath it at thousands of 
 
 from __future__ import annotations
 
-from mbs.model import Model
+from mbs.model.model import Model
 
 CART, BOB = 1e-6, 1.0  # kg
 LENGTH = 1.0  # m

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mbs.common.checks import whole
-from mbs.model import Model
+from mbs.model.model import Model
 
 LENGTH = 1.0  # m
 MASS = 1.0  # kg

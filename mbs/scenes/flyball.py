@@ -8,7 +8,7 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 
-from mbs.model import Model
+from mbs.model.model import Model
 
 LENGTH, WIDTH = 1.0, 0.01  # m, of shaft and rods
 DENSITY = 3000.0  # kg/m3

@@ -14,7 +14,7 @@ from numpy.polynomial import Polynomial
 from scipy.interpolate import PPoly
 
 from mbs.elements.road import KerbRoad
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.scenes import prototype_car
 from mbs.vehicle import Car

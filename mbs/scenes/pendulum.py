@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mbs.common.checks import positive
-from mbs.model import Model
+from mbs.model.model import Model
 
 
 def build(length: float = 1.0, mass: float = 1.0) -> Model:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from mbs.elements.road import Road
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.vehicle import Car, Fidelity, load
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from math import cos, radians, sin
 
-from mbs.model import Model
+from mbs.model.model import Model
 
 LENGTH, MASS = 1.0, 1.0  # m, kg, of crank and rod
 SLIDER_MASS = 1.0  # kg

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.common.checks import whole
-from mbs.model import Model
+from mbs.model.model import Model
 
 LINKS = 10
 LENGTH, MASS, SECTION = 0.2, 0.5, 0.04  # m, kg, m, of one link with a square section

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.model import Model
+from mbs.model.model import Model
 
 PIVOT = (0.0, 0.1, 0.12)  # m
 CRANK, ROD = 0.08, 0.3  # m

@@ -13,8 +13,8 @@ from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.material import Material
 from mbs.flexible.section import Section
-from mbs.model import Model
 from mbs.model.flexible import FlexibleBody
+from mbs.model.model import Model
 
 LENGTH = 10.0  # m
 DURATION = 20.0  # s

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from mbs.model import Model
+from mbs.model.model import Model
 
 TORQUE = 0.033  # N m, of the motor on K1
 STIFFNESS, REST = 4530.0, 0.07785  # N/m, m

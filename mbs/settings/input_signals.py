@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.checks import is_number, numbers, shown
-from mbs.kernel.binding import Instance
+from mbs.kernel.binding.instance import Instance
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
 Table: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]

@@ -12,11 +12,12 @@ from scipy import sparse
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector
+from mbs.common.vectors import in_space
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody
-from mbs.model.model import Model
-from mbs.model.shapes import Owner, Turning, in_space, origin_of
+from mbs.model.mechanism import Mechanism
+from mbs.model.shapes import Owner, Turning, origin_of
 from mbs.model.sliding_shapes import Sliding
 from mbs.model.tabled import TabledBody
 from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace, matrices
@@ -42,7 +43,7 @@ class FrameNames:
     """Column by name as `Poses` has it: sensors of that name go first."""
 
     @classmethod
-    def of(cls, model: Model) -> FrameNames:
+    def of(cls, model: Mechanism) -> FrameNames:
         """Names that are unique among the frames, and columns that are no sensors."""
         bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
         used = {*bodies.values(), "ground"}
@@ -73,7 +74,7 @@ class FrameNames:
         return self.of_body(body), numbers(in_space(place) - origin)
 
 
-def turns_of(model: Model) -> list[Spin | Turning]:
+def turns_of(model: Mechanism) -> list[Spin | Turning]:
     """What turns about an axis of a body; on a tabled one a wheel that sensors place, nothing else."""
     every: list[Spin | Turning] = [*model.spins, *model.turnings]
     return [t for t in every if not _body_of(t).is_tabled or _outputs_of(t)]
@@ -93,7 +94,7 @@ def modes_of(body: FlexibleBody) -> tuple[str, ...]:
     return tuple(f"mode_{k + 1}" for k in range(body.n_modes))
 
 
-def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
+def frames_of(model: Mechanism, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
     """The frames of the scene; poses at the start are those of the coordinates `q` (nq,)."""
     frames: dict[str, Any] = {}
     for body, place, (pose,) in zip(model.bodies, places.bodies, places.poses(q[None]), strict=True):
@@ -132,7 +133,7 @@ def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
     return names.columns[f"{turn.name}.angle"]
 
 
-def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
+def places_of(model: Mechanism, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
     """Where the bodies are, of a model whose full coordinates are ``T q + constant``."""
     full: list[int] = []
     rows: list[sparse.csr_matrix] = []
@@ -175,7 +176,7 @@ def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64],
 
 
 def anchors_of_difference(
-    model: Model, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
+    model: Mechanism, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
 ) -> tuple[Anchor, Anchor] | None:
     """Both ends of a difference ``p2 - p1`` of points of two bodies, given by their first coordinate; None where it is
     not one.

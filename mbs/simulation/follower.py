@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from weakref import WeakKeyDictionary
 
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.results.left_out import refused
 from mbs.results.simulation_error import SimulationError
 from mbs.simulation.prepared_system import prepared
@@ -25,7 +26,7 @@ def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
     if system not in _PORTED:
         made = system.ported(system) if system.ported is not None else None
         place = {} if made is None else {s["name"]: k for k, s in enumerate(made.meta["sensors"])}
-        loaded = None if made is None else (LoadedSystem(made.to_bytes(drawing=False)), place)
+        loaded = None if made is None else (LoadedSystem(made.kernel_bytes()), place)
         _PORTED[system] = loaded if loaded is not None and set(names_left_out(system)) <= set(place) else None
     return _PORTED[system]
 

@@ -14,7 +14,7 @@ _PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = Weak
 def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
     """What all Simulations of a System share: it in the kernel's memory, and its names, which must not be changed."""
     if system not in _PREPARED:
-        _PREPARED[system] = LoadedSystem(system.to_bytes(drawing=False)), system.meta
+        _PREPARED[system] = LoadedSystem(system.kernel_bytes()), system.meta
     return _PREPARED[system]
 
 

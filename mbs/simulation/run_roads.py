@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mbs.elements.road import KerbRoad, PlaneRoad, Road
-from mbs.kernel.binding import Instance
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import ParameterTarget, RoadType
 from mbs.system.system import System
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
 from mbs.common.errors import ModelError
 from mbs.kernel.binding import KernelError, LoadedSystem, open_row
-from mbs.simulation.system_instance import SystemInstance
-from mbs.system.system import System
+from mbs.kernel.binding.standing_instance import StandingInstance
+from mbs.system.compiled_model import CompiledModel
 
 
-class StandingSystem(SystemInstance):
+class StandingSystem:
     """A System at its start, on roads that are no files; the assembly modes of its loops, which take long to find, are
     not watched.
 
@@ -18,12 +23,39 @@ class StandingSystem(SystemInstance):
         The start cannot be made consistent.
     """
 
-    def __init__(self, system: System) -> None:
-        loaded = LoadedSystem(system.to_bytes(drawing=False, modes=False))
-        super().__init__(system, loaded, system.meta)
-        try:
-            self.instance.initialise()
-        except KernelError as error:
-            worst = open_row(self.instance.report(), [row["name"] for row in self._meta["rows"]])
-            text = f"The start could not be made consistent: {error.message}"
-            raise ModelError(f"{text} Worst constraint: {worst}." if worst else text) from None
+    def __init__(self, compiled: CompiledModel) -> None:
+        self._meta = compiled.meta
+        self._instance = StandingInstance(LoadedSystem(compiled.kernel_bytes(modes=False)))
+        start(self._instance, self._meta)
+
+    @property
+    def sensors(self) -> dict[str, float]:
+        """Values of the sensors that the System computes, by name."""
+        return sensor_values(self._instance, self._meta)
+
+    @property
+    def q(self) -> NDArray[np.float64]:
+        """Coordinates, shape (nq,)."""
+        return np.array(self._instance.get_state()[0], float)
+
+
+def start(instance: StandingInstance, meta: dict[str, Any]) -> None:
+    """Make the start consistent. `meta`: names of the System.
+
+    Raises
+    ------
+    ModelError
+        It cannot be.
+    """
+    try:
+        instance.initialise()
+    except KernelError as error:
+        worst = open_row(instance.report(), [row["name"] for row in meta["rows"]])
+        text = f"The start could not be made consistent: {error.message}"
+        raise ModelError(f"{text} Worst constraint: {worst}." if worst else text) from None
+
+
+def sensor_values(instance: StandingInstance, meta: dict[str, Any]) -> dict[str, float]:
+    """Values of the sensors that a System computes, by name. `meta`: names of the System."""
+    values = zip(meta["sensors"], instance.sensors(), strict=True)
+    return {s["name"]: v for s, v in values if s.get("computed", True)}

@@ -22,6 +22,8 @@ class SteppedSystem(SystemInstance):
         Files in place of roads, by the number of the road.
     """
 
+    system: System
+
     def __init__(self, system: System, settings: Settings) -> None:
         super().__init__(system, *prepared(system))
         self.change_settings(settings)

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
-from mbs.kernel.binding import Instance, KernelError, Status
+from mbs.kernel.binding import KernelError, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.limits import LONGEST_SETTLING
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning

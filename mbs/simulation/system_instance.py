@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
+from mbs.simulation.standing_system import sensor_values
 from mbs.simulation.state import State
-from mbs.system.system import System
+from mbs.system.compiled_model import CompiledModel
 
 
 class SystemInstance:
@@ -22,7 +24,7 @@ class SystemInstance:
         Its names, which are not changed.
     """
 
-    def __init__(self, system: System, loaded: LoadedSystem, meta: dict[str, Any]) -> None:
+    def __init__(self, system: CompiledModel, loaded: LoadedSystem, meta: dict[str, Any]) -> None:
         self.system, self._meta = system, meta
         self.instance = Instance(loaded)
 
@@ -34,8 +36,7 @@ class SystemInstance:
     @property
     def sensors(self) -> dict[str, float]:
         """Values of the sensors that the System computes, at the state, by name."""
-        values = zip(self._meta["sensors"], self.instance.sensors(), strict=True)
-        return {s["name"]: v for s, v in values if s.get("computed", True)}
+        return sensor_values(self.instance, self._meta)
 
     @property
     def state(self) -> State:

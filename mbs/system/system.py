@@ -4,45 +4,41 @@ from __future__ import annotations
 
 import copy
 import json
-import struct
 import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ali3.files import whole_file
 from ali3.reading import read_bytes
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
 from mbs.common.later import Later
-from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS
-from mbs.kernel.header.limits import SYSTEM_VERSION
+from mbs.system.compiled_model import (
+    BYTES,
+    ENTRY,
+    FLOAT64,
+    FLOATS,
+    HEADER,
+    INT32,
+    INTEGERS,
+    MAGIC,
+    VERSION,
+    CompiledModel,
+    SystemFileError,
+)
 from mbs.system.drawing import Drawing
 from mbs.system.meta_check import problem_of
 from mbs.system.text import system_text
 
-MAGIC = b"ALI3SYS\n"
-VERSION = SYSTEM_VERSION
-HEADER = struct.Struct("<8sIIQII")
-ENTRY = struct.Struct("<40sIIQQ")
-INT32, FLOAT64, BYTES = 1, 2, 3
 _LARGEST = 4_000_000_000  # bytes of a file
 TEXTS = ("meta", "drawing")
 
-FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
-"""Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
-equilibrium."""
-MODES = ("mode_cell", "mode_cell_ptr")
 
-
-class SystemFileError(ValueError):
-    """A file that is no valid System; the message says why."""
-
-
-class System:
+class System(CompiledModel):
     """What `compile` makes of a model; immutable.
 
     Attributes
@@ -68,38 +64,27 @@ class System:
         modes: Callable[[], Mapping[str, ArrayLike]] | None = None,
         ported: Callable[[System], System | None] | None = None,
     ) -> None:
-        names = set(arrays)
-        if names | OPTIONAL != FLOATS | INTEGERS:
-            wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
-            raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
-        self.arrays = _Arrays(arrays, modes)
-        self.frames = frames
+        super().__init__(arrays, meta, frames, modes)
         self._drawing = drawing
         self.ported = ported
-        self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
     @property
     def drawing(self) -> Drawing | None:
         """What is drawn and how the coordinates move it; None where the file had none."""
         return self._drawing() if isinstance(self._drawing, Later) else self._drawing
 
-    def with_drawing(self, drawing: Drawing | Later[Drawing] | None) -> System:
-        """The same System with another drawing.
-
-        Parameters
-        ----------
-        drawing : Drawing, Later or None
-            What `drawing` is, or what makes it when it is asked for.
-        """
-        made = copy.copy(self)
-        made._drawing = drawing
-        return made
-
-    @property
-    def meta(self) -> dict[str, Any]:
-        """Names, units and the report; a fresh copy."""
-        loaded: dict[str, Any] = json.loads(self._meta_text)
-        return loaded
+    @classmethod
+    def of(
+        cls,
+        made: CompiledModel,
+        drawing: Drawing | Later[Drawing] | None = None,
+        ported: Callable[[System], System | None] | None = None,
+    ) -> System:
+        """What was compiled, with a drawing, or what makes it when it is asked for, and with `ported`."""
+        system = object.__new__(cls)
+        system.__dict__.update(vars(made))
+        system._drawing, system.ported = drawing, ported
+        return system
 
     @property
     def name(self) -> str:
@@ -165,40 +150,9 @@ class System:
     def __deepcopy__(self, memo: dict[int, Any]) -> System:
         return self  # nothing of it changes
 
-    def to_bytes(self, drawing: bool = True, modes: bool = True) -> bytes:
-        """The System file; equal Systems give equal bytes.
-
-        Parameters
-        ----------
-        drawing : bool
-            Whether with what is drawn, which the kernel does not read.
-        modes : bool
-            Whether with the assembly modes, by which steps are watched.
-
-        Returns
-        -------
-        bytes
-            As `docs/system_file.md` describes.
-        """
-        items: list[tuple[str, int, bytes, int]] = []
-        for name in self.arrays:
-            values = self.arrays[name] if modes or not name.startswith("mode_") else np.zeros(0, np.int32)
-            kind = FLOAT64 if name in FLOATS else INT32
-            items.append((name, kind, values.astype(values.dtype.newbyteorder("<")).tobytes(), len(values)))
-        text = self._meta_text.encode()
-        items.append(("meta", BYTES, text, len(text)))
-        if drawing and self.drawing is not None:
-            drawn = self.drawing.to_bytes()
-            items.append(("drawing", BYTES, drawn, len(drawn)))
-        offset = HEADER.size + ENTRY.size * len(items)
-        directory, data = [], []
-        for name, kind, raw, count in items:
-            directory.append(ENTRY.pack(name.encode(), kind, 0, offset, count))
-            padded = raw + b"\0" * (-len(raw) % 8)
-            data.append(padded)
-            offset += len(padded)
-        body = b"".join([*directory, *data])
-        return HEADER.pack(MAGIC, VERSION, len(items), offset, zlib.crc32(body), 0) + body
+    def to_bytes(self) -> bytes:
+        """The System file, as `docs/system_file.md` describes; equal Systems give equal bytes."""
+        return self._file(True, b"" if self.drawing is None else self.drawing.to_bytes())
 
     @classmethod
     def from_bytes(cls, data: bytes) -> System:
@@ -275,40 +229,6 @@ def _unpickled(data: bytes, frames: Frames | None) -> System:
     made = System.from_bytes(data)
     made.frames = frames
     return made
-
-
-class _Arrays(Mapping[str, NDArray[Any]]):
-    """Arrays by name, read-only; those that `modes` makes are made when they are first asked for."""
-
-    def __init__(
-        self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None
-    ) -> None:
-        self._arrays = {name: _frozen(name, arrays.get(name, ())) for name in sorted(FLOATS | INTEGERS)}
-        self._modes = modes
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        if self._modes is not None and name in MODES:
-            self._arrays |= {made: _frozen(made, values) for made, values in self._modes().items()}
-            self._modes = None
-        return self._arrays[name]
-
-    def changed(self, arrays: Mapping[str, ArrayLike]) -> _Arrays:
-        """A copy with other values of some."""
-        made = copy.copy(self)
-        made._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
-        return made
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._arrays)
-
-    def __len__(self) -> int:
-        return len(self._arrays)
-
-
-def _frozen(name: str, values: ArrayLike) -> NDArray[Any]:
-    found = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
-    found.setflags(write=False)
-    return found
 
 
 def _parse(data: bytes) -> dict[str, Any]:

@@ -9,9 +9,10 @@ from mbs.common.lazy_modules import lazy_modules
 if TYPE_CHECKING:
     from mbs.vehicle import kinematics as kinematics
     from mbs.vehicle.car import Car
-    from mbs.vehicle.car_file import car_names, load
+    from mbs.vehicle.car_file import load
     from mbs.vehicle.errors import CarFileError, CarWarning
     from mbs.vehicle.fidelity import Fidelity
+    from mbs.vehicle.read_car import car_names
     from mbs.vehicle.schema import json_schema
 
 # imported when they are first asked for: the help of the command needs no engine
@@ -20,7 +21,7 @@ _LAZY = {
     "CarFileError": "mbs.vehicle.errors",
     "CarWarning": "mbs.vehicle.errors",
     "Fidelity": "mbs.vehicle.fidelity",
-    "car_names": "mbs.vehicle.car_file",
+    "car_names": "mbs.vehicle.read_car",
     "json_schema": "mbs.vehicle.schema",
     "load": "mbs.vehicle.car_file",
 }

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from mbs.elements.reals import declared
-from mbs.model import Model
 from mbs.model.coordinate import Coordinate
 from mbs.model.inputs import new_input
+from mbs.model.mechanism import Mechanism
 from mbs.model.parameters import Owner
 from mbs.model.records import Input, Role
 from mbs.vehicle.chassis.mount import Mount
@@ -37,7 +37,7 @@ class _Tied:
 class CarBuilder:
     """The model so far, its inputs, and the parameters that will be in it."""
 
-    m: Model
+    m: Mechanism
     """Gets bodies, joints and elements."""
     road: int
     """Number of the road under the chassis."""

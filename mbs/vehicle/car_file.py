@@ -1,23 +1,11 @@
-"""Reads a car file: every fault is one sentence with the file, the key path, the value and what would be right."""
+"""Cars by name, folder or file."""
 
 from __future__ import annotations
 
-import warnings
-from functools import cache
 from pathlib import Path
 
-from ali3.reading import read_toml
-from mbs.common.checks import shown
-from mbs.vehicle.car import Car, car_from
-from mbs.vehicle.errors import CarFileError, CarWarning
-
-FILE = "car.toml"
-CARS = Path(__file__).parent / "cars"
-
-
-def car_names() -> list[str]:
-    """Names of the cars that come with the package."""
-    return sorted(file.parent.name for file in CARS.glob(f"*/{FILE}"))
+from mbs.vehicle.car import Car
+from mbs.vehicle.read_car import read_car
 
 
 def load(car: str | Path) -> Car:
@@ -43,44 +31,4 @@ def load(car: str | Path) -> Car:
     CarWarning
         A car of the user's that can be but is odd, such as one that does not come to rest where it is drawn.
     """
-    if isinstance(car, str) and car in car_names():
-        return _of_package(car)
-    if not isinstance(car, (str, Path)):
-        raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
-    path = file_of(car)
-    found = car_from(read_toml(path, CarFileError), path.parent, str(path), warn=True)
-    if found.front.suspension.stop_left_out or None in (found.front.stops, found.rear.stops):
-        from mbs.vehicle.linkages.free_travel import notes_without_stops
-
-        for sentence in notes_without_stops(found):
-            warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=2)
-    return found
-
-
-def file_of(car: str | Path) -> Path:
-    """The file of a car that is given by its folder or file.
-
-    Raises
-    ------
-    CarFileError
-        There is none.
-    """
-    path = Path(car)
-    try:
-        if path.is_dir():
-            path = path / FILE
-        there = path.exists()
-    except (OSError, ValueError):
-        there = False
-    if not str(car) or not there:
-        known = ", ".join(car_names())
-        file = "" if "\0" in str(car) else f"no file {path}, and "
-        raise CarFileError(f"There is no car {shown(str(car))}: {file}the cars of the package are {known}.")
-    return path
-
-
-@cache
-def _of_package(name: str) -> Car:
-    path = CARS / name / FILE
-    content = read_toml(path, CarFileError)
-    return car_from(content, path.parent, str(path), at_rest=False)  # a test holds that they stand as drawn
+    return read_car(Car, car)

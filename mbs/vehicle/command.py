@@ -90,12 +90,13 @@ def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) ->
 
 
 def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
-    from mbs.vehicle.car_file import car_names, load
+    from mbs.vehicle.built_car import BuiltCar
+    from mbs.vehicle.read_car import car_names, read_car
 
     _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
     _refuse(given_of(parser, options, ("json",)), "--kinematics or --cheapest")
     if options.list:
-        print("\n".join(in_columns([(name, load(name).description) for name in car_names()])))
+        print("\n".join(in_columns([(name, read_car(BuiltCar, name).description) for name in car_names()])))
         return 0
     if options.folder is not None:
         from mbs.vehicle.copy_car import copy_car
@@ -110,13 +111,14 @@ def _check(car: str, parameters: bool) -> int:
     import sys
     import warnings
 
-    from mbs.vehicle.car_file import load
+    from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
+    from mbs.vehicle.read_car import read_car
     from mbs.vehicle.summary import parameter_table, summary
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
-        loaded = load(car)
+        loaded = read_car(BuiltCar, car)
     print(summary(loaded))
     if parameters:
         print("\n" + parameter_table(loaded))

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ali3.folders import whole_folder
 from mbs.common.checks import shown
-from mbs.vehicle.car_file import CARS, FILE, car_names
 from mbs.vehicle.errors import CarFileError
+from mbs.vehicle.read_car import CARS, FILE, car_names
 from mbs.vehicle.schema import SCHEMA_FILE
 
 

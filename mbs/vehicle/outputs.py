@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.carried import Spin
+from mbs.model.mechanism import Mechanism
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -184,7 +184,7 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
 }
 
 
-def work_outputs(m: Model) -> None:
+def work_outputs(m: Mechanism) -> None:
     """Work since the start of all that may give or take energy, without what it stores."""
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]
@@ -195,7 +195,7 @@ def work_outputs(m: Model) -> None:
             m.sense_constant(f"energy.{name}", 0.0, unit="J", description=description)
 
 
-def steering_work(m: Model, ports: Ports) -> None:
+def steering_work(m: Mechanism, ports: Ports) -> None:
     """Work of a steering without a column since the start, behind all other outputs.
 
     `ports`: one for the travel of the rack has its work in `energy.ports`.
@@ -213,7 +213,7 @@ def steering_work(m: Model, ports: Ports) -> None:
     )
 
 
-def health_outputs(m: Model) -> None:
+def health_outputs(m: Mechanism) -> None:
     """Energies and the work of the solver. `m`: the whole car."""
     for kind in ("kinetic", "gravity", "elastic", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
@@ -222,7 +222,7 @@ def health_outputs(m: Model) -> None:
         m.sense_solver(f"solver.{kind}", kind, description=f"{kind} of the solver, {when}")
 
 
-def _travel(m: Model, chassis: Body, spin: Spin, w: str) -> None:
+def _travel(m: Mechanism, chassis: Body, spin: Spin, w: str) -> None:
     reference = np.array([c.reference for c in m.coordinates])
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
     m.sense_vector(

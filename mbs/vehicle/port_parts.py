@@ -15,8 +15,9 @@ from mbs.elements.record import ElementRecord
 from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.wind import Wind
-from mbs.model import Model
 from mbs.model.carried import Spin
+from mbs.model.contact_vocabulary import ContactVocabulary
+from mbs.model.mechanism import Mechanism
 from mbs.model.records import Ahead
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -85,7 +86,7 @@ def wind_port(b: CarBuilder) -> Wind | None:
     return Wind(speed.index, b.port("wind.heading", -turn, turn, "rad", text).index)
 
 
-def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
+def road_ports(m: Mechanism, road: RoadSection) -> tuple[int, dict[str, int]]:
     """Answers of another program on the road under each wheel, and the mean of them under the chassis.
 
     `road`: friction until there are answers.
@@ -98,12 +99,14 @@ def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
         Those under the wheels.
     """
     friction = road.friction * road.friction_factor
-    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
+    first = {
+        w: ContactVocabulary.road_answer(m, f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS
+    }
     under = {w: m.road(PortRoad([k])) for w, k in first.items()}
     return m.road(PortRoad(list(first.values()))), under
 
 
-def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
+def tyre_outputs(m: Mechanism, w: str, tyre: ElementRecord) -> None:
     """Radius and moments of the tyre of a wheel. `w`: the wheel, as "FL"."""
     m.sense_element(f"wheel_{w}.loaded_radius", tyre, "loaded_radius")
     if "overturning_moment" in {output.name for output in tyre.outputs}:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, RoadOfFile
-from mbs.model import Model
+from mbs.model.mechanism import Mechanism
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 from mbs.vehicle.tyres import Tyre
@@ -36,7 +36,7 @@ class RoadSection(Section):
 
     def parameters(
         self,
-        m: Model,
+        m: Mechanism,
         road: Road | RoadOfFile | None,
         ground: int,
         hold_at: str,
@@ -71,7 +71,7 @@ class RoadSection(Section):
         )
 
     @staticmethod
-    def _kerb(m: Model, ground: int) -> None:
+    def _kerb(m: Mechanism, ground: int) -> None:
         target = ("road", ground)
         m.parameter(
             "road.kerb_x",

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from ali3.columns import in_columns
-from mbs.vehicle.car import Car
+from mbs.model.mechanism import Mechanism
+from mbs.vehicle.built_car import BuiltCar
 from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import sections_of
 
 
-def summary(car: Car) -> str:
+def summary(car: BuiltCar) -> str:
     """Masses, loads and dimensions. `car`: its equilibrium is found."""
-    rest = settled(car.model(), car)
+    rest = settled(car.build(car.empty(Mechanism)).m, car)
     load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
     total = load["front"] + load["rear"]
     rows = [
@@ -45,7 +46,7 @@ def summary(car: Car) -> str:
     return "\n".join(in_columns(rows))
 
 
-def grip_row(car: Car, axle: str) -> tuple[str, str]:
+def grip_row(car: BuiltCar, axle: str) -> tuple[str, str]:
     """Coefficients that the tyres of an axle reach on the car's road, and the factor on the forces of the file.
 
     `axle`: "front" or "rear".
@@ -61,7 +62,7 @@ def grip_row(car: Car, axle: str) -> tuple[str, str]:
     )
 
 
-def parameter_table(car: Car) -> str:
+def parameter_table(car: BuiltCar) -> str:
     """Key path, value, unit and range of each number that the FMU has as a parameter."""
     rows = [("parameter", "value", "unit", "least", "most", "may change")]
     values = car.values()

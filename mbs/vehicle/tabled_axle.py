@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.errors import ModelError
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
+from mbs.model.mechanism import Mechanism
+from mbs.model.table_vocabulary import TableVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.corner import Corner
@@ -40,7 +41,7 @@ class TabledParts:
     """
 
     def __init__(
-        self, m: Model, base: Body, grid: PoseGrid, compressions: Mapping[str, Coordinate], rack: Coordinate | None
+        self, m: Mechanism, base: Body, grid: PoseGrid, compressions: Mapping[str, Coordinate], rack: Coordinate | None
     ) -> None:
         self._m, self._base, self._grid = m, base, grid
         self._compressions, self._rack = compressions, rack
@@ -59,7 +60,8 @@ class TabledParts:
         poses = self._grid.full(part.start, 12)
         parameters, axes, poses = self._over(name, poses)
         turned = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
-        return self._m.tabled_body(
+        return TableVocabulary.tabled_body(
+            self._m,
             name,
             base=self._base,
             parameters=parameters,
@@ -82,7 +84,7 @@ class TabledParts:
     def _angle(self, name: str) -> Coordinate:
         (k,) = (k for k, c in enumerate(self._grid.linkage.model.coordinates) if c.name == name)
         parameters, axes, values = self._over(name, self._grid.full(k, 1))
-        return self._m.tabled_number(name, parameters=parameters, axes=axes, values=values[..., 0])
+        return TableVocabulary.tabled_number(self._m, name, parameters=parameters, axes=axes, values=values[..., 0])
 
     def _over(self, name: str, values: Array) -> tuple[list[Coordinate], list[Array], Array]:
         """Coordinates, points along them, and values over them, of what moves with a wheel."""

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mbs import Model, ModelError, Simulation, compile
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.simulation.state import Pose
 
 EXACT = 1e-9

@@ -10,7 +10,8 @@ from mbs import Model, compile
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.rows import rigid_rows
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from tests.compiler.mechanisms import MODELS
 
 DERIVATIVE = 2e-8

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mbs import System, SystemFileError, compile
-from mbs.system.system import ENTRY, FLOATS, HEADER, INTEGERS
+from mbs.system.compiled_model import ENTRY, FLOATS, HEADER, INTEGERS
 from tests.compiler.mechanisms import MODELS, rows_of_every_kind
 
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from mbs import Model, compile
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import bricard, double_four_bar, pendulum, spatial_chain, spatial_slider_crank, spinning_beam
 from mbs.settings.settings import METHODS
 from mbs.system.system import System

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from mbs import System, compile
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
 
 H, STEPS, SPEED = 0.005, 60, 20.0  # s, -, m/s

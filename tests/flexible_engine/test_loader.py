@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mbs import compile
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.model import Model
 from mbs.system.system import System
 from tests.altered_system import altered, put

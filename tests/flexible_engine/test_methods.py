@@ -10,6 +10,7 @@ import pytest
 
 from mbs import Settings, compile, simulate
 from mbs.kernel import binding
+from mbs.kernel.binding.instance import Instance
 from mbs.model import Model
 from mbs.results.simulation_error import SimulationError
 from mbs.scenes import spinning_beam
@@ -94,7 +95,7 @@ def test_damped_bodies_cannot_step_backwards() -> None:
 @pytest.mark.parametrize("method", ["energy_momentum", "runge_kutta_8", "ali3p_generalised_alpha"])
 def test_a_restored_state_goes_on_alike_after_the_method_changed(method: str) -> None:
     loaded = binding.LoadedSystem(swinging(1.0).to_bytes())
-    first, second = binding.Instance(loaded), binding.Instance(loaded)
+    first, second = Instance(loaded), Instance(loaded)
     first.initialise()
     first.run(0.01, 5)
     first.set_settings(**METHODS[method])
@@ -108,7 +109,7 @@ def test_a_restored_state_goes_on_alike_after_the_method_changed(method: str) ->
 
 def test_rates_of_energies() -> None:
     system = swinging(1.0)
-    instance = binding.Instance(binding.LoadedSystem(system.to_bytes()))
+    instance = Instance(binding.LoadedSystem(system.to_bytes()))
     instance.initialise()
     instance.set_settings(**METHODS["runge_kutta_8"])  # its accelerations are those of the state
     instance.run(0.002, 50)

@@ -16,7 +16,7 @@ from ali3.read_parameter_set import read_parameter_set
 from fmu_src.build.car_registry import build_car, car_files, car_words
 from hosts.fmu.fmu import Fmu
 from mbs.vehicle import load
-from mbs.vehicle.car_file import CARS
+from mbs.vehicle.read_car import CARS
 
 PLATFORM = fmpy.platform
 

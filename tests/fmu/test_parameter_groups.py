@@ -13,7 +13,8 @@ from fmu_src.description.parameter_groups import parameter_groups
 from fmu_src.description.probe import probe
 from fmu_src.variables.variables import Variable, variable_table
 from mbs.elements import EndStops, PlaneRoad
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 
 
 def hanging(links: int, settled: bool = True) -> mbs.Model:

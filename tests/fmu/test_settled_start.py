@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 import mbs
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
 
 HostMaker = Callable[..., Any]

@@ -16,7 +16,8 @@ from fmpy.fmi3 import FMU3Slave
 from hosts.fmu.fmu import Fmu
 from mbs import Simulation, System, compile, simulate
 from mbs.compiler.ports import following, with_ports_of
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import kerb_test, pendulum, prototype_car
 
 H = 0.01  # s
@@ -125,7 +126,7 @@ def pair(make: Callable[[int], Any]) -> tuple[System, System, System]:
 
 
 def loaded(system: System) -> Instance:
-    return Instance(LoadedSystem(system.to_bytes(drawing=False, modes=False)))
+    return Instance(LoadedSystem(system.kernel_bytes(modes=False)))
 
 
 def gauges_of(system: System, instance: Instance) -> np.ndarray:

@@ -11,7 +11,7 @@ import pytest
 from tests.house.test_import_directions import KERNEL, ROOT, calls, sources
 
 PACKAGES = ("ali3", "benchmarks", "fmu_src", "hosts", "mbs", "viewer")
-FACADES = {"mbs", "mbs.flexible", "mbs.vehicle"}
+FACADES = {"mbs", "mbs.elements", "mbs.flexible", "mbs.model", "mbs.vehicle"}
 """Packages whose `__init__` imports what a user asks for when he asks for it."""
 
 

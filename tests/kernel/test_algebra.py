@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import ElementType
 from mbs.settings.settings import Settings
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import ControlFields, KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import GuideType
 from mbs.settings.methods import METHOD_TABLE
 

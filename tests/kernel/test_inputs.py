@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import ElementType
 from mbs.settings.methods import METHOD_TABLE
 

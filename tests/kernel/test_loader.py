@@ -10,7 +10,8 @@ import pytest
 
 from mbs import Model, compile
 from mbs.kernel import binding
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import SensorType, SolverValue
 from mbs.kernel.read_headers import SensorEntry, sensor_types
 from mbs.scenes import bricard, spatial_chain

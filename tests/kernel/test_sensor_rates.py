@@ -8,6 +8,7 @@ import numpy as np
 
 import mbs
 from mbs.kernel import binding
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
 
 RATE_ERROR, H, RATE_STEP = 2e-3, 0.002, 1e-5
@@ -15,7 +16,7 @@ RATE_ERROR, H, RATE_STEP = 2e-3, 0.002, 1e-5
 
 def test_rates_of_sensors() -> None:
     system = mbs.compile(prototype_car.build())
-    instance = binding.Instance(binding.LoadedSystem(system.to_bytes()))
+    instance = Instance(binding.LoadedSystem(system.to_bytes()))
     for i, value in enumerate([0.2, 0.3, 0.0]):
         instance.set_input(i, value)
     instance.set_pose(0.0, 0.0, 0.0, 0.4, 15.0)

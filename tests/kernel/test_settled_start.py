@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import double_four_bar
 
 from .scenes import pendulum

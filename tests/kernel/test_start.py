@@ -10,7 +10,8 @@ from scipy.optimize import brentq
 
 from mbs import compile
 from mbs.kernel import binding
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import bricard
 
 from .scenes import GRAVITY, four_bar, pendulum

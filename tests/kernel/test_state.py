@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from mbs.kernel import binding
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 
 from .scenes import everything, four_bar
 
@@ -65,7 +66,8 @@ def test_the_future_is_the_same_in_another_process(tmp_path: Path) -> None:
     (tmp_path / "state").write_bytes(instance.save())
     (tmp_path / "system").write_bytes(everything().to_bytes())
     program = (
-        "import sys; from pathlib import Path; from mbs.kernel.binding import Instance, LoadedSystem\n"
+        "import sys; from pathlib import Path; from mbs.kernel.binding import LoadedSystem\n"
+        "from mbs.kernel.binding.instance import Instance\n"
         "here = Path(sys.argv[1]); i = Instance(LoadedSystem((here / 'system').read_bytes()))\n"
         "i.restore((here / 'state').read_bytes())\n"
         "[i.step(0.01) for _ in range(20)]\n"

@@ -9,7 +9,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from mbs.kernel import binding
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import ElementType, GuideType
 
 from .scenes import GRAVITY, everything, four_bar, pendulum

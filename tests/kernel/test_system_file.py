@@ -12,7 +12,8 @@ import pytest
 import mbs
 from ali3.errors import FileError
 from mbs.kernel.binding import KernelError, LoadedSystem
-from mbs.system.system import System, SystemFileError
+from mbs.system.compiled_model import SystemFileError
+from mbs.system.system import System
 
 
 def model() -> mbs.Model:

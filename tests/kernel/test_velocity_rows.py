@@ -7,7 +7,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.settings.settings import Settings
 from tests.methods.rolling_models import ROLLING
 

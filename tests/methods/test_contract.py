@@ -7,7 +7,8 @@ import pytest
 
 from benchmarks.references.cases import system_of
 from mbs import Model, compile, simulate
-from mbs.kernel.binding import ControlFields, Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import ControlFields, KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import METHODS
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from mbs import Model, compile
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import bricard, double_four_bar, prototype_car, spatial_chain
 from mbs.settings.settings import METHODS
 from tests.methods.rolling_models import sleigh

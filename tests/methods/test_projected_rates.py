@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mbs import Model, System, compile, simulate
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import kerb_test, prototype_car
 
 

@@ -9,7 +9,8 @@ import pytest
 from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import system_of
 from mbs import Model, Pose, Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.binding import FARTHEST, Instance, KernelError, LoadedSystem, Status, open_row
+from mbs.kernel.binding import FARTHEST, KernelError, LoadedSystem, Status, open_row
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import cart_pole, prototype_car
 
 DAMPING = 5000.0  # 1/s, of 1 kg

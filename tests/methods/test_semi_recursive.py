@@ -8,7 +8,8 @@ import scipy.linalg
 from scipy.special import ellipk
 
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import bricard, double_four_bar, flyball, prototype_car, spatial_chain
 from mbs.settings.settings import METHODS
 from tests.methods.models import driven

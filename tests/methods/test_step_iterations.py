@@ -9,7 +9,8 @@ import pytest
 
 import mbs
 from mbs.elements import GridRoad
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import cart_pole, double_four_bar, prototype_car
 from mbs.settings.settings import LIMITED, Settings
 

@@ -4,7 +4,8 @@ import pytest
 
 from mbs import Model, ModelError, Simulation, System, compile, simulate
 from mbs.elements import EndStops, PlaneRoad
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 
 
 def balance(front=0.6, offset=True):

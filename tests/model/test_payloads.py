@@ -6,7 +6,8 @@ from scipy.integrate import solve_ivp
 
 from mbs import Model, ModelError, Settings, Simulation, SimulationError, compile, linearise
 from mbs.flexible import InertiaRelief
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.model.joints.joint import Joint, equal_vectors
 from mbs.settings.methods import METHOD_TABLE
 from tests.altered_system import altered, put

@@ -17,6 +17,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.kernel import binding
 from mbs.kernel.binding import KernelError
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import Status
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
@@ -281,7 +282,7 @@ def test_beyond_its_table_a_number_goes_on_along_its_tangent() -> None:
 
 
 def test_rates_of_sensors_are_those_of_the_run() -> None:
-    instance = binding.Instance(binding.LoadedSystem(two_by_table().to_bytes()))
+    instance = Instance(binding.LoadedSystem(two_by_table().to_bytes()))
     instance.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
     instance.initialise()
     instance.run(0.002, 50)

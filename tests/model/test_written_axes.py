@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mbs import Model, ModelError, Settings, Simulation, compile
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem
+from mbs.kernel.binding import KernelError, LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from tests.altered_system import altered, put
 
 DRAWN, OTHER = (0.0, 0.0), (0.3, -0.2)

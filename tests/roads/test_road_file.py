@@ -12,7 +12,8 @@ import pytest
 
 import mbs
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.limits import ROAD_TILE
 from mbs.results.accuracy import AccuracyWarning
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road

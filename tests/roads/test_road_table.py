@@ -11,7 +11,8 @@ import pytest
 
 import mbs
 from mbs.elements import GridRoad
-from mbs.kernel.binding import Instance, KernelError, LoadedSystem, Status
+from mbs.kernel.binding import KernelError, LoadedSystem, Status
+from mbs.kernel.binding.instance import Instance
 from mbs.roads import RoadFileError, read_road, write_road
 from mbs.scenes import prototype_car
 

@@ -292,8 +292,8 @@ def test_a_scene_is_a_copy():
 def test_damaged_drawings_are_refused():
     import json
 
+    from mbs.system.compiled_model import SystemFileError
     from mbs.system.drawing import Drawing
-    from mbs.system.system import SystemFileError
 
     system = mbs.compile(pendulum.build())
     content = json.loads(system.drawing.to_bytes())

@@ -45,7 +45,7 @@ def test_what_animate_refuses(run):
         mbs.animate(run, names=("a", "b"))
     with pytest.raises(ViewerError, match="no option 'sped'; did you mean 'speed'"):
         mbs.animate(run, sped=2.0)
-    bare = mbs.System.from_bytes(mbs.compile(pendulum.build()).to_bytes(drawing=False))
+    bare = mbs.System.from_bytes(mbs.compile(pendulum.build()).kernel_bytes())
     with pytest.raises(ValueError, match="give the System as the scene"):
         mbs.animate(mbs.simulate(bare, 0.1, 0.01))
 
@@ -76,7 +76,7 @@ def test_no_browser_is_a_sentence(run, monkeypatch):
 def test_in_a_notebook_a_run_shows_itself(run, monkeypatch):
     assert "<iframe" in run._repr_html_()
     assert "<iframe" in mbs.animate(run)._repr_html_()
-    bare = mbs.System.from_bytes(mbs.compile(pendulum.build()).to_bytes(drawing=False))
+    bare = mbs.System.from_bytes(mbs.compile(pendulum.build()).kernel_bytes())
     assert mbs.simulate(bare, 0.1, 0.01)._repr_html_() is None
 
     def failing(*_):

@@ -9,7 +9,8 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_mechanisms
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.input_breaks import input_breaks
 

@@ -195,8 +195,8 @@ def test_a_system_from_a_file_has_poses_and_scene(tmp_path):
 
 def test_a_system_without_a_drawing_says_so():
     system = mbs.compile(swinging(2))
-    bare = mbs.System.from_bytes(system.to_bytes(drawing=False))
-    assert len(system.to_bytes(drawing=False)) < len(system.to_bytes())
+    bare = mbs.System.from_bytes(system.kernel_bytes())
+    assert len(system.kernel_bytes()) < len(system.to_bytes())
     run = mbs.simulate(bare, 0.1, 0.01)
     with pytest.raises(ValueError, match="no poses"):
         _ = run.poses

@@ -6,7 +6,8 @@ import dataclasses
 
 import pytest
 
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.settings.settings import Settings
 from tests.simulation.scenes import pendulum
 

@@ -7,7 +7,8 @@ import math
 import pytest
 
 import mbs
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.results.simulation_error import SimulationError
 from mbs.scenes import double_four_bar
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from mbs import LinearisationWarning, Model, Pose, Simulation, SimulationError, System, compile, linearise, simulate
-from mbs.kernel.binding import Instance, LoadedSystem
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
 
 from .scenes_in_equilibrium import MASS, STIFFNESS, car, hanging

@@ -6,7 +6,7 @@ import shutil
 
 import pytest
 
-from mbs.vehicle.car_file import CARS
+from mbs.vehicle.read_car import CARS
 
 
 @pytest.fixture

@@ -13,12 +13,12 @@ import scipy.sparse as sp
 
 from mbs.vehicle import Car, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.car_file import CARS
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.gauges.reading import Reading
 from mbs.vehicle.chassis.gauges.recovery_rows import AXES
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
+from mbs.vehicle.read_car import CARS
 
 PROTOTYPE = load("prototype")
 SMALL_JOINTS = {

@@ -9,7 +9,7 @@ from typing import Any
 
 import tomli_w
 
-from mbs.vehicle.car_file import CARS
+from mbs.vehicle.read_car import CARS
 
 
 def rigid_car(name: str, folder: Path, **tables: Any) -> Path:

@@ -12,7 +12,7 @@ from mbs import Pose, Simulation, System, compile
 from mbs.common.errors import ModelError
 from mbs.shapes.pose_outputs import pose_outputs
 from mbs.vehicle import Car, Fidelity, load
-from mbs.vehicle.car_file import CarFileError
+from mbs.vehicle.errors import CarFileError
 from tests.vehicle.column_car import COLUMN, column_car
 
 SMOOTH = {"friction": 0.0, "rack_friction": 0.0}

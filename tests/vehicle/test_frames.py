@@ -11,8 +11,9 @@ import scipy.sparse as sp
 import mbs
 from mbs.common.errors import ModelError
 from mbs.flexible import natural_modes
+from mbs.model.mechanism import Mechanism
 from mbs.vehicle import Car, Fidelity, load
-from mbs.vehicle.car_file import CarFileError
+from mbs.vehicle.errors import CarFileError
 from tests.vehicle.frame_cars import (
     PROTOTYPE,
     SMALL_GAUGES,
@@ -98,7 +99,7 @@ def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
     """As drawn."""
     from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 
-    b = car._builder(None)
+    b = car._builder(car.empty(Mechanism), None)
     mount = flexible_chassis(b.m, car.chassis, car.flexible_frame, Fidelity.DYNAMIC)
     reference = np.array([c.reference for c in b.m.coordinates])
     z, x = (axis.value(reference) for axis in mount.drive_axes)

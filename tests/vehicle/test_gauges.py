@@ -11,8 +11,8 @@ import pytest
 import mbs
 from mbs.flexible import tube
 from mbs.flexible.frame import Frame
-from mbs.vehicle.car_file import CarFileError
 from mbs.vehicle.chassis.gauges.tube_gauge import TubeGauge
+from mbs.vehicle.errors import CarFileError
 from tests.flexible.structures import straight
 from tests.vehicle.frame_cars import PROTOTYPE
 

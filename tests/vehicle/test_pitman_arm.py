@@ -18,9 +18,9 @@ from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.vehicle import load
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.car_file import CARS
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
+from mbs.vehicle.read_car import CARS
 from viewer.poses import FramePoses
 from viewer.scene import scene_errors
 

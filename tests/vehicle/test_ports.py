@@ -12,7 +12,7 @@ import pytest
 import mbs
 from mbs.vehicle import CarFileError, load
 from mbs.vehicle.car import Car, car_from
-from mbs.vehicle.ports import chosen_ports
+from mbs.vehicle.chosen_ports import chosen_ports
 from tests.elements.harness import Element
 from tests.vehicle.column_car import column_car
 

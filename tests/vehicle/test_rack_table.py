@@ -17,9 +17,9 @@ import mbs
 from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.vehicle import load
-from mbs.vehicle.car_file import CARS
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
+from mbs.vehicle.read_car import CARS
 from mbs.vehicle.steering.rack_by_angle import RackByAngle
 
 CAR = load("prototype")

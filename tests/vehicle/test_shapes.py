@@ -201,7 +201,7 @@ def test_looks_change_no_motion() -> None:
     plain = load("hatchback").model()
     plain.shapes.clear(), plain.turnings.clear()
     a, b = (mbs.compile(m) for m in (model, plain))
-    assert a.to_bytes(drawing=False) == b.to_bytes(drawing=False)
+    assert a.kernel_bytes() == b.kernel_bytes()
 
 
 def test_a_car_is_not_drawn_before_it_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,8 +14,8 @@ from fmu_src.build.car_registry import car_files
 from mbs import Pose, compile, simulate
 from mbs.kernel.header.enumerations import ElementType
 from mbs.vehicle import load
-from mbs.vehicle.car_file import CARS
 from mbs.vehicle.errors import CarFileError, CarWarning
+from mbs.vehicle.read_car import CARS
 from tests.vehicle.content import sentences
 
 DATA = Path(__file__).parents[1] / "tyre_files" / "data"

@@ -10,8 +10,8 @@ from typing import Any
 import tomli_w
 from platformdirs import user_config_path
 
-from ali3.errors import FileError
-from ali3.files import reason, whole_file
+from ali3.errors import FileError, reason
+from ali3.files import whole_file
 from ali3.reading import read_toml
 from ali3.words import brief
 from hosts.common.errors import HostError

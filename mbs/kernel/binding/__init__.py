@@ -1,15 +1,14 @@
 """The kernel through ctypes. This package and `header` need nothing but the standard library, so that an FMU can
 carry them.
 
-A library is loaded once per path; a `LoadedSystem` may be shared by threads, an `Instance` belongs to one at a time.
-Names and units: `include/ali3.h`.
+A library is loaded once per path; a `LoadedSystem` may be shared by threads, an `instance.Instance` belongs to one
+at a time. Names and units: `include/ali3.h`.
 """
 
 from ..header.enumerations import Doubt, Status
 from ..header.limits import FARTHEST, FASTEST, OPEN
 from ..header.structures import ControlFields, Sizes
 from .errors import KernelError, open_row
-from .instance import Instance
 from .library import library_path, load_library
 from .loaded_system import LoadedSystem
 
@@ -19,7 +18,6 @@ __all__ = [
     "OPEN",
     "ControlFields",
     "Doubt",
-    "Instance",
     "KernelError",
     "LoadedSystem",
     "Sizes",

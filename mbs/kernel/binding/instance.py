@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -12,46 +11,32 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_
 from typing import Any
 
 from ..header.enumerations import Doubt
-from ..header.limits import OPEN, POSE
+from ..header.limits import POSE
 from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
 from .buffers import buffer, numbers
-from .errors import KernelError, status_text
+from .errors import KernelError
 from .loaded_system import LoadedSystem
+from .standing_instance import StandingInstance
 
 _DOUBLES = POINTER(c_double)
 _INPUT_FUNCTION = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double, c_int32, _DOUBLES)
 
 
-class Instance:
-    """A State of a System and the work space to step it. A refused call leaves the last accepted state.
-
-    `system`: kept alive by the instance.
-    """
+class Instance(StandingInstance):
+    """A State of a System and the work space to step it."""
 
     def __init__(self, system: LoadedSystem) -> None:
-        self._handle: c_void_p | None = None
-        self.system = system
-        self._library = system._library
         self._input_error: BaseException | None = None
-        handle = c_void_p()
-        self._check(self._library.ali3_instance_new(system._handle, byref(handle)))
-        self._handle = handle
-        # Bound once: an attribute of the library costs more than the call of a small step.
+        super().__init__(system)
         self._step = self._library.ali3_step
-        self._sensors = self._library.ali3_sensors
         self._inputs: Any = None  # keeps what the kernel calls and reads
-
-    def __del__(self) -> None:
-        if self._handle is not None:
-            self._library.ali3_instance_free(self._handle)
-            self._handle = None
 
     def _check(self, status: int) -> None:
         if status:
             error, self._input_error = self._input_error, None
             if error is not None:
                 raise error
-            raise KernelError(status, status_text(self._library, status))
+        super()._check(status)
 
     def reset(self) -> None:
         """Back to the values of the System file; settings, inputs and parameters too."""
@@ -121,10 +106,6 @@ class Instance:
         self._breaks = buffer(times, len(times), "the breaks", writable=False)
         self._check(self._library.ali3_set_input_breaks(self._handle, self._breaks, len(times)))
 
-    def set_parameter(self, index: int, value: float) -> None:
-        """Value of a parameter from now on; refused outside its range, of a fixed one after the start too."""
-        self._check(self._library.ali3_set_parameter(self._handle, index, value))
-
     def get_parameter(self, index: int) -> float:
         """Present value of a parameter."""
         value = c_double()
@@ -186,10 +167,6 @@ class Instance:
         self._check(self._library.ali3_get_switch(self._handle, index, byref(on)))
         return bool(on.value)
 
-    def initialise(self, t0: float = 0.0) -> None:
-        """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
-        self._start(self._library.ali3_initialise(self._handle, t0))
-
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while all else settles; after `initialise`.
 
@@ -222,19 +199,6 @@ class Instance:
     def method_excludes(self) -> str:
         """What the method of the settings takes no System with, in words; empty if it takes all."""
         return bytes(self._library.ali3_method_excludes(self._handle)).decode()
-
-    def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
-        """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""
-        self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
-
-    def _start(self, status: int) -> None:
-        if not status:
-            return
-        report = self.report()
-        text = status_text(self._library, status)
-        if OPEN < report["violation"] < math.inf:
-            text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
-        raise KernelError(status, text)
 
     def step(self, h: float) -> None:
         """One step of `h` seconds with the inputs as they are."""
@@ -325,26 +289,12 @@ class Instance:
         """Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs."""
         self._check(self._library.ali3_refresh(self._handle))
 
-    def sensors(self) -> Any:
-        """Sensor values (ns,) at the present state, in a new C array."""
-        values = (c_double * self.system.sizes.ns)()
-        status = self._sensors(self._handle, values)
-        if status:
-            self._check(status)
-        return values
-
     def follow(self, other: Instance) -> None:
         """Take over the state of the same model without ports, and find the forces at the ports, for `sensors`.
 
         `other`: initialised; stays as it is. This System has the map of `mbs.compiler.ports.with_ports_of`.
         """
         self._check(self._library.ali3_ports_follow(self._handle, other._handle))
-
-    def report(self) -> dict[str, float | int]:
-        """Counters and residuals by field name."""
-        fields = ReportFields()
-        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
-        return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
 
     def doubt(self) -> Doubt:
         """Whether the run says that it is wrong."""
@@ -400,13 +350,6 @@ class Instance:
             yield
         finally:
             self._library.ali3_snapshot_restore(self._handle, now)
-
-    def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
-        """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""
-        sizes = self.system.sizes
-        parts = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
-        self._check(self._library.ali3_get_state(self._handle, *parts))
-        return parts[0], parts[1], parts[2], parts[3], parts[4]
 
     def evaluate(
         self, q: Sequence[float], qd: Sequence[float], y: Sequence[float] | None = None, t: float | None = None

@@ -13,7 +13,6 @@ from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 from mbs.model.ends import End, body_and_point, different
 from mbs.model.equation import Equation, GuideTerm, dot_products
-from mbs.model.flexible import FlexibleBody
 from mbs.model.joints.joint import Drawing, Joint, JointEnds
 
 ENDS = "(body, point), a point mass or a sliding point"
@@ -44,7 +43,7 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
     gap = p1 - p2
     if not any(c.terms for c in gap.components):
         raise ModelError(f"The {what} joins two points of the ground; one end must be able to move.")
-    if slide_1 is None and slide_2 is None and not isinstance(bodies[0], FlexibleBody):  # which has many nodes
+    if slide_1 is None and slide_2 is None and bodies[0].flexibility is None:  # which has many nodes
         different(*bodies, what)
     drawn = float(np.linalg.norm(gap.value(model.drawn())))
     if length is None:

@@ -9,7 +9,7 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.model import Model
+from mbs.model.model import Model
 from mbs.results.trajectory import Trajectory
 from mbs.scenes.puma.robot_data import FOREARM_EXCESS, GRAVITY, HAND_POINT, LINKS, STAGES_S, START_DEG, frames
 from mbs.settings.settings import Settings

@@ -7,9 +7,10 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from mbs.common.affine import AffineVector
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
+from mbs.model.flexible_vocabulary import FlexibleVocabulary
+from mbs.model.mechanism import Mechanism
 from mbs.model.ports import PortedBody
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -45,14 +46,14 @@ def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Itera
     return FlexibleFrame(frame, car.folder, structure, joints)
 
 
-def flexible_chassis(m: Model, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
+def flexible_chassis(m: Mechanism, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
     """Add the chassis. `fidelity`: how much of it is modelled, from QUASI_STATIC on."""
     origin = data.reference
     if fidelity is Fidelity.QUASI_STATIC:
         rigid = rigid_chassis(m, data).body
-        ports = m.ported(rigid, {name: flexible.place(name) for name in flexible.interfaces})
+        ports = FlexibleVocabulary.ported(m, rigid, {name: flexible.place(name) for name in flexible.interfaces})
         return Mount(ports, rigid, rigid, origin, _drive_axes(ports, flexible), _mean_frame(ports, flexible))
-    body = m.flexible_body("chassis", flexible.reduced(fidelity))
+    body = FlexibleVocabulary.flexible_body(m, "chassis", flexible.reduced(fidelity))
     return Mount(body, body.frame, body, origin, _drive_axes(body, flexible), _mean_frame(body, flexible))
 
 
@@ -92,7 +93,7 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     return combination(np.append(origin, 1.0)), axes, origin
 
 
-def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
+def stress_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
     """Moments and stresses at the gauges; zero for the rigid chassis, where `COMPUTED` says so."""
     note = f"; zero where {COMPUTED} is 0"
     for k, reading in enumerate(flexible.structure.readings):
@@ -100,8 +101,8 @@ def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fi
         if fidelity.rigid:
             m.sense_constant(name, 0.0, unit=unit, description=text + note, computed=False)
         elif isinstance(mount.body, PortedBody):
-            m.sense_quasi_static(
-                name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
+            FlexibleVocabulary.sense_quasi_static(
+                m, name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
             )
         else:
             body = mount.body
@@ -118,7 +119,7 @@ def amplitude_names(flexible: FlexibleFrame) -> list[str]:
     return [f"chassis.mode_{k + 1}" for k in range(flexible.drawn.n_modes)]
 
 
-def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
+def amplitude_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame) -> None:
     """Amplitudes of the modes of fidelity 3, with which `stress_scene` draws the chassis at any fidelity.
 
     A flexible chassis with other modes gives the amplitudes that are nearest in the energy norm, the quasi-static one
@@ -133,8 +134,8 @@ def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
             assert rows is not None
             m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)
         elif isinstance(body, PortedBody):
-            m.sense_quasi_static(
-                name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
+            FlexibleVocabulary.sense_quasi_static(
+                m, name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
             )
         else:
             m.sense_constant(name, 0.0, unit=unit, description=text, computed=False)

@@ -12,6 +12,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.relief_matrices import InertiaRelief
 from mbs.vehicle.chassis.frame_joints import FrameJoints
@@ -176,7 +177,7 @@ class FlexibleFrame:
         """
         return _settled(*self._with_stretch(self._amplitudes_of_displacements))
 
-    def drawn_amplitudes(self, body: ReducedBody) -> np.ndarray:
+    def drawn_amplitudes(self, body: ModalBody) -> np.ndarray:
         """Amplitudes of `drawn` per unit amplitude of another reduction of the frame, nearest in the energy norm.
 
         `body`: of this frame, with the same reference.

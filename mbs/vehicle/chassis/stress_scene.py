@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from mbs.compiler.model_to_system import to_system
+from mbs.compiler.model_to_system import compiled
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
-from mbs.model import Model
+from mbs.model.mechanism import Mechanism
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.chassis.flexible_chassis import COMPUTED, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
@@ -20,7 +20,7 @@ OVER_REST = 2.0
 """Colours end at the largest stress of the standing car times this, rounded up: kerbs and lane changes stay below."""
 
 
-def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point) -> list[dict[str, Any]]:
+def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Point) -> list[dict[str, Any]]:
     """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`.
 
     `model`: the car with fidelity `Fidelity.DYNAMIC`; `reference_point`: origin of the frame "chassis" of the scene,
@@ -46,12 +46,12 @@ def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point)
     )
 
 
-def _standing(flexible: FlexibleFrame, model: Model) -> np.ndarray:
+def _standing(flexible: FlexibleFrame, model: Mechanism) -> np.ndarray:
     """Amplitudes of the car as it stands at the start."""
-    system = to_system(model)
+    system = compiled(model)
     names = list(system.meta["coordinates"])
-    state = StandingSystem(system).state
-    return np.array([state.q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])
+    q = StandingSystem(system).q
+    return np.array([q[names.index(f"chassis.{mode}")] for mode in flexible.drawn.mode_names])
 
 
 def _rounded_up(value: float) -> float:

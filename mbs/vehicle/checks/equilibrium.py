@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mbs.compiler.model_to_system import to_system
-from mbs.model import Model
+from mbs.compiler.model_to_system import compiled
+from mbs.model.mechanism import Mechanism
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.car_content import CarContent
 
@@ -77,7 +77,7 @@ class Rest:
                 )
 
 
-def settled(model: Model, car: CarContent) -> Rest:
+def settled(model: Mechanism, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium.
 
     Raises
@@ -85,7 +85,7 @@ def settled(model: Model, car: CarContent) -> Rest:
     ModelError
         Its parts refuse a number, or it has no equilibrium.
     """
-    at_rest = StandingSystem(to_system(model)).sensors
+    at_rest = StandingSystem(compiled(model)).sensors
 
     def mean(name: str, axle: str) -> float:
         return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from mbs.common.errors import ModelError
 from mbs.elements.road import PlaneRoad
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.ends import End
+from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car import Car

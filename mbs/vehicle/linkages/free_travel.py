@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mbs.vehicle.car import Car
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.linkages.continuation import HEAVE, STEER, reached
 from mbs.vehicle.linkages.linkage import Array, Linkage, Position
 from mbs.vehicle.suspensions.curve_table import RACK
@@ -15,7 +15,7 @@ from mbs.vehicle.suspensions.curves import Curves
 FARTHEST = 0.5  # m: travel of wheels and rack that is looked at
 
 
-def notes_without_stops(car: Car) -> Iterator[str]:
+def notes_without_stops(car: CarContent) -> Iterator[str]:
     """A sentence for each axle without stops, and one for a steered knuckle without.
 
     `car`: at rest near the drawing.
@@ -24,7 +24,7 @@ def notes_without_stops(car: Car) -> Iterator[str]:
     yield from _of_the_steering(car)
 
 
-def _of_the_springs(car: Car) -> Iterator[str]:
+def _of_the_springs(car: CarContent) -> Iterator[str]:
     for name, axle in car.axles.items():
         if axle.stops is not None:
             continue
@@ -47,7 +47,7 @@ def _of_the_springs(car: Car) -> Iterator[str]:
         )
 
 
-def _of_the_steering(car: Car) -> Iterator[str]:
+def _of_the_steering(car: CarContent) -> Iterator[str]:
     stop, steering = car.front.suspension.stop_left_out, car.steering
     if not stop:
         return

@@ -6,10 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import AffineVector
-from mbs.compiler.model_to_system import to_system
-from mbs.model import Model
+from mbs.compiler.model_to_system import compiled
+from mbs.kernel.binding import LoadedSystem
+from mbs.model.mechanism import Mechanism
 from mbs.simulation.evaluator import Evaluator
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.standing_system import start
+from mbs.simulation.system_instance import SystemInstance
 
 Array = NDArray[np.float64]
 
@@ -23,11 +25,13 @@ class StandingModel:
         Rows and forces at any coordinates.
     """
 
-    def __init__(self, model: Model) -> None:
-        system = to_system(model)
+    def __init__(self, model: Mechanism) -> None:
+        system = compiled(model)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant
-        self.evaluator = Evaluator(StandingSystem(system))
+        there = SystemInstance(system, LoadedSystem(system.kernel_bytes(modes=False)), system.meta)
+        start(there.instance, system.meta)
+        self.evaluator = Evaluator(there)
 
     def linear(self, v: AffineVector) -> tuple[Array, Array]:
         """Matrix (n, nq) and constant (n,) of a point or vector over the coordinates."""

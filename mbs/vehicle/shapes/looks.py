@@ -9,9 +9,9 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.carried import Spin
+from mbs.model.mechanism import Mechanism
 from mbs.model.shapes import Owner
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -47,7 +47,7 @@ class Looks:
     steered: tuple[str, ...] = field(default=("front",))
 
     @property
-    def m(self) -> Model:
+    def m(self) -> Mechanism:
         """The model."""
         return self.b.m
 

@@ -10,11 +10,15 @@ from mbs.elements.coordinate_friction import CoordinateFriction
 from mbs.elements.input_force import InputForce
 from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
-from mbs.model import Model
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End
+from mbs.model.forces import ForceVocabulary
+from mbs.model.joint_sensors import JointSensorVocabulary
+from mbs.model.joint_vocabulary import JointVocabulary
+from mbs.model.mechanism import Mechanism
 from mbs.model.records import Guide, Input
+from mbs.model.transmission_vocabulary import TransmissionVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
@@ -129,8 +133,8 @@ class Column(RackSection, of=TorsionBar):
             unit="rad",
         )
         hands = m.shaft("hands")
-        m.gear("grip", wheel, hands, ratio=1.0)
-        m.torque_on("steering torque", hands, input=torque)
+        TransmissionVocabulary.gear(m, "grip", wheel, hands, ratio=1.0)
+        ForceVocabulary.torque_on(m, "steering torque", hands, input=torque)
         m.drive("steering angle", hands, guide, switch=True)
         b.tie(self, "by_torque", "steering angle", "on", -1.0, offset=1.0)
         # an equilibrium of a free steering wheel would be any angle at which friction holds
@@ -150,8 +154,10 @@ class Column(RackSection, of=TorsionBar):
         middle, across = (left[0], 0.0, left[2]), self.rack_mass * length**2 / 12.0
         inertia = (across, self.rack_mass * RACK_RADIUS**2, across)
         rack = m.body("rack", mass=self.rack_mass, com=middle, inertia=inertia)
-        m.prismatic("rack housing", rack, chassis, axis=LEFT, point=middle)
-        m.rack("pinion", pinion, rack, carrier=chassis, axis=LEFT, radius=per_radian, point=middle)
+        JointVocabulary.prismatic(m, "rack housing", rack, chassis, axis=LEFT, point=middle)
+        TransmissionVocabulary.rack(
+            m, "pinion", pinion, rack, carrier=chassis, axis=LEFT, radius=per_radian, point=middle
+        )
         friction = CoordinateFriction(self.rack_friction, *RACK_STICK, unit="N")
         m.add(friction.record("rack friction", pinion.affine * per_radian))
         b.tie(self, "rack_friction", "rack friction", "largest")
@@ -167,21 +173,23 @@ class Column(RackSection, of=TorsionBar):
         m.spring_damper("rack stop", *ends, stiffness=0.0, free_length=FAR, stops=stops)
         return rack
 
-    def _outputs(self, m: Model, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
+    def _outputs(self, m: Mechanism, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
         m.sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
         m.sense_coordinate(
             "steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left"
         )
 
     def _torque_outputs(
-        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
+        self, m: Mechanism, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
     ) -> Callable[[], None]:
         def add() -> None:
             (rack,) = racks
             rods = [j for j in m.joints if j.type == "distance" and j.ends is not None and rack in j.ends.bodies]
-            m.sense_joint("steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE)
+            JointSensorVocabulary.sense_joint(
+                m, "steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE
+            )
             m.sense_coordinate("steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
-            m.sense_rod_force("steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
+            JointSensorVocabulary.sense_rod_force(m, "steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
             demand_outputs(m, demand, held, 1.0)
             m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
             m.sense_element("steering_column_torque", "torsion bar", "torque", description="torque of the torsion bar")

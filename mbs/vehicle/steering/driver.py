@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.model import Model
+from mbs.model.mechanism import Mechanism
 from mbs.model.records import Guide, Input
 
 WHEEL_TORQUE = "torque of the driver's hands on the steering wheel, positive to the left"
@@ -10,7 +10,7 @@ WHEEL_SPEED = "angular velocity of the steering wheel, positive to the left"
 RACK_FORCE = "force of the tie rods on the rack, positive to the left"
 
 
-def angle_demand(m: Model, largest: float) -> Input:
+def angle_demand(m: Mechanism, largest: float) -> Input:
     """The input of the steering wheel's angle in rad. `largest`: angle at full lock, rad."""
     return m.input(
         "steering_wheel_angle_demand",
@@ -21,7 +21,7 @@ def angle_demand(m: Model, largest: float) -> Input:
     )
 
 
-def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
+def demand_outputs(m: Mechanism, demand: Input, guide: Guide, scale: float) -> None:
     """The demand as used, and what full lock takes away of both demands together.
 
     `demand`: from `angle_demand`; `guide`: that follows the demand; `scale`: radians of the steering wheel per unit of

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.elements.coordinate_friction import CoordinateFriction
-from mbs.model import Model
 from mbs.model.ends import End
 from mbs.model.joints.joint import Joint
+from mbs.model.mechanism import Mechanism
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
@@ -231,7 +231,7 @@ class PitmanArm(SteeringSection):
 
         return Steered(self.ends(b, arm, way), outputs, torque_outputs)
 
-    def _link_outputs(self, m: Model, arm: Guide, way: float) -> None:
+    def _link_outputs(self, m: Mechanism, arm: Guide, way: float) -> None:
         """Outputs for the place of the centre link."""
         turn, angles = self.turn(way), self._angles
         _, turned, rate = self.four_bar.turned(turn * angles)
@@ -252,6 +252,6 @@ class PitmanArm(SteeringSection):
             m.sense_guide(name, guide, description=what)
 
 
-def _rods(m: Model) -> list[Joint]:
+def _rods(m: Mechanism) -> list[Joint]:
     """The tie rods, left one first."""
     return [joint for joint in m.joints if joint.slide is not None]

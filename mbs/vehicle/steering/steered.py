@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from mbs.model import Model
 from mbs.model.coordinate import Coordinate
 from mbs.model.joints.joint import Joint
+from mbs.model.mechanism import Mechanism
 from mbs.model.records import Guide
 from mbs.vehicle.corner import TieRodEnd
 
@@ -29,7 +29,7 @@ class Steered:
     """Adds the travel of the rack, m, as a coordinate in the place of its ends; None: the steering has none."""
 
 
-def tie_rods(m: Model, guide: Guide) -> list[Joint]:
+def tie_rods(m: Mechanism, guide: Guide) -> list[Joint]:
     """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
 
     `m`: with the suspension.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ali3.tables import TextTable
-from mbs.model.tabled import FEWEST, UNIFORM
+from mbs.model.smooth_table import FEWEST, UNIFORM
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 

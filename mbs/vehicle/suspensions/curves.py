@@ -14,6 +14,7 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
+from mbs.model.table_vocabulary import TableVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.names import Name
@@ -211,7 +212,8 @@ class Curves(SuspensionSection):
             base, share = b.chassis.frame, 1.0
             if self.compliance is not None:
                 base, share = self.compliance.base(b, side, self.hub.centre, part)
-            carrier = b.m.tabled_body(
+            carrier = TableVocabulary.tabled_body(
+                b.m,
                 f"carrier {w}",
                 base=base,
                 parameters=over,
@@ -272,7 +274,7 @@ def _number(
     if values is None:
         return None
     axes = _axes(curves, over)
-    found = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
+    found = TableVocabulary.tabled_number(b.m, name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
     return found.affine, float(found.table.value(*[0.0] * len(over))[0])
 
 

@@ -12,7 +12,7 @@ from pythonfmu import Fmi2Slave
 
 import mbs
 from hosts.systems.coupled import INPUTS
-from mbs.vehicle.ports import chosen_ports
+from mbs.vehicle.chosen_ports import chosen_ports
 from tests.hosts.systems.controlled import CONTROLLERS, INNER, SYSTEMS, run, start_of
 from tests.hosts.systems.weak_coupling import percent
 from tests.vehicle.test_ports import rigid, with_ports

@@ -1,0 +1,80 @@
+"""A State of a System where it stands: set up, started, read."""
+
+from __future__ import annotations
+
+import math
+from ctypes import byref, c_double, c_void_p
+from typing import Any
+
+from ..header.limits import OPEN
+from ..header.structures import ReportFields
+from .errors import KernelError, status_text
+from .loaded_system import LoadedSystem
+
+
+class StandingInstance:
+    """A State of a System, for those who make no steps from its start. A refused call leaves the last accepted state.
+
+    `system`: kept alive by the instance.
+    """
+
+    def __init__(self, system: LoadedSystem) -> None:
+        self._handle: c_void_p | None = None
+        self.system = system
+        self._library = system._library
+        handle = c_void_p()
+        self._check(self._library.ali3_instance_new(system._handle, byref(handle)))
+        self._handle = handle
+        # Bound once: an attribute of the library costs more than the call of a small step.
+        self._sensors = self._library.ali3_sensors
+
+    def __del__(self) -> None:
+        if self._handle is not None:
+            self._library.ali3_instance_free(self._handle)
+            self._handle = None
+
+    def _check(self, status: int) -> None:
+        if status:
+            raise KernelError(status, status_text(self._library, status))
+
+    def set_parameter(self, index: int, value: float) -> None:
+        """Value of a parameter from now on; refused outside its range, of a fixed one after the start too."""
+        self._check(self._library.ali3_set_parameter(self._handle, index, value))
+
+    def initialise(self, t0: float = 0.0) -> None:
+        """Position and velocity problem, consistent accelerations and multipliers; the clock starts at `t0`."""
+        self._start(self._library.ali3_initialise(self._handle, t0))
+
+    def static_equilibrium(self, t0: float = 0.0, tolerance: float = 1e-6, max_iterations: int = 200) -> None:
+        """Equilibrium near the present position, out of balance by at most `tolerance` (N, N m); rates become zero."""
+        self._start(self._library.ali3_static_equilibrium(self._handle, t0, tolerance, max_iterations))
+
+    def _start(self, status: int) -> None:
+        if not status:
+            return
+        report = self.report()
+        text = status_text(self._library, status)
+        if OPEN < report["violation"] < math.inf:
+            text = f"{text[:-1]} (row {report['worst_row']} is open by {report['violation']:.3g} m)."
+        raise KernelError(status, text)
+
+    def sensors(self) -> Any:
+        """Sensor values (ns,) at the present state, in a new C array."""
+        values = (c_double * self.system.sizes.ns)()
+        status = self._sensors(self._handle, values)
+        if status:
+            self._check(status)
+        return values
+
+    def report(self) -> dict[str, float | int]:
+        """Counters and residuals by field name."""
+        fields = ReportFields()
+        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
+        return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
+        """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""
+        sizes = self.system.sizes
+        parts = tuple((c_double * n)() for n in (sizes.nq, sizes.nq, sizes.nq, sizes.nc, sizes.ny))
+        self._check(self._library.ali3_get_state(self._handle, *parts))
+        return parts[0], parts[1], parts[2], parts[3], parts[4]

@@ -1,0 +1,139 @@
+"""Flexible bodies, and rigid ones whose forces make a structure bend at once: the vocabulary."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.common.checks import array, instance_of, mapping, shown, vector, whole
+from mbs.common.errors import ModelError
+from mbs.flexible.modal_body import ModalBody
+from mbs.flexible.relief_matrices import InertiaRelief
+from mbs.kernel.header.enumerations import SensorType
+from mbs.model.bodies import ROTATION
+from mbs.model.body import Body
+from mbs.model.flexible import FlexibleBody
+from mbs.model.mechanism import Mechanism
+from mbs.model.ports import PortedBody
+from mbs.model.sensor import Sensor
+
+
+class FlexibleVocabulary(Mechanism):
+    """Bodies with nodes or ports, and what is read of a structure at ports."""
+
+    def flexible_body(
+        self: Mechanism,
+        name: str,
+        reduced: ModalBody,
+        *,
+        origin: ArrayLike = (0.0, 0.0, 0.0),
+        axes: ArrayLike | None = None,
+    ) -> FlexibleBody:
+        """A flexible body from a reduced finite-element model.
+
+        Parameters
+        ----------
+        reduced : ModalBody
+            A `ReducedBody`, for instance of `mbs.flexible.craig_bampton`.
+        origin : array_like, shape (3,)
+            Where the origin of the finite-element model is in the reference configuration, earth axes, m.
+        axes : array_like, shape (3, 3), optional
+            Columns: axes of the finite-element model in earth axes there; by default the same.
+
+        Returns
+        -------
+        FlexibleBody
+            Its nodes, `FlexibleBody.interface`, take joints, forces and sensors.
+
+        Raises
+        ------
+        ModelError
+            The model is planar, the axes are no rotation, or all mass lies on a line.
+        """
+        what = f"flexible body {shown(name)}"
+        if self.dimension != 3:
+            raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+        given: object = reduced
+        if not isinstance(given, ModalBody):
+            kind = type(given).__name__
+            raise ModelError(f"The {what} needs a ReducedBody, got {kind}: the argument reduced is {shown(given)}.")
+        place = vector(origin, 3, f"the origin of {what}")
+        R = np.eye(3) if axes is None else array(axes, (3, 3), f"The axes of {what}")
+        if not np.allclose(R @ R.T, np.eye(3), atol=ROTATION) or np.linalg.det(R) < 0.0:
+            raise ModelError(f"The axes of {what} must be the columns of a rotation matrix.")
+        new = FlexibleBody(self, self.unique("body", name), reduced, place, R, len(self.coordinates))
+        self._register(new)
+        return new
+
+    def ported(self: Mechanism, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
+        """A rigid body with ports: joints and springs given the result leave the forces there to be read.
+
+        Parameters
+        ----------
+        ports : mapping of str to array_like, shape (3,)
+            Places by name, earth axes in the reference configuration, m.
+
+        Returns
+        -------
+        PortedBody
+            To be used in place of the body.
+
+        Raises
+        ------
+        ModelError
+            The body is not rigid, or the model is planar.
+        """
+        self.owned(body, "The ports")
+        if self.dimension != 3 or body.is_ground or body.is_point or body.is_flexible:
+            raise ModelError(f"Ports belong to a rigid body in space, not to '{body.name}'.")
+        given = mapping(ports, f"The ports of body '{body.name}'", "names to places")
+        if not given:
+            raise ModelError(f"The ports of body '{body.name}' are {shown(ports)}; it needs one at least.")
+        places = {n: vector(p, 3, f"the port {shown(n)} of body '{body.name}'") for n, p in given.items()}
+        return PortedBody(self, body, places)
+
+    def sense_quasi_static(
+        self: Mechanism,
+        name: str,
+        body: PortedBody,
+        relief: InertiaRelief,
+        output: int,
+        origin: ArrayLike,
+        *,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """An output of a structure that follows the forces at the ports of a rigid body and its motion at once.
+
+        Parameters
+        ----------
+        relief : InertiaRelief
+            Interfaces in the order of the ports, axes those of the earth in the reference configuration.
+        output : int
+            Row of its matrices.
+        origin : array_like, shape (3,)
+            Its origin in the reference configuration, m.
+
+        Raises
+        ------
+        ModelError
+            The body has no ports, or the matrices have other ports or no such row.
+        """
+        what = f"sensor '{name}'"
+        if not isinstance(self.owned(body, f"The {what}"), PortedBody):
+            raise ModelError(f"The {what} needs a body with ports, not '{body.name}'.")
+        instance_of(InertiaRelief, relief, f"The relief of {what}", "an InertiaRelief")
+        n, row = len(body.ports), whole(output, f"The output of {what}", 0)
+        if relief.forces.shape[1] != 3 * n or not row < len(relief.forces):
+            raise ModelError(
+                f"The {what} needs matrices of {n} interfaces and a row of them; they have "
+                f"{relief.forces.shape[1] // 3} and {len(relief.forces)} rows, the row is {shown(output)}."
+            )
+        signals = [*body.point(origin).components, *(s for e in np.eye(3) for s in body.vector(e).components)]
+        weights = np.concatenate([relief.forces[row], relief.acceleration[row], relief.rotation[row]])
+        reals = [*self.gravity, *weights]
+        return self._sense(
+            name, unit, description, SensorType.QUASI_STATIC, signals, [n], reals, joints=list(body.ports.values())
+        )

@@ -1,0 +1,42 @@
+"""The revolute joint."""
+
+from __future__ import annotations
+
+from mbs.common.checks import direction
+from mbs.common.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.ends import PointPair, different
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, point_pair
+from mbs.model.joints.points import shared_axis, shared_point, turning_about
+
+
+def revolute(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis: PointPair | None
+) -> Joint:
+    """Shared point and, in space, shared axis: all equations are linear."""
+    what = f"revolute joint '{name}'"
+    different(body_1, body_2, what)
+    p1, p2 = point_pair(point, model.dimension, what)
+    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    if model.dimension == 3:
+        if axis is None:
+            raise ModelError(f"The {what} needs an axis in a spatial model.")
+        equations += shared_axis(model, name, body_1, body_2, axis, what)
+    elif axis is not None:
+        raise ModelError(f"The {what} has an axis; in a planar model leave it out.")
+    axes = None if axis is None else point_pair(axis, 3, what, "axis")
+    places = JointPlaces((body_1, body_2), (p1, p2), axes)
+    turning = None
+    if axes is not None:
+        a1, a2 = axes
+        turning = lambda: turning_about(body_1, p1, a1, body_2, p2, a2)  # noqa: E731
+    joint = Joint(name, "revolute", equations, rows_weight=1.0, places=places, turning=turning)
+    shared = None if axes is None else body_1.vector(direction(axes[0], 3, f"the axis of {what}"))
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
+    conditions = ("point",) if axes is None else ("point", "axis")
+    joint.drawing = Drawing(
+        (body_1, body_2), (p1, p2), axes, conditions, lambda p, u, _: revolute(model, name, body_1, body_2, p, u)
+    )
+    return joint

@@ -1,0 +1,49 @@
+"""The universal joint."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mbs.common.affine import Affine
+from mbs.common.checks import direction
+from mbs.common.errors import ModelError
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.ends import PointPair, different
+from mbs.model.equation import Equation, dot_products
+from mbs.model.joints.joint import Drawing, Joint, JointEnds, point_pair
+from mbs.model.joints.points import points_of, shared_point
+from mbs.model.turning import Turning
+
+_BIG = 1.0 - 1e-12
+
+
+def universal(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis_1: ArrayLike, axis_2: ArrayLike
+) -> Joint:
+    """Shared point, and the angle between an axis of each body stays what it is (one quadratic row)."""
+    what = f"universal joint '{name}'"
+    if model.dimension == 2:
+        raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
+    different(body_1, body_2, what)
+    p1, p2 = point_pair(point, model.dimension, what)
+    body_1, body_2 = body_1.at(p1, what), body_2.at(p2, what)
+    u1, u2 = direction(axis_1, 3, f"axis_1 of {what}"), direction(axis_2, 3, f"axis_2 of {what}")
+    cosine = float(np.dot(u1, u2))
+    if abs(cosine) > _BIG:
+        raise ModelError(f"The axes of {what} are parallel; a universal joint needs two different directions.")
+    a1, a2 = model.anchor_axis(body_1, u1, what), model.anchor_axis(body_2, u2, what)
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    equations.append(Equation(name, "axes", dot_products(a1, a2), Affine({}, -cosine)))
+    turning = lambda: Turning(points_of(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
+    joint = Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+    joint.drawing = Drawing(
+        (body_1, body_2),
+        (p1, p2),
+        (u1, u2),
+        ("point", "angle"),
+        lambda p, u, _: universal(model, name, body_1, body_2, p, *(u or (u1, u2))),
+    )
+    return joint

@@ -1,0 +1,29 @@
+"""The weld."""
+
+from __future__ import annotations
+
+from mbs.model.bodies import BodyVocabulary
+from mbs.model.body import Body
+from mbs.model.ends import different
+from mbs.model.joints.joint import Joint, JointEnds, JointPlaces
+from mbs.model.joints.points import shared_point
+from mbs.model.joints.prismatic import no_turning, same_orientation
+
+
+def weld(model: BodyVocabulary, name: str, body_1: Body, body_2: Body) -> Joint:
+    """Both bodies move as one; all equations are linear."""
+    what = f"weld '{name}'"
+    different(body_1, body_2, what)
+    point = body_2.com if body_1.is_ground or body_2.is_node else body_1.com
+    if body_1.is_point or body_2.is_point:
+        point = body_1.com if body_1.is_point else body_2.com
+        joint = Joint(name, "weld", shared_point(model, name, body_1, body_2, point, what), rows_weight=1.0)
+        joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
+        return joint
+    equations = shared_point(model, name, body_1, body_2, point, what)
+    equations += same_orientation(model, name, body_1, body_2, what)
+    places = JointPlaces((body_1, body_2), (point, point))
+    turning = lambda: no_turning(body_1, point, body_2, point)  # noqa: E731
+    joint = Joint(name, "weld", equations, rows_weight=1.0, places=places, turning=turning)
+    joint.ends = JointEnds((body_1, body_2), (body_1.point(point), body_2.point(point)))
+    return joint

@@ -1,0 +1,216 @@
+"""What every model has: the words that cars are written in, without those that few models need."""
+
+from __future__ import annotations
+
+import math
+
+from numpy.typing import ArrayLike
+
+from mbs.common.checks import not_negative, number, one_of, positive, shown
+from mbs.elements.record import ElementRecord
+from mbs.model.air import AirVocabulary
+from mbs.model.angle import relative_angle
+from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
+from mbs.model.body import Body
+from mbs.model.channel_sensors import ChannelSensorVocabulary
+from mbs.model.coordinate import Coordinate
+from mbs.model.force_sensors import ForceSensorVocabulary
+from mbs.model.guides import GuideVocabulary
+from mbs.model.inputs import new_input
+from mbs.model.link_vocabulary import LinkVocabulary
+from mbs.model.motion_sensors import MotionSensorVocabulary
+from mbs.model.orientation_sensors import OrientationSensorVocabulary
+from mbs.model.parameters import ParameterVocabulary
+from mbs.model.records import Armature, Input
+from mbs.model.road_vocabulary import RoadVocabulary
+from mbs.model.sliding_shapes import SlidingVocabulary
+from mbs.model.spin import SpinVocabulary
+from mbs.model.springs import SpringVocabulary
+
+
+class Mechanism(
+    LinkVocabulary,
+    SpringVocabulary,
+    AirVocabulary,
+    RoadVocabulary,
+    MotionSensorVocabulary,
+    OrientationSensorVocabulary,
+    ForceSensorVocabulary,
+    ChannelSensorVocabulary,
+    SlidingVocabulary,
+    SpinVocabulary,
+    GuideVocabulary,
+    ParameterVocabulary,
+):
+    """A `Model`, which describes the arguments, with the words that all cars need; `compile` takes it.
+
+    A part of a car that needs one more word calls it by its vocabulary, as ``TransmissionVocabulary.gear(m, ...)``.
+    """
+
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length)
+        self.coordinate_rates: dict[int, float] = {}
+
+    # --- coordinates ---
+    def relative_angle(
+        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
+    ) -> Coordinate:
+        """Angle of body 2 against body 1 about an axis, not wrapped, as one more coordinate.
+
+        Parameters
+        ----------
+        body_1, body_2 : Body
+            Bodies with axes, or the ground.
+        axis : array_like, shape (3,), optional
+            In space only: earth axes in the reference configuration, of any length.
+        zero : float
+            The angle in the reference configuration, rad.
+
+        Raises
+        ------
+        ModelError
+            The bodies are the same or have no axes, or the axis is missing in space or given in the plane.
+        """
+        coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
+        self._join(joint)
+        return coordinate
+
+    def armature(self, name: str, coordinate: Coordinate, *, inertia: float, ratio: float = 1.0) -> Armature:
+        """Inertia that turns with a relative angle, such as the rotor of a motor behind a gear.
+
+        Its moment on what carries it is left out: the rotor is small, or the carrier turns slowly.
+
+        Parameters
+        ----------
+        coordinate : Coordinate
+            A relative angle or a spin of this model.
+        inertia : float
+            About its own axis, kg m2; `inertia` times ``ratio**2`` is added to what the coordinate has already.
+        ratio : float
+            Its turns for one of the coordinate. A fixed parameter may write it.
+        """
+        self.owned_coordinate(coordinate, f"The armature '{name}'")
+        own = not_negative(inertia, f"The inertia of armature '{name}'")
+        turns = positive(ratio, f"The ratio of armature '{name}'")
+        new = Armature(self.unique("armature", name), coordinate.affine, own, turns)
+        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
+        self.armatures.append(new)
+        return new
+
+    def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
+        """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
+
+        What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
+        the carrier turns slowly.
+
+        Parameters
+        ----------
+        inertia : float
+            kg m2; without one something must hold or weigh it, such as a rack or a drive.
+        """
+        value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
+        index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
+        self.inertias[index] = value
+        return Coordinate(name, index, "rad")
+
+    def anti_roll_bar(
+        self,
+        name: str,
+        left: Coordinate | Body,
+        right: Coordinate | Body,
+        *,
+        stiffness: float,
+        damping: float = 0.0,
+        stiffness_factor: float = 1.0,
+        carrier: Body | None = None,
+        axis: ArrayLike | None = None,
+        free_twist: float | None = None,
+        mirrored: bool = False,
+    ) -> ElementRecord:
+        """A torsion spring between two arms; its torque on the left one is the output ``force`` of the element.
+
+        Drop links between the arms and the suspension are `distance` joints; without them the arms are those of the
+        suspension.
+
+        Parameters
+        ----------
+        left, right : Coordinate or Body
+            Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
+        stiffness, damping : float
+            N m/rad and N m s/rad of the twist.
+        stiffness_factor : float
+            Factor on the stiffness, for a parameter.
+        carrier : Body, optional
+            With arms given as bodies: what they turn on.
+        axis : array_like, shape (3,), optional
+            With arms given as bodies, in space.
+        free_twist : float, optional
+            Twist without torque, rad; by default as drawn.
+        mirrored : bool
+            The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
+
+        Raises
+        ------
+        ModelError
+            The arms are the same, a body and an angle, or a spin; or bodies are given without a carrier.
+        """
+        angles, joints = arm_angles(self, name, (left, right), carrier, axis)
+        bar = anti_roll_bar(self, name, angles, stiffness, damping, stiffness_factor, free_twist, mirrored)
+        for joint in joints:
+            self._join(joint)
+        return bar
+
+    # --- inputs, guides, parameters ---
+    def input(
+        self,
+        name: str,
+        *,
+        start: float = 0.0,
+        min: float = -math.inf,
+        max: float = math.inf,
+        unit: str = "1",
+        description: str = "",
+        whole: bool = False,
+        port: bool = False,
+    ) -> Input:
+        """A number that a host sets.
+
+        Parameters
+        ----------
+        start : float
+            Value at the start, in `unit`.
+        min, max : float
+            Limits, in `unit`; values beyond them are refused. They may be infinite.
+        unit : str
+            "1" for a pure number.
+        whole : bool
+            Whether it takes whole numbers only, such as the position of a lever: an integer of an FMU. Over time it
+            keeps a value until the next one.
+        port : bool
+            Whether another program sets it at every step: an FMU then holds its last value, with one warning, where a
+            value is not finite, and says before the first step if it was not set.
+        """
+        return new_input(self, name, start, min, max, unit, description, whole, port)
+
+    # --- what tables are functions of ---
+    def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
+        """A coordinate that tables are functions of, 0 as drawn.
+
+        What it moves gives it its inertia; something must move with it, or a drive must hold it.
+
+        Parameters
+        ----------
+        unit : {"m", "rad"}
+            A length or an angle.
+        rate : float
+            At the start, m/s or rad/s.
+        """
+        one_of(unit, ("m", "rad"), f"The unit of travel {shown(name)}")
+        start = number(rate, f"The rate of travel {shown(name)}")
+        index = self.new_coordinate(self.unique("travel", name), "angle", 0.0)
+        self.inertias[index] = 0.0
+        if start:
+            self.coordinate_rates[index] = start
+        return Coordinate(name, index, unit)

@@ -1,0 +1,129 @@
+"""What is compiled of a model: an immutable set of flat arrays with names, which one file carries to the kernel."""
+
+from __future__ import annotations
+
+import copy
+import json
+import struct
+import zlib
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mbs.common.frames import Frames
+from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS
+from mbs.kernel.header.limits import SYSTEM_VERSION
+
+MAGIC = b"ALI3SYS\n"
+VERSION = SYSTEM_VERSION
+HEADER = struct.Struct("<8sIIQII")
+ENTRY = struct.Struct("<40sIIQQ")
+INT32, FLOAT64, BYTES = 1, 2, 3
+
+FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
+"""Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
+equilibrium."""
+MODES = ("mode_cell", "mode_cell_ptr")
+
+
+class SystemFileError(ValueError):
+    """A file that is no valid System; the message says why."""
+
+
+class CompiledModel:
+    """The arrays and names of a System, without what is drawn; immutable.
+
+    Attributes
+    ----------
+    arrays : mapping of str to ndarray
+        The arrays of the System file (`docs/system_file.md`), read-only; those of the assembly modes are found when
+        they are first asked for.
+    meta : mapping
+        Names, units and the report.
+    frames : Frames or None
+        Points and axes of the bodies among the coordinates; None where the System was read from a file.
+    """
+
+    def __init__(
+        self,
+        arrays: Mapping[str, ArrayLike],
+        meta: Mapping[str, Any],
+        frames: Frames | None = None,
+        modes: Callable[[], Mapping[str, ArrayLike]] | None = None,
+    ) -> None:
+        names = set(arrays)
+        if names | OPTIONAL != FLOATS | INTEGERS:
+            wrong = sorted((names | OPTIONAL) ^ (FLOATS | INTEGERS))
+            raise SystemFileError(f"The arrays of a System are incomplete or unknown: {', '.join(wrong)}.")
+        self.arrays = Arrays(arrays, modes)
+        self.frames = frames
+        self._meta_text = json.dumps(meta, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+    @property
+    def meta(self) -> dict[str, Any]:
+        """Names, units and the report; a fresh copy."""
+        loaded: dict[str, Any] = json.loads(self._meta_text)
+        return loaded
+
+    def kernel_bytes(self, *, modes: bool = True) -> bytes:
+        """The System file without what is drawn, which the kernel does not read.
+
+        `modes`: whether with the assembly modes, by which steps are watched.
+        """
+        return self._file(modes, b"")
+
+    def _file(self, modes: bool, drawing: bytes) -> bytes:
+        items: list[tuple[str, int, bytes, int]] = []
+        for name in self.arrays:
+            values = self.arrays[name] if modes or not name.startswith("mode_") else np.zeros(0, np.int32)
+            kind = FLOAT64 if name in FLOATS else INT32
+            items.append((name, kind, values.astype(values.dtype.newbyteorder("<")).tobytes(), len(values)))
+        text = self._meta_text.encode()
+        items.append(("meta", BYTES, text, len(text)))
+        if drawing:
+            items.append(("drawing", BYTES, drawing, len(drawing)))
+        offset = HEADER.size + ENTRY.size * len(items)
+        directory, data = [], []
+        for name, kind, raw, count in items:
+            directory.append(ENTRY.pack(name.encode(), kind, 0, offset, count))
+            padded = raw + b"\0" * (-len(raw) % 8)
+            data.append(padded)
+            offset += len(padded)
+        body = b"".join([*directory, *data])
+        return HEADER.pack(MAGIC, VERSION, len(items), offset, zlib.crc32(body), 0) + body
+
+
+class Arrays(Mapping[str, NDArray[Any]]):
+    """Arrays by name, read-only; those that `modes` makes are made when they are first asked for."""
+
+    def __init__(
+        self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None
+    ) -> None:
+        self._arrays = {name: _frozen(name, arrays.get(name, ())) for name in sorted(FLOATS | INTEGERS)}
+        self._modes = modes
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if self._modes is not None and name in MODES:
+            self._arrays |= {made: _frozen(made, values) for made, values in self._modes().items()}
+            self._modes = None
+        return self._arrays[name]
+
+    def changed(self, arrays: Mapping[str, ArrayLike]) -> Arrays:
+        """A copy with other values of some."""
+        made = copy.copy(self)
+        made._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
+        return made
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+
+def _frozen(name: str, values: ArrayLike) -> NDArray[Any]:
+    found = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
+    found.setflags(write=False)
+    return found

@@ -1,0 +1,316 @@
+"""A car in a model: the content of a car file, checked, and its parts."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from ali3.words import one_line
+from mbs.common.errors import ModelError
+from mbs.elements.road import Road, RoadOfFile
+from mbs.model.carried import Spin
+from mbs.model.ends import End
+from mbs.model.mechanism import Mechanism
+from mbs.model.records import Guide
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of, stress_outputs
+from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
+from mbs.vehicle.chassis.ground_contact import ground_contact
+from mbs.vehicle.chassis.mount import rigid_chassis
+from mbs.vehicle.chassis.written import write_inertia
+from mbs.vehicle.checks.car_checks import car_faults, car_oddities
+from mbs.vehicle.checks.equilibrium import settled
+from mbs.vehicle.checks.working import working_ranges
+from mbs.vehicle.constants import vehicle_constants
+from mbs.vehicle.corner import TieRodEnd
+from mbs.vehicle.driver_inputs import driver_inputs
+from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.errors import CarFileError, CarWarning
+from mbs.vehicle.fidelity import OFFERED, Fidelity
+from mbs.vehicle.names import FORMS, NAME_WORDS
+from mbs.vehicle.outputs import (
+    chassis_outputs,
+    health_outputs,
+    lever_outputs,
+    steering_work,
+    used_inputs,
+    wheel_outputs,
+    wheel_poses,
+    work_outputs,
+)
+from mbs.vehicle.port_parts import force_ports, port_outputs, road_ports, torque_ports, wind_port
+from mbs.vehicle.road import level_within
+from mbs.vehicle.schema_version import of_this_version
+from mbs.vehicle.side import Point as Coordinates
+from mbs.vehicle.side import Side
+from mbs.vehicle.steering.steered import Steered
+
+MOST_FAULTS = 8
+
+
+M = TypeVar("M", bound=Mechanism)
+C = TypeVar("C", bound="BuiltCar")
+
+
+class BuiltCar(CarContent):
+    """A car file whose parts are added to a model; a `Car` makes the model itself."""
+
+    @cached_property
+    def flexible_frame(self) -> FlexibleFrame:
+        """The frame with its modes.
+
+        Raises
+        ------
+        ModelError
+            The car has no flexible frame, or its files do not describe one that fits the car.
+        """
+        return frame_of(self, self._builder(self.empty(Mechanism), None), self.mechanism)
+
+    @cached_property
+    def misfit(self) -> str:
+        """Why a frame with `or_rigid` does not fit the car, which is rigid then; empty where it does."""
+        if self.chassis.frame is None or not self.chassis.frame.or_rigid:
+            return ""
+        try:
+            frame = self.flexible_frame
+            if frame.section.loads is not None and self.steering.on_flexible_chassis:
+                frame.recorded_loads()
+        except ModelError as error:
+            return str(error)
+        return ""
+
+    @property
+    def has_frame(self) -> bool:
+        """Whether it has a flexible frame that fits it."""
+        return self.chassis.frame is not None and not self.misfit
+
+    def build(
+        self,
+        m: Mechanism,
+        road: Road | RoadOfFile | None = None,
+        fidelity: Fidelity = Fidelity.RIGID,
+        guide: Callable[[Mechanism], Guide] | None = None,
+    ) -> CarBuilder:
+        """Add the car to an empty model (`empty`); the arguments are those of `Car.model`."""
+        if not fidelity.rigid and not self.steering.on_flexible_chassis:
+            raise ModelError(
+                f"{self.steering.key('kind')} is '{self.steering.kind}', which needs a rigid chassis, fidelity "
+                f"{Fidelity.RIGID.value}; for fidelity {fidelity.value} take 'rack_by_angle'."
+            )
+        if not fidelity.rigid and self.misfit:
+            raise ModelError(f"The car '{self.name}' has fidelity 0 only: its frame does not fit it. {self.misfit}")
+        flexible = None if fidelity.rigid else self.flexible_frame
+        b = self._builder(m, road)
+        if road is not None:
+            from mbs.vehicle.steep_road import tell_steep_face
+
+            tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
+        with m.together():
+            self._build(b, road, flexible, fidelity, guide)
+        return b
+
+    @property
+    def offered(self) -> tuple[Fidelity, ...]:
+        """Fidelities that an FMU offers, by its parameter `fidelity`.
+
+        The rigid one alone where the car has no frame or a steering that needs a rigid chassis; no load paths where the
+        frame has no table of loads.
+        """
+        frame = self.chassis.frame
+        if frame is None or not (self.has_frame and self.steering.on_flexible_chassis):
+            return OFFERED[:1]
+        return tuple(f for f in OFFERED if f is not Fidelity.LOAD_PATHS or frame.loads is not None)
+
+    def _build(
+        self,
+        b: CarBuilder,
+        road: Road | RoadOfFile | None,
+        flexible: FlexibleFrame | None,
+        fidelity: Fidelity,
+        guide: Callable[[Mechanism], Guide] | None,
+    ) -> None:
+        """Add all parts of the car to an empty model."""
+        m = b.m
+        if flexible is None:
+            b.chassis = rigid_chassis(m, self.chassis)
+        else:
+            b.chassis = flexible_chassis(m, self.chassis, flexible, fidelity)
+        write_inertia(b, self.chassis)
+        for name, payload in self.payload.items():
+            payload.build(b, name, fidelity)
+        (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
+        spins = front | rear
+        if self.ports.torque is None:
+            self.drive.build(b, spins, neutral=guide is not None)
+        else:
+            torque_ports(b, spins, self.drive, self.ports.torque)
+        if self.ports.forces is not None:
+            force_ports(b, self, self.ports.forces)
+        self.aerodynamics.build(b, self.vehicle.reference_point, self.axles, wind_port(b))
+        works = working_ranges(self)
+        b.parameters(self.order, works)
+        frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
+        if self.ports.road is None:
+            self.road.parameters(m, road, b.road, ", ".join(frictions), works)
+        self._outputs(b, steered, spins, fidelity)
+        b.parameters(self.order, works, late=True)
+        if guide is not None:
+            m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
+        m.put_off(partial(self._draw, b, spins, fidelity))
+
+    def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
+        """Add all shapes, when somebody asks for the drawing."""
+        from mbs.vehicle.shapes.car_shapes import car_shapes
+
+        car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
+
+    def empty(self, kind: type[M]) -> M:
+        """An empty model for the car. `kind`: its class."""
+        return kind(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
+
+    def _builder(self, m: Mechanism, road: Road | RoadOfFile | None) -> CarBuilder:
+        """An empty model with road and inputs."""
+        m.floating = True
+        m.start_in_equilibrium = self.ports.tyre is None and level_within(road, self.footprint)
+        m.stop_time, m.step = 10.0, 0.002
+        inputs = driver_inputs(m, self.ports)
+        if self.ports.road is None:
+            return CarBuilder(m, m.road(road or self.road.default(), file="road.file"), inputs, self.ports)
+        if road is not None:
+            raise ModelError(f"The road of the car '{self.name}' is at ports (ports.road); it takes no other.")
+        whole_road, wheel_roads = road_ports(m, self.road)
+        return CarBuilder(m, whole_road, inputs, self.ports, wheel_roads=wheel_roads)
+
+    def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
+        """Add steering and front axle, then the rear axle."""
+        steered = self.steering.build(b, self.rack_way)
+        if not self.front.suspension.linked and steered.travel is not None:
+            b.rack = steered.travel()
+        yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
+        yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
+
+    def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
+        """The same by tables."""
+        steered = self.steering.build(b, self.rack_way)
+        if steered.travel is None:
+            raise ModelError(
+                f"{self.steering.key('kind')} is '{self.steering.kind}', {self.steering.without_travel}: the "
+                f"suspensions have no tables, fidelity {Fidelity.TABLE.value}, with it. Take "
+                "'rack_by_angle' or fidelity 0."
+            )
+        from mbs.vehicle.tabled_axle import tabled_axle
+
+        b.rack = steered.travel()
+        for name, axle in self.axles.items():
+            if axle.suspension.linked:
+                yield steered, tabled_axle(b, self, name, b.rack if name == "front" else None, self.brakes.build)
+            else:
+                yield steered, axle.build(b, name, steered.tie_rod, self.brakes.build)
+
+    @staticmethod
+    def _fixed_end(b: CarBuilder) -> TieRodEnd:
+        def end(side: Side, point: Coordinates) -> End:
+            return b.chassis.body, point
+
+        return end
+
+    def _outputs(self, b: CarBuilder, steered: Steered, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
+        m = b.m
+        chassis_outputs(b, self)
+        steered.outputs()
+        if self.ports.torque is None:
+            self.drive.outputs(b)
+        used_inputs(b)
+        for name, spin in spins.items():
+            wheel_outputs(b, spin, name)
+        health_outputs(m)
+        if self.has_frame:
+            stress_outputs(m, b.chassis, self.flexible_frame, fidelity)
+        if self.chassis.ground_contact is not None:
+            ground_contact(
+                b, self.chassis.ground_contact, self.vehicle.mass, lambda: self.flexible_frame.structure.joints
+            )
+        work_outputs(m)
+        vehicle_constants(m, self)
+        steered.torque_outputs()
+        for name, spin in spins.items():
+            wheel_poses(b, spin, name)
+        lever_outputs(b)
+        if self.ports.any:
+            port_outputs(b, self, spins)
+        steering_work(m, self.ports)
+        text = "work of elements that are not the car's since the start, without what is stored"
+        m.book_of_added = "energy.added", text
+
+
+def checked_car(
+    kind: type[C], data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False
+) -> C:
+    """The car that the content of a file describes.
+
+    `kind`: class of the car; `folder`: where its tables lie; `at_rest`: whether the car must be seen to come to rest;
+    `warn`: whether to warn of what is odd.
+
+    Raises
+    ------
+    CarFileError
+        It does not describe a car.
+    """
+    data, converted = of_this_version(data, what)
+    try:
+        car = kind.model_validate(data)
+    except ValidationError as error:
+        from ali3.typed_sentences import Sentences
+
+        raise CarFileError(_told(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
+    car.locate("")
+    car._folder = folder
+    car._data = dict(data)
+    try:
+        for axle in (car.front, car.rear):
+            axle.open(folder)
+    except CarFileError as error:
+        raise CarFileError(_told(what, [str(error)])) from None
+    faults = car_faults(car)
+    if faults:
+        raise CarFileError(_told(what, faults))
+    if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
+        own = {name: kind for name, kind in data["ports"].items() if name != "tyre"}
+        checked_car(kind, {**data, "ports": own}, folder, what, warn=warn)
+        return car
+    if not at_rest:
+        return car
+    if car.has_frame:
+        try:
+            frame = car.flexible_frame
+            if Fidelity.LOAD_PATHS in car.offered:
+                frame.recorded_loads()
+        except ModelError as error:
+            raise CarFileError(_told(what, [str(error)])) from error
+    try:
+        model = car.build(car.empty(Mechanism)).m
+        model.look()
+        rest = settled(model, car)
+    except ValueError as error:
+        raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
+    faults = list(rest.faults(car))
+    if faults:
+        raise CarFileError(_told(what, faults))
+    if warn:
+        misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
+        for sentence in (*converted, *misfit, *car_oddities(car, rest)):
+            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=4)
+    return car
+
+
+def _told(what: str, faults: Sequence[str]) -> str:
+    told = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
+    if len(faults) > MOST_FAULTS:
+        told.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
+    return "\n".join(told)
