@@ -33,18 +33,18 @@ def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Itera
     """
     target = Path(os.path.realpath(file))  # a link stays a link
     _check_file(file, target)
-    if target.exists() and not target.is_file():
-        yield target
-        return
     folder = ""
     try:
+        if target.exists() and not target.is_file():
+            yield target
+            return
         if make_parents:
             make_folder(target.parent)
         folder = tempfile.mkdtemp(prefix=WRITING, dir=target.parent)
         made = Path(folder, target.name)
         yield made
         made.replace(target)
-    except FileError:
+    except (FileError, BrokenPipeError):
         raise
     except OSError as error:
         raise FileError(f"{file} cannot be written: {reason(error)}.") from error

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,13 +23,13 @@ SUFFIXES = (".toml", ".csv", ".ini")
 _KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
 
 
-def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
+def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     """Read a manoeuvre by name or path.
 
     `manoeuvre`: name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has
     ``stop_time`` in s, ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time``
     and each input, ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to
-    begin with: ``file`` beside it, ``time``.
+    begin with: ``file`` beside it, ``time``. `stop_time`: in place of its own, s.
 
     Raises
     ------
@@ -53,6 +54,8 @@ def read_manoeuvre(manoeuvre: str) -> Manoeuvre:
         from hosts.driving.manoeuvre_table import read_table
 
         made = read_table(path)
+    if stop_time is not None:
+        return replace(made, stop_time=stop_time)
     if not made.stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")
     return made

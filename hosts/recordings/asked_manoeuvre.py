@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from hosts.driving.manoeuvre import Manoeuvre
@@ -19,8 +17,7 @@ def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) 
     if given is not None:
         from hosts.recordings.load_manoeuvre import load_manoeuvre
 
-        manoeuvre = load_manoeuvre(given)
-        return manoeuvre if stop_time is None else replace(manoeuvre, stop_time=stop_time)
+        return load_manoeuvre(given, stop_time)
     if stop_time is None:
         experiment = fmu.description.defaultExperiment
         stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0

@@ -78,7 +78,7 @@ def _path(drive: RecordedDrive) -> list[_Row]:
                 path.append(_Row(time, count, epoch, held, True))
                 continue
             epoch_before = epoch
-            start, back_to = drive.restart(epoch), drive.back_to(epoch)
+            start, back_to = drive.beginning(epoch)
             if start is None:
                 while path and back_to is not None and not back_to.fits(path[-1].count, path[-1].epoch):
                     path.pop()

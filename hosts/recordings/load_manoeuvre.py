@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from hosts.driving.manoeuvre import Manoeuvre
@@ -9,10 +10,10 @@ from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.recordings.format import is_recording
 
 
-def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
+def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     """Read a manoeuvre by name or path; a folder that holds a recording of the simulator is its last drive.
 
-    `manoeuvre`: see `hosts.driving.manoeuvre_file.read_manoeuvre`.
+    `manoeuvre`: see `hosts.driving.manoeuvre_file.read_manoeuvre`; `stop_time`: in place of its own, s.
 
     Raises
     ------
@@ -20,7 +21,8 @@ def load_manoeuvre(manoeuvre: str) -> Manoeuvre:
         With the line and the reason.
     """
     if not is_recording(Path(manoeuvre)):
-        return read_manoeuvre(manoeuvre)
+        return read_manoeuvre(manoeuvre, stop_time)
     from hosts.recordings.last_drive import recorded_manoeuvre
 
-    return recorded_manoeuvre(Path(manoeuvre))
+    made = recorded_manoeuvre(Path(manoeuvre))
+    return made if stop_time is None else replace(made, stop_time=stop_time)

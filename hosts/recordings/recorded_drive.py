@@ -145,6 +145,13 @@ class RecordedDrive:
         """The rows of `shown` together."""
         return joined(list(self.shown(every)), len(self.names))
 
+    def beginning(self, epoch: int) -> tuple[dict[str, Value] | None, RowKey | None]:
+        """Start values of an epoch, or the row it goes back to; `HostError` where its event is not there."""
+        found = self.restart(epoch), self.back_to(epoch)
+        if found == (None, None):
+            raise HostError(f"{self.folder}: epoch {epoch} begins with neither a start nor a state that was recorded.")
+        return found
+
     def restart(self, epoch: int) -> dict[str, Value] | None:
         """Start values of the FMU if it starts again with this epoch, else None."""
         if epoch == self.first_epoch:
@@ -203,7 +210,11 @@ def read_recording(folder: Path) -> RecordedDrive:
     if len(every) != len(meta["columns"]) or not isinstance(names, list) or not all(isinstance(n, str) for n in names):
         raise HostError(f"{file} does not say by 'every' and 'left_out' what of the columns is recorded.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
-    return RecordedDrive(folder, meta, _events(folder / EVENTS), notes)
+    events = _events(folder / EVENTS)
+    count = meta.get("events", len(events))  # versions before do not say
+    if meta.get("closed") and count != len(events):
+        notes.append(f"{folder / EVENTS} has {len(events)} of {brief(count)} events: it was cut or altered.")
+    return RecordedDrive(folder, meta, events, notes)
 
 
 def _events(file: Path) -> list[dict[str, Any]]:

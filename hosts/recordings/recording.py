@@ -165,7 +165,7 @@ class Recorder(Closing):
         self._table: Table = (CsvTable if table == "csv" else ParquetTable)(folder, self._names, units)
         self._events = (folder / EVENTS).open("x", encoding="utf-8")
         self._held: list[tuple[float, int, int, ArrayLike]] = []
-        self._written, self._wrote = 0, clock.monotonic()
+        self._written, self._told, self._wrote = 0, 0, clock.monotonic()
         self._closed = False
         self._describe()
 
@@ -198,6 +198,7 @@ class Recorder(Closing):
         record = {"time": time, "kind": kind, "text": text, "epoch": epoch, **details}
         self._events.write(json.dumps(record, ensure_ascii=False, default=_plain) + "\n")
         self._events.flush()
+        self._told += 1
 
     def state(self, content: bytes, count: int | None = None, epoch: int = 0) -> None:
         """Record a state.
@@ -236,7 +237,7 @@ class Recorder(Closing):
         self._describe()
 
     def _describe(self) -> None:
-        meta = self._meta | {"closed": self._closed, "rows": self._written}
+        meta = self._meta | {"closed": self._closed, "rows": self._written, "events": self._told}
         write_text(self.folder / DESCRIPTION, json.dumps(meta, indent=1, ensure_ascii=False, default=_plain) + "\n")
 
 

@@ -130,7 +130,7 @@ class Repeater(Closing):
     def _begin(self, epoch: int, time: float) -> None:
         """Start the FMU or restore its state, as this epoch began."""
         first = self._epoch == -1
-        start, back_to = self.drive.restart(epoch), self.drive.back_to(epoch)
+        start, back_to = self.drive.beginning(epoch)
         if not first and start is None:
             if back_to not in self._states:
                 raise HostError(

@@ -19,6 +19,8 @@ CLOSED = 1e-11
 """Violation, m, at which an assembly counts as closed."""
 OPEN = 1e-8
 """Violation, m, above which it is refused."""
+LEAST = 1e-3
+"""Of |Phi_q|: where a row hardly moves, its violation is no distance."""
 ITERATIONS = 60
 REGULARISATION = 1e-11
 """Of the multipliers, against rows scaled to Phi_q M^-1 Phi_q' = 1: lets redundant rows pass."""
@@ -53,36 +55,38 @@ def close_position(
     q: Array,
     guides: Array,
     joint_gaps: Callable[[Array], Mapping[str, float]],
+    fine: float,
 ) -> Array:
     """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
-    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` reports it for the eliminated joints.
+    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` reports it for the eliminated joints; `fine`:
+    factor of the tolerances, `fineness` of the model.
     """
     if arrays.nc == 0:
         return q
     metric = (positive_metric(mass) + stiffness).tocsr()
-    open_now, best, step = _violation(arrays, q, guides)[0], q, 1.0
+    open_now, best, step = _violation(arrays, q, guides, fine)[0], q, 1.0
     for _ in range(ITERATIONS):
-        if np.max(open_now) <= CLOSED:
+        if np.max(open_now) <= CLOSED * fine:
             return best
         phi, Phiq, _ = arrays.evaluate(best, guides)
         lu, factor = solver(metric, Phiq)
         move = lu.solve(np.concatenate([np.zeros(arrays.nq), -phi * factor]))[: arrays.nq]  # type: ignore[attr-defined]
         while step > 1e-3:
             candidate = best + step * move
-            trial = _violation(arrays, candidate, guides)[0]
+            trial = _violation(arrays, candidate, guides, fine)[0]
             if np.linalg.norm(trial) < np.linalg.norm(open_now):
                 break
             step *= 0.5
         else:
             break
         best, open_now, step = candidate, trial, min(1.0, 2.0 * step)
-    if np.max(open_now) <= OPEN:
+    if np.max(open_now) <= OPEN * fine:
         return best
     gaps = dict(joint_gaps(best))
     for row, value in zip(rows, open_now, strict=True):
         if row.joint >= 0:
             gaps[row.name] = max(gaps.get(row.name, 0.0), float(value))
-    largest = max([OPEN, *gaps.values()])
+    largest = max([OPEN * fine, *gaps.values()])
     listed = sorted((item for item in gaps.items() if item[1] > 0.01 * largest), key=lambda item: -item[1])[:6]
     raise ModelError(
         "The assembly cannot be closed; open stay the joints "
@@ -91,11 +95,11 @@ def close_position(
     )
 
 
-def _violation(arrays: RowArrays, q: Array, guides: Array) -> tuple[Array, sparse.csr_matrix]:
+def _violation(arrays: RowArrays, q: Array, guides: Array, fine: float) -> tuple[Array, sparse.csr_matrix]:
     """|Phi| / |Phi_q| per row, about metres."""
     phi, Phiq, _ = arrays.evaluate(q, guides)
     size = np.sqrt(np.asarray(Phiq.multiply(Phiq).sum(axis=1)).ravel())
-    return np.abs(phi) / np.maximum(size, 1e-3), Phiq
+    return np.abs(phi) / np.maximum(size, LEAST * fine), Phiq
 
 
 def start_velocity(

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.linalg import qr
 
 from mbs.common.errors import ModelError
+from mbs.compiler.extent import fineness
 from mbs.compiler.polynomial import Monomial, RowTerms
 
 DEPENDENT = 1e-7
@@ -20,37 +21,44 @@ DEPENDENT = 1e-7
 leaves remainders that are no conditions of their own.
 """
 CONTRADICTION = 1e-9
-"""Relative size of the constant that dependent rows may leave."""
+"""Constant that dependent rows may leave, m or m2; in a model below 1 m in parts of its length or of the square."""
+ROUND_OFF = 1e-13
+"""Of constants, in parts of the largest that cancel."""
 OWNED = 1e-3
 """A row owns a monomial if no other row has it and its coefficient is this part of the row's largest."""
 CONSTANT: Monomial = (-1, -1)
 
 
-def independent_rows(rows: list[RowTerms], joints: Mapping[str, Sequence[str]]) -> tuple[list[RowTerms], int]:
+def independent_rows(
+    rows: list[RowTerms], joints: Mapping[str, Sequence[str]], length: float
+) -> tuple[list[RowTerms], int]:
     """The rows without those that follow from others, in the same order, and the number removed.
 
-    `joints` are the names of the joints at each body, for the message where rows contradict each other.
+    `joints` are the names of the joints at each body, for the message where rows contradict each other; `length`:
+    of the model, m.
     """
+    unit = fineness(length)
+    by_degree = (1.0, unit, unit * unit)  # else what is linear beside squares vanishes in a small model
     chosen: set[int] = set()
     normal: dict[int, dict[Monomial, float]] = {}
     for i, row in enumerate(rows):
         if not row.plain:
             chosen.add(i)  # angle and guide rows bring a variable of their own, switched rows are on or off
             continue
-        size = max((abs(v) for m, v in row.main.items() if m != CONSTANT), default=0.0)
+        main = {(i, j): v * by_degree[(i >= 0) + (j >= 0)] for (i, j), v in row.main.items()}
+        size = max((abs(v) for m, v in main.items() if m != CONSTANT), default=0.0)
         if size == 0.0:
-            _must_vanish([row], row.main.get(CONSTANT, 0.0), joints)
+            least = CONTRADICTION * min(1.0, length**2) + ROUND_OFF * length**2
+            _must_vanish([row], row.main.get(CONSTANT, 0.0), joints, least)
             continue
-        normal[i] = {m: v / size for m, v in row.main.items()}
+        normal[i] = {m: v / size for m, v in main.items()}
     remaining = _peel(normal, chosen)
     for group in _groups(remaining, normal):
-        chosen.update(_independent(group, normal, rows, joints))
+        chosen.update(_independent(group, normal, rows, joints, length))
     return [row for i, row in enumerate(rows) if i in chosen], len(rows) - len(chosen)
 
 
-def _must_vanish(
-    rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]], least: float = CONTRADICTION
-) -> None:
+def _must_vanish(rows: list[RowTerms], constant: float, joints: Mapping[str, Sequence[str]], least: float) -> None:
     if abs(constant) <= least:
         return
     bodies = sorted({r.name for r in rows if r.joint < 0})
@@ -119,8 +127,11 @@ def _independent(
     normal: dict[int, dict[Monomial, float]],
     rows: list[RowTerms],
     joints: Mapping[str, Sequence[str]],
+    length: float,
 ) -> list[int]:
     """Independent rows of a connected group by a rank-revealing factorization; scaling prefers shorter rows."""
+    degree = 2 if any(j >= 0 for i in group for _, j in normal[i]) else 1
+    unit = fineness(length) ** degree
     monomials = sorted({m for i in group for m in normal[i] if m != CONSTANT})
     column = {m: k for k, m in enumerate(monomials)}
     A = np.zeros((len(group), len(monomials)))
@@ -142,5 +153,7 @@ def _independent(
         parts = [rows[group[c]] for c, w in zip(chosen, weights, strict=True) if abs(w) > 1e-6]
         remainder = float(np.linalg.norm(A[k] - weights @ A[chosen]))
         constant = float(constants[k] - weights @ constants[chosen])
-        _must_vanish([rows[group[k]], *parts], constant, joints, CONTRADICTION + 10.0 * remainder)
+        least = (CONTRADICTION + 10.0 * remainder) * min(1.0, length**degree)
+        least += ROUND_OFF * (length**2 + unit * float(np.max(np.abs(constants))))
+        _must_vanish([rows[group[k]], *parts], unit * constant, joints, least)
     return [group[k] for k in chosen]

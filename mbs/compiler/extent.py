@@ -10,6 +10,8 @@ from mbs.model.mechanism import Mechanism
 
 SPIN = 0.1
 """Radius of a wheel in parts of the length: its spin has no lever of its own."""
+SMALL = 1e-3
+"""Length of a model, m, below which tolerances of the compiler are those of this length in parts of it."""
 
 
 def model_length(model: Mechanism) -> float:
@@ -24,6 +26,11 @@ def model_length(model: Mechanism) -> float:
     widest = max((2.0 * _gyration(body) for body in model.bodies), default=0.0)
     found = max(extent, widest)
     return found if found > 0.0 else 1.0
+
+
+def fineness(length: float) -> float:
+    """Factor of tolerances in m for a model of this length, m; of those in m2 its square."""
+    return min(1.0, length / SMALL)
 
 
 def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> list[float]:

@@ -16,7 +16,7 @@ from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
-from mbs.compiler.extent import coordinate_lengths, model_length, unit_vectors
+from mbs.compiler.extent import coordinate_lengths, fineness, model_length, unit_vectors
 from mbs.compiler.flexible import (
     deformation_metric,
     flexible_arrays,
@@ -105,7 +105,8 @@ def compiled(
     known = tell_apart(model, remaining, full, of_z, left)
     remaining, full, of_z, left = known.remaining, known.full, known.of_z, known.left
     nz = len(remaining)
-    candidates = [row_terms(e, j, k, known.seen) for j, k, e in others]
+    length = model_length(model)
+    candidates = [row_terms(e, j, k, known.seen, length) for j, k, e in others]
     for row in candidates:
         if row.columns() and row.columns()[-1] >= nz:
             raise refuse_joint(row.name)
@@ -114,7 +115,7 @@ def compiled(
         row.switch = -1 if switch is None else switch.index
     candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
-    rows, dependent = independent_rows(candidates, joints_of_bodies(model))
+    rows, dependent = independent_rows(candidates, joints_of_bodies(model), length)
     if not remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
@@ -136,14 +137,16 @@ def compiled(
     shape = start if len(placing) == len(holding) else RowArrays(placing, new)
     stiffness = deformation_metric(model, full, new)
     drawn = reference_position(model, natural, remaining, T, z0, M_full)[order]
-    q = close_position(placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0))
+    q = close_position(
+        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fineness(length)
+    )
     qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
     _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
     rank = rank_at(Phiq, mass.diagonal())
     _, Phiq, _ = arrays.evaluate(q, guides)
     carried = (T.multiply(T).T @ carried_mass(model))[order]
-    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried))
+    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(length))
     arrays.scale(scale)
 
     gravity = full_gravity(model)
@@ -198,7 +201,6 @@ def compiled(
     }
     frames = frames_of(model, T[:, order], z0)
     info = [natural.info[remaining[k]] for k in order]
-    length = model_length(model)
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [remaining[k] for k in order]), length)
     report["length"], report["length_stated"] = length, model.length is not None
     meta = metadata(model, [c.name for c in info], rows, report, lengths)

@@ -92,16 +92,24 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine) -> None:
             into[m] = into.get(m, 0.0) + factor * u * v
 
 
-def cleaned(p: Polynomial) -> Polynomial:
-    """Without coefficients that are round-off of the largest."""
+def cleaned(p: Polynomial, size: float = 1.0) -> Polynomial:
+    """Without coefficients that are round-off of the largest, for coordinates of 1 m and for those of `size`, m.
+
+    Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
+    """
     if not p:
         return p
-    least = DROP * max(abs(v) for v in p.values())
-    return {m: v for m, v in p.items() if abs(v) > least}
+    kept: set[Monomial] = set()
+    for unit in {1.0, size}:
+        by_degree = (1.0, unit, unit * unit)
+        sizes = {m: abs(v) * by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
+        least = DROP * max(sizes.values())
+        kept.update(m for m, v in sizes.items() if v > least)
+    return {m: v for m, v in p.items() if m in kept}
 
 
-def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine]) -> Polynomial:
-    """The polynomial of a sum of products and a linear part."""
+def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float) -> Polynomial:
+    """The polynomial of a sum of products and a linear part; `size`: of the model, m."""
     p: Polynomial = {}
     cache: dict[int, Affine] = {}
 
@@ -114,7 +122,7 @@ def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine]) 
     for factor, a, b in products:
         add_product(p, factor, of_z(a), of_z(b))
     add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0))
-    return cleaned(p)
+    return cleaned(p, size)
 
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
@@ -129,14 +137,14 @@ def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTer
     return {m: v for m, v in found.items() if abs(v) > least}
 
 
-def row_terms(equation: Equation, joint: int, part: int, full: Sequence[Affine]) -> RowTerms:
-    """An equation of a joint as a row over z."""
-    row = RowTerms(equation.name, equation.kind, joint, part, expand(equation.products, equation.linear, full))
+def row_terms(equation: Equation, joint: int, part: int, full: Sequence[Affine], size: float) -> RowTerms:
+    """An equation of a joint as a row over z; `size`: of the model, m."""
+    row = RowTerms(equation.name, equation.kind, joint, part, expand(equation.products, equation.linear, full, size))
     if equation.angle is not None:
         theta = substitute(Affine({equation.angle.theta: 1.0}), full)
         row.theta = next(iter(theta.terms))  # angle coordinates are never eliminated
-        row.cosine = expand(equation.angle.cosine, Affine(), full)
-        row.sine = expand(equation.angle.sine, Affine(), full)
+        row.cosine = expand(equation.angle.cosine, Affine(), full, size)
+        row.sine = expand(equation.angle.sine, Affine(), full, size)
     row.rates = expand_rates(equation.rates, full)
-    row.guides = [(g.guide, g.power, expand(g.products, g.linear, full)) for g in equation.guides]
+    row.guides = [(g.guide, g.power, expand(g.products, g.linear, full, size)) for g in equation.guides]
     return row

@@ -14,8 +14,8 @@ from mbs.compiler.polynomial import RowTerms
 Array = NDArray[np.float64]
 
 
-def row_scale(rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, diagonal: Array) -> tuple[Array, Array]:
-    """`row_scale` and `row_measure` of the System file."""
+def row_scale(rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, diagonal: Array, fine: float) -> tuple[Array, Array]:
+    """`row_scale` and `row_measure` of the System file; `fine`: `fineness` of the model."""
     inverse = np.where(diagonal > 0.0, 1.0 / np.where(diagonal > 0.0, diagonal, 1.0), 0.0)
     squared = Phiq.multiply(Phiq).tocsr()
     by_mass = np.asarray(squared @ inverse).ravel()
@@ -26,8 +26,8 @@ def row_scale(rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, diagonal: Array
         raise ModelError(
             f"The condition of {names} does not move with any coordinate at the start; change the drawing there."
         )
-    # a row over coordinates without mass is scaled as if they had the mean mass
-    mean = float(np.mean(diagonal[diagonal > 0.0]))
+    # a row over coordinates without mass, which are angles, is scaled as if they had the mean mass at a lever
+    mean = fine**2 * float(np.mean(diagonal[diagonal > 0.0]))
     by_mass = np.where(by_mass > 0.0, by_mass, length**2 / mean)
     scale = 1.0 / np.sqrt(by_mass)
     return scale, 1.0 / (length * scale)

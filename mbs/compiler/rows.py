@@ -65,7 +65,7 @@ def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
             for x, y in zip(v_i.components, v_j.components, strict=True):
                 add_product(p, 1.0, x, y)
             p[(-1, -1)] = p.get((-1, -1), 0.0) - float(np.dot(w_i, w_j))
-            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p)))
+            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p, body_length(body))))
     return rows
 
 

@@ -18,6 +18,8 @@ from mbs.common.later import Later
 from mbs.model.coordinate import Coordinate, CoordinateInfo
 
 T = TypeVar("T")
+TIME = "time"
+"""First column of tables of runs, and a variable of FMI 3.0."""
 
 
 def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
@@ -149,9 +151,11 @@ class Register:
         Raises
         ------
         ModelError
-            The name is empty, cannot be written to a file, or is taken.
+            The name is empty, cannot be written to a file, is that of the time, or is taken.
         """
         key = family, named(name, f"a {family}")
+        if name == TIME and family in ("sensor", "input", "parameter", "constant"):
+            raise ModelError(f"The name of a {family} is '{TIME}', which tables of runs and FMUs have for their time.")
         if key in self._names:
             raise ModelError(f"The model '{self.name}' already has a {family} named '{name}'; names must be unique.")
         self._names.add(key)

@@ -6,7 +6,7 @@ import os
 import threading
 import time
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -251,6 +251,7 @@ def simulate_many(
             f"The method of runs that advance together is {settings.method!r}; it must be {METHOD!r}. "
             "Take simulate for other methods."
         )
+    instance_of(Iterable, variants, "The variants", "a list of Variant(...)")
     variants = [_checked(k, v) for k, v in enumerate(variants)]
     check_record(max(1, len(variants)) * (steps // every + 1), len(prepared(system)[1]["sensors"]))
     width = _width(lanes, len(variants))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -27,6 +27,13 @@ class SystemInstance:
     def __init__(self, system: CompiledModel, loaded: LoadedSystem, meta: dict[str, Any]) -> None:
         self.system, self._meta = system, meta
         self.instance = Instance(loaded)
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        # a copy would move the same instance of the kernel
+        raise TypeError(
+            f"A {type(self).__name__} cannot be copied or pickled, its state is in the kernel; make another one of the "
+            "System and let it restore() what save() gave."
+        )
 
     @property
     def time(self) -> float:

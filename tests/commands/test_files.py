@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import mbs
-from ali3.files import FileError, check_writable, whole_file
+from ali3.files import FileError, check_writable, whole_file, write_text
 from ali3.folders import whole_folder
 from ali3.locks import locked
 from fmu_src.native.archive import write_zip
@@ -115,6 +115,12 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(tmp_path: Path) -> None:
     assert done.stderr == ""
     assert file.read_text() == "old"
     assert names(tmp_path) == ["Some.fmu"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device of Linux")
+def test_a_device_that_is_full_is_named() -> None:
+    with pytest.raises(FileError, match=r"^/dev/full cannot be written: no space left on device\.$"):
+        write_text("/dev/full", "x")
 
 
 def test_two_writers_of_one_archive_do_not_meet(tmp_path: Path) -> None:

@@ -51,7 +51,7 @@ def test_a_remainder_of_rounded_numbers_is_no_condition_of_its_own(size, left):
     one, two = {(0, 0): 1.0, (1, 1): 1.0, (-1, -1): -1.0}, {(0, 0): 1.0, (1, 1): -0.5, (-1, -1): -0.5}
     both = {m: one[m] + two[m] for m in one} | {(2, 2): 2.0 * size}
     rows = [RowTerms(f"row {k}", "distance", k, 0, main) for k, main in enumerate((one, two, both))]
-    kept, removed = independent_rows(rows, {})
+    kept, removed = independent_rows(rows, {}, 1.0)
     assert (len(kept), removed) == (left, 3 - left)
 
 

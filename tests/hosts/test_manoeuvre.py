@@ -342,3 +342,11 @@ def test_a_drive_by_what_squares_to_no_number_is_refused(tmp_path: Path) -> None
 def test_values_whose_difference_is_no_number_go_straight_too() -> None:
     manoeuvre = Manoeuvre("far", np.array([0.0, 1.0]), {"force": np.array([1e308, -1e308])}, 1.0)
     assert [manoeuvre.at(t)["force"] for t in (0.0, 0.25, 1.0)] == [1e308, pytest.approx(5e307), -1e308]
+
+
+def test_a_stop_time_that_is_asked_for_is_that_of_a_table_without_one(tmp_path: Path) -> None:
+    file = tmp_path / "one.csv"
+    file.write_text("time,steering\n0,0.1\n")
+    with pytest.raises(HostError, match="does not say how long it lasts"):
+        read_manoeuvre(str(file))
+    assert read_manoeuvre(str(file), 0.3).stop_time == 0.3

@@ -302,3 +302,16 @@ class TestConstants:
         m.constant("taken", 1.0)
         with pytest.raises(ModelError, match=sentence):
             m.constant(name, value)
+
+
+def test_the_name_of_the_time_is_taken():
+    """Tables of runs have it as their first column, an FMU as its independent variable."""
+    m = Model("named", dimension=2)
+    ball = m.point_mass("time", mass=1.0, position=(0.0, 0.0))
+    for claim in (
+        lambda: m.sense_position("time", ball, None, "x"),
+        lambda: m.input("time"),
+        lambda: m.constant("time", 1.0),
+    ):
+        with pytest.raises(ModelError, match="is 'time', which tables of runs and FMUs have"):
+            claim()

@@ -131,6 +131,8 @@ def test_bad_arguments_are_refused(arguments: dict[str, object], words: str) -> 
 def test_a_variant_is_a_variant() -> None:
     with pytest.raises(ArgumentTypeError, match=r"Variant 0 .* a Variant"):
         simulate_many(system(), [{}], 1.0, 0.01)  # type: ignore[list-item]
+    with pytest.raises(ArgumentTypeError, match=r"The variants must be a list of Variant"):
+        simulate_many(system(), None, 1.0, 0.01)  # type: ignore[arg-type]
 
 
 def test_a_value_with_which_no_car_works_is_told_with_the_number_of_its_variant() -> None:

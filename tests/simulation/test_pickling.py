@@ -3,12 +3,13 @@
 import copy
 import multiprocessing
 import pickle
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pytest
 
-from mbs import Pose, System, Trajectory, compile, simulate
+from mbs import Pose, Simulation, System, Trajectory, compile, simulate
 from mbs.vehicle import load
 
 RUN = (0.2, 0.005, {"steering": 0.3, "throttle": 0.5})
@@ -52,3 +53,17 @@ def test_what_a_run_leaves_out_is_pickled_where_it_was_read(car: System) -> None
     np.testing.assert_array_equal(again["stress.SG1"], stress)
     np.testing.assert_array_equal(again.thinned(4)["stress.SG1"], stress[::4])
     assert np.ptp(stress) > 1e4
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_a_simulation_is_no_value(car: System, copied: Callable[[Simulation], object]) -> None:
+    """A copy moved the original with it; what the message says instead gives the same bits."""
+    one = Simulation(car)
+    one.step(0.005)
+    with pytest.raises(TypeError, match=r"restore\(\) what save\(\) gave"):
+        copied(one)
+    other = Simulation(car)
+    other.restore(one.save())
+    one.step(0.005)
+    other.step(0.005)
+    assert other.sensors == one.sensors

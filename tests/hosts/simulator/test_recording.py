@@ -69,8 +69,11 @@ def test_rewinds_and_starts_are_not_guessed(fmus: dict[str, Path], tmp_path: Pat
     assert changed(2, back_to_epoch=2) > 0
     assert changed(6, start={"initial.speed": 6.0}) == 68
     (folder / "events.jsonl").write_text("\n".join([*lines[:1], *lines[2:], ""]))
-    with pytest.raises(HostError, match="epoch 2 begins with neither a start nor a state"):
-        replay(read_recording(folder))
+    cut = read_recording(folder)
+    assert "events.jsonl has 8 of 9 events" in " ".join(cut.notes)
+    for use in (replay, last_drive):
+        with pytest.raises(HostError, match="epoch 2 begins with neither a start nor a state"):
+            use(cut)
 
 
 @pytest.mark.slow

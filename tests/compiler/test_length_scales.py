@@ -1,0 +1,109 @@
+"""A mechanism is the same at every size: no tolerance of the compiler is a length of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.interpolate import PPoly
+from scipy.special import ellipk
+
+from mbs import Model, ModelError, compile, simulate
+
+SIZES = [1e-9, 1e-7, 1e-6, 1.0, 1e3, 1e5]
+SWING = 0.5
+"""Half of the swing of the pendulum, rad."""
+
+
+def pendulum(size):
+    """A rod of `size`, m, and the period of its swing, s."""
+    m = Model("pendulum")
+    com = (size * np.sin(SWING), 0.0, -size * np.cos(SWING))
+    rod = m.body("rod", mass=1.0, com=com, inertia=3 * (0.1 * size**2,))
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    m.sense_position("x", rod, com, "x")
+    return m, 4.0 * np.sqrt(1.1 * size / 9.81) * ellipk(np.sin(SWING / 2.0) ** 2)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_period_of_a_pendulum_is_that_of_the_closed_form(size):
+    model, period = pendulum(size)
+    system = compile(model)
+    for run in (simulate(system, 3.0 * period, tolerance=1e-6), simulate(system, 3.0 * period, period / 2000.0)):
+        assert run["x"][-1] / size == pytest.approx(np.sin(SWING), abs=1e-7)
+        assert np.ptp(run["x"]) / size == pytest.approx(2.0 * np.sin(SWING), abs=1e-4)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_body_without_joints_precesses(size):
+    """A symmetric top without forces: its axis turns about the angular momentum at L / I."""
+    m = Model("top", gravity=(0.0, 0.0, 0.0), length=size)
+    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=size**2 * np.array([0.1, 0.1, 0.2]))
+    m.initial_velocity(body, angular=(0.5, 0.0, 3.0))
+    m.sense_position("x", body, (0.0, 0.0, size), "x")
+    momentum = np.hypot(0.5, 2.0 * 3.0)
+    run = simulate(compile(m), 2.0 * np.pi / momentum, tolerance=1e-6)
+    assert run["x"][-1] / size == pytest.approx(0.0, abs=1e-6)
+    assert np.max(run["x"]) / size == pytest.approx(np.sin(2.0 * np.arctan2(0.5, 6.0)), rel=1e-3)
+
+
+def rods(size, ratio):
+    """Two rods between the same points, the second `ratio` times as long."""
+    m = Model("rods", dimension=2)
+    body = m.body("body", mass=1.0, com=(0.5 * size, 0.0), inertia=0.1 * size**2)
+    for name, length in (("one", 2.0), ("two", 2.0 * ratio)):
+        m.distance(name, (body, (size, 0.0)), (m.ground, (3.0 * size, 0.0)), length=length * size)
+    return m
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_rods_of_other_lengths_contradict_each_other(size):
+    assert compile(rods(size, 1.0)).report["dependent_rows"] == 1
+    with pytest.raises(ModelError, match="'one', 'two' contradict each other"):
+        compile(rods(size, 1.001))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_loop_that_does_not_close_is_refused(size):
+    m = Model("loop", dimension=2)
+    body = m.body("body", mass=1.0, com=(0.5 * size, 0.0), inertia=0.1 * size**2)
+    m.revolute("pin", m.ground, body, point=(0.0, 0.0))
+    m.distance("rod", (body, (size, 0.0)), (m.ground, (3.0 * size, 0.0)), length=1.999 * size)
+    with pytest.raises(ModelError, match="cannot be closed|contradict each other"):
+        compile(m)
+
+
+@pytest.mark.parametrize("size", [size for size in SIZES if size < 1e5])
+def test_the_torque_of_a_drive_and_the_speed_of_a_gear_are_those_of_the_closed_form(size):
+    """Angles have no mass: the penalty of what joins them alone is that of a lever."""
+    duration = np.sqrt(size)
+    m = Model("drive", dimension=2, gravity=(0.0, 0.0))
+    rod = m.body("rod", mass=1.0, com=(size, 0.0), inertia=0.1 * size**2)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    turn = PPoly(np.array([[0.5 / size], [0.0], [0.0]]), [0.0, duration])
+    drive = m.drive("drive", m.relative_angle("angle", m.ground, rod), m.guide_time("turn", turn, unit="rad"))
+    m.sense_joint("torque", drive, "drive")
+    run = simulate(compile(m), duration, duration / 1000.0)
+    assert run["torque"][1:-1] == pytest.approx(1.1 * size, rel=5e-3, abs=0.0)
+
+    m = Model("gear", gravity=(0.0, 0.0, 0.0))
+    wheels = []
+    for name, x, inertia in (("input", 0.0, 0.01), ("output", 0.3 * size, 0.09)):
+        wheel = m.body(name, mass=1.0, com=(x, 0.0, 0.0), inertia=3 * (inertia * size**2,))
+        m.revolute(f"bearing {name}", m.ground, wheel, point=(x, 0.0, 0.0), axis=(0.0, 0.0, 1.0))
+        wheels.append(m.relative_angle(f"angle {name}", m.ground, wheel, axis=(0.0, 0.0, 1.0)))
+    m.gear("mesh", *wheels, ratio=-3.0)
+    m.torque_on("motor", wheels[0], input=m.input("torque", start=0.2 * size))
+    m.sense_coordinate("speed", wheels[0], order=1)
+    run = simulate(compile(m), duration, duration / 1000.0)
+    assert run["speed"][-1] == pytest.approx(0.2 * size / (0.02 * size**2) * duration, rel=1e-3)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_slide_that_swings_has_two_freedoms(size):
+    """Its condition is linear in positions and quadratic in axes: in a small model it was taken for round-off."""
+    m = Model("slide")
+    arm = m.body("arm", mass=1.0, com=(0.0, 0.0, -0.5 * size), inertia=size**2 * np.array([0.1, 0.1, 0.02]))
+    block = m.body("block", mass=0.5, com=(0.0, 0.1 * size, -size), inertia=size**2 * np.array([0.02, 0.02, 0.01]))
+    m.revolute("pin", m.ground, arm, point=(0.0, 0.0, 0.0), axis=(1.0, 0.2, 0.0))
+    m.prismatic("slide", arm, block, axis=(0.0, 0.0, 1.0))
+    assert compile(m).report["degrees_of_freedom"] == 2
