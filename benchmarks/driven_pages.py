@@ -38,10 +38,8 @@ LIVE = "({ factor: player.factor, moved: player.session.pace.slow, cost: player.
 def pictures(page: Any, seconds: float) -> dict[str, float]:
     """Drive curves to the left and to the right by keys, and count.
 
-    Returns
-    -------
-    dict
-        `median`, `worst`: pictures in a second; `longest_ms`: between two pictures; `calls`, `triangles`: of the last.
+    Result: `median`, `worst`: pictures in a second; `longest_ms`: between two pictures; `calls`, `triangles`: of the
+    last.
     """
     for k in range(round(SETTLING + seconds)):
         if k == SETTLING:

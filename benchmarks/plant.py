@@ -69,10 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
     """Rows of an environment, which is made with `options`.
 
-    Raises
-    ------
-    RuntimeError
-        Environments on threads are not, to the last bit, those one after the other.
+    Raises `RuntimeError`: environments on threads are not, to the last bit, those one after the other.
     """
     single = gymnasium.make(f"ali3/{name}-v0", disable_env_checker=True, **options)
     plain = single.unwrapped

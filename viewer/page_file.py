@@ -95,10 +95,7 @@ def page_html(
 def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
     """Recordings as a page carries them.
 
-    Raises
-    ------
-    ViewerError
-        There is none, or something else stands in their place.
+    Raises `ViewerError`: there is none, or something else stands in their place.
     """
     return [recording.thinned(most) for recording in _listed(recordings)]
 

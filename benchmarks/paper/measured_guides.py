@@ -172,10 +172,8 @@ _LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is cut o
 def moments(run: Trajectory) -> Array:
     """Changes of the moments at the four gauges since the start, after the low-pass, N m.
 
-    Returns
-    -------
-    ndarray of shape (n, 4)
-        Without the last tenth of a second, where the low-pass has one side of the noise alone.
+    Returns an array of shape (n, 4): without the last tenth of a second, where the low-pass has one side of the noise
+    alone.
     """
     h = float(run.t[1] - run.t[0])
     changes = np.stack([low_pass(run[name] - run[name][0], h, FREQUENCY) for name in MOMENTS], axis=1)

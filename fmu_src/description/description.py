@@ -96,12 +96,8 @@ def number(value: float) -> str:
 def model_description(head: Description, table: Sequence[Variable], reach: Dependencies) -> bytes:
     """Write the document.
 
-    `head`: attributes and default experiment; `table`: all variables; the place is the value reference.
-
-    Returns
-    -------
-    bytes
-        UTF-8, the same for the same arguments.
+    `head`: attributes and default experiment; `table`: all variables; the place is the value reference. Result: UTF-8,
+    the same for the same arguments.
     """
     own = {"fmiVersion": "2.0", "modelName": head.model_name, "guid": head.guid}
     root = ElementTree.Element("fmiModelDescription", {**own, **about(head), "numberOfEventIndicators": "0"})

@@ -51,10 +51,7 @@ def with_nominal(
 def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dict[int, float]:
     """Largest absolute values of sensors in a drive of each System, by their places in the table.
 
-    Returns
-    -------
-    dict of int to float
-        After each step, up to where a drive is refused.
+    Result: after each step, up to where a drive is refused.
     """
     sensed = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
     moved = [v for v in table if v.source == "input" and not v.whole]

@@ -36,13 +36,7 @@ class SteeringInput:
 
     @classmethod
     def of(cls, facts: CarFacts) -> SteeringInput:
-        """The best of the inputs of a car.
-
-        Raises
-        ------
-        HostError
-            If the car has no input to steer it.
-        """
+        """The best of the inputs of a car. Raises `HostError` if the car has no input to steer it."""
         full = abs(facts.constants.get(LARGEST, math.nan))
         limit = full if full > 0.0 else math.inf
         for name in (DEMAND, ANGLE):

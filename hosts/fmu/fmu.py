@@ -45,13 +45,7 @@ class StartRefusedError(HostError):
 
 
 def described(path: Path) -> ModelDescription:
-    """The description of an FMU of any version that FMPy reads.
-
-    Raises
-    ------
-    HostError
-        It is no FMU that can be read.
-    """
+    """The description of an FMU of any version that FMPy reads. Raises `HostError`: it is no FMU that can be read."""
     return _read(path)[0]
 
 

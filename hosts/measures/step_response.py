@@ -70,12 +70,8 @@ def step_response(
     """Measures of the response of one quantity.
 
     `time`, `values`: shape (n,); `reference`: reference time, s; `before`, `steady`: beginning and end of the windows
-    before the step and of the steady state, s.
-
-    Returns
-    -------
-    StepResponse
-        All NaN where the record ends before the steady window, or the quantity does not change.
+    before the step and of the steady state, s. Result: all NaN where the record ends before the steady window, or the
+    quantity does not change.
 
     Notes
     -----

@@ -175,10 +175,7 @@ class RecordedDrive:
 def read_recording(folder: Path) -> RecordedDrive:
     """Read a recording; its rows are read when they are asked for. `folder`: or its file `recording.json`.
 
-    Raises
-    ------
-    HostError
-        It is no recording; one sentence with the file and the reason.
+    Raises `HostError`: it is no recording; one sentence with the file and the reason.
     """
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION

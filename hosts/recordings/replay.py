@@ -170,12 +170,8 @@ def replay(
 ) -> Replayed:
     """Repeat a recording and compare all outputs bit for bit.
 
-    `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done.
-
-    Raises
-    ------
-    HostError
-        The FMU cannot repeat it at all; see `Repeater`.
+    `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done. Raises `HostError`:
+    the FMU cannot repeat it at all; see `Repeater`.
     """
     made = Replayed()
     outputs = drive.names[len(drive.inputs) :]

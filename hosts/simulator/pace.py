@@ -74,10 +74,7 @@ class Pace:
     def done(self) -> str:
         """The step has been made: count it, and set when the next begins.
 
-        Returns
-        -------
-        str
-            What is to be said of a car that does not keep up; mostly empty.
+        Returns what is to be said of a car that does not keep up; mostly empty.
         """
         now, times, period = self._clock.now(), self._times, self.period
         self.cost = now - self._began

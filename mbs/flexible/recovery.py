@@ -212,12 +212,8 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
     """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
-    `forces`: of `section_force_field`, shape (12 n_elements,).
-
-    Returns
-    -------
-    ndarray, shape (n_elements, 2)
-        At the start and at the end of each element.
+    `forces`: of `section_force_field`, shape (12 n_elements,). Returns an array of shape (n_elements, 2): at the start
+    and at the end of each element.
     """
     f = np.asarray(forces).reshape(len(frame.beams), 2, 6)
     area = np.array([b.section.area for b in frame.beams])[:, None]

@@ -55,10 +55,7 @@ def points_of_box(
 ) -> tuple[Values, Values]:
     """Coordinates x (nx,) and y (ny,) of a grid from border to border of a box, not farther apart than the spacing.
 
-    Raises
-    ------
-    RoadFileError
-        The grid has too many points, with a spacing that would do; `more` is added to the message.
+    Raises `RoadFileError`: the grid has too many points, with a spacing that would do; `more` is added to the message.
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0

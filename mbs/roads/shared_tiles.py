@@ -189,18 +189,13 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Numbers and values of tiles.
 
-    `file`: open; `name`: what errors call it.
+    `file`: open; `name`: what errors call it. Raises `RoadFileError`: a part is damaged.
 
     Yields
     ------
     int
         Number of the tile.
     ndarray, shape (maps, 32, 32)
-
-    Raises
-    ------
-    RoadFileError
-        A part is damaged.
     """
     file.seek(HEADER.size)
     count = head.tiles[0] * head.tiles[1]

@@ -51,10 +51,7 @@ class Follower:
     def values(self, instance: Instance) -> list[float]:
         """Of the sensors that the System leaves out, at the state of its instance, which stays.
 
-        Raises
-        ------
-        SimulationError
-            The forces at the ports cannot be found.
+        Raises `SimulationError`: the forces at the ports cannot be found.
         """
         try:
             self._instance.follow(instance)

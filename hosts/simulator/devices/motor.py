@@ -48,10 +48,7 @@ class Motor:
     def push(self, level: int) -> None:
         """A constant force. `level`: from -32767 to 32767, positive to the left.
 
-        Raises
-        ------
-        HostError
-            The device refuses it.
+        Raises `HostError`: the device refuses it.
         """
         if self._levels.get("constant") == level:
             return
@@ -61,12 +58,8 @@ class Motor:
     def condition(self, kind: str, share: float) -> bool:
         """A damper or a spring to the middle; False where the device has no such.
 
-        `kind`: ``damper`` or ``spring``; `share`: from 0 to 1 of the largest.
-
-        Raises
-        ------
-        HostError
-            The device refuses it.
+        `kind`: ``damper`` or ``spring``; `share`: from 0 to 1 of the largest. Raises `HostError`: the device refuses
+        it.
         """
         number = getattr(self._sdl, _CONDITIONS[kind])
         if not self._can & number:
