@@ -27,16 +27,10 @@ COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
 def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:
     """Point and normal that answer for a wheel near an edge, which is `edge` high.
 
-    Parameters
-    ----------
-    kind : str
-        `HEIGHT`: level, as high as the road below the contact; `DEEPER`: the edge, with the normal towards the centre
-        of the wheel, or level ground, whichever the wheel is deeper in; `SUM`: the plane whose depth along its normal
-        is the sum of both depths along theirs.
-    edge, radius, contact_x : float
-        m.
-    centre : (3,) ndarray
-        Of the wheel, earth axes, m.
+    `kind`: `HEIGHT`: level, as high as the road below the contact; `DEEPER`: the edge, with the normal towards the
+    centre of the wheel, or level ground, whichever the wheel is deeper in; `SUM`: the plane whose depth along its
+    normal is the sum of both depths along theirs; `edge`, `radius`, `contact_x`: in m; `centre`: of the wheel, earth
+    axes, m.
     """
     if kind == HEIGHT:
         return (contact_x, float(centre[1]), edge if contact_x >= EDGE else 0.0, *UP)

@@ -26,12 +26,8 @@ _CLOCK = "async (job) => (await import('/clock.js')).clock((await import('/fmu.j
 def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Measure], dict[str, str]]:
     """The hosts by name, and their versions; what is not installed is said and left out.
 
-    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes what has to be closed.
-
-    Returns
-    -------
-    hosts : dict
-        Functions that take a plan as `clock.js` does and return what it returns.
+    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes what has to be closed. Returns `hosts`:
+    functions that take a plan as `clock.js` does and return what it returns.
     """
     fmpy.extract(str(fmu), unzipdir=str(folder))
     versions = {"native": "zig cc -O3, baseline of the processor family (x86-64: SSE2)"}

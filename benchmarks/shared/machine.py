@@ -37,12 +37,8 @@ def describe(
 ) -> dict[str, Any]:
     """The `meta` part of a JSON file: what was measured, when, where and how.
 
-    Parameters
-    ----------
-    repeats, warm_up : int
-        Measured runs of a figure, and unmeasured ones before them.
-    **more
-        Anything else a reader must know; JSON values.
+    `repeats`, `warm_up`: measured runs of a figure, and unmeasured ones before them; `**more`: anything else a reader
+    must know; JSON values.
     """
     meta: dict[str, Any] = {"benchmark": benchmark, "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     meta |= {"machine": machine(), "repeats": repeats, "warm_up": warm_up}

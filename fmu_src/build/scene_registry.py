@@ -61,14 +61,8 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
 
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
-    default of its argument `fidelity`. (The function may still be called `variants`, until the next release.)
-
-    Parameters
-    ----------
-    scene : str
-        As for `load_scene`.
-    poses : {"wheels", "all"} or None
-        As `fmu_src.geometry.posed.posed_systems` takes it.
+    default of its argument `fidelity`. (The function may still be called `variants`, until the next release.) `scene`:
+    as for `load_scene`; `poses`: as `fmu_src.geometry.posed.posed_systems` takes it.
 
     Returns
     -------

@@ -30,10 +30,8 @@ def with_nominal(
 ) -> tuple[Variable, ...]:
     """Real outputs get a typical size: the power of ten below the largest value, for wheels and sides the same.
 
-    Parameters
-    ----------
-    driven, tried : mapping of int to float
-        Largest values by the places of outputs: of a drive, and of trials for those that a drive does not move.
+    `driven`, `tried`: largest values by the places of outputs: of a drive, and of trials for those that a drive does
+    not move.
     """
     sizes = {i: driven[i] if driven.get(i, 0.0) > _ROUND_OFF else size for i, size in tried.items()}
     group = [_SIDE.sub("*", v.name) for v in table]

@@ -79,9 +79,7 @@ class RecordedDrive:
     def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
         """Which values of rows are recorded. `epoch_before`: of the row before the first of these; None: there is none.
 
-        Returns
-        -------
-        ndarray of shape (n, len(names))
+        Returns an array of shape (n, len(names)).
         """
         begins = np.diff(rows.epoch, prepend=-1 if epoch_before is None else epoch_before) != 0
         return recorded(rows.steps, begins, self.every)

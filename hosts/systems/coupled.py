@@ -179,11 +179,7 @@ class CoupledFmus(Closing):
 
         `duration`: a whole number of communication steps, s; `names`: what is read at each communication point; `act`:
         called before each step, to set inputs of parts. Raises `hosts.fmu.fmu.StepRefusedError` or `HostError` as of
-        `step`; or the time is no whole number of steps.
-
-        Returns
-        -------
-        ndarray of shape (steps + 1, len(names))
+        `step`; or the time is no whole number of steps. Returns an array of shape (steps + 1, len(names)).
         """
         steps = duration / self.step_length if is_finite(duration) else np.nan
         if not (0.0 <= steps < np.inf and abs(steps - round(steps)) < 1e-6 * max(steps, 1.0)):

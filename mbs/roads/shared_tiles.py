@@ -121,11 +121,7 @@ def _whole(values: Float) -> Float:
 def polynomial_values(c: Float) -> Float:
     """Heights of the points of a tile by its coefficients, in the order of the kernel: the same bits.
 
-    `c`: shape (rows, columns).
-
-    Returns
-    -------
-    ndarray, shape (32, 32)
+    `c`: shape (rows, columns). Returns an array of shape (32, 32).
     """
     z = np.zeros((ROAD_TILE, ROAD_TILE))
     for a in range(c.shape[0] - 1, -1, -1):

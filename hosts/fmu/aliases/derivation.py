@@ -39,11 +39,7 @@ class Derivation:
     def record(self, time: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
         """Of a whole run; rates are central differences.
 
-        `time`: s, shape (n,); `values`: shape (n, number of names).
-
-        Returns
-        -------
-        ndarray of shape (n, m)
+        `time`: s, shape (n,); `values`: shape (n, number of names). Returns an array of shape (n, m).
         """
         t = np.asarray(time, np.float64)
         columns: list[NDArray[np.float64]] = list(np.asarray(values, np.float64).T)
@@ -55,11 +51,8 @@ class Derivation:
     def live(self, time: float, values: ArrayLike) -> NDArray[np.float64]:
         """Of one row while a car is driven; rates are those of the last three rows, NaN in the first.
 
-        `time`: s; with an earlier one than before the past is forgotten; `values`: shape (number of names,).
-
-        Returns
-        -------
-        ndarray of shape (m,)
+        `time`: s; with an earlier one than before the past is forgotten; `values`: shape (number of names,). Returns an
+        array of shape (m,).
         """
         if self._past and time < self._past[-1][0]:
             self._past.clear()
