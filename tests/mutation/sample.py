@@ -59,10 +59,7 @@ class Sampled:
     def find(self, root: Path = ROOT) -> tuple[Path, int]:
         """The file that has the line now, and where in its text without spaces.
 
-        Raises
-        ------
-        ValueError
-            If no place, or more than one, is alike enough.
+        Raises `ValueError` if no place, or more than one, is alike enough.
         """
         home = root / self.file
         places = {(home, k): points for k, points in self._places(home, root).items()} if home.is_file() else {}
@@ -92,13 +89,7 @@ class Sampled:
         return points
 
     def apply(self, root: Path = ROOT) -> tuple[Path, str]:
-        """The file below `root` that the mutant means now, and its changed content.
-
-        Raises
-        ------
-        ValueError
-            As `find`.
-        """
+        """The file below `root` that the mutant means now, and its changed content. Raises `ValueError` as `find`."""
         path, place = self.find(root)
         text = path.read_text(encoding="utf-8")
         old, new = (re.findall(r"\s+|\w+|\W", part) for part in (self.line, self.changed))
@@ -142,12 +133,8 @@ def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
     """Mutants by chance, the same for the same seed and tree.
 
     A room is a folder. Its share grows with the root of its size, so that small rooms are drawn too; so does the share
-    of an operator in a file.
-
-    Returns
-    -------
-    list of iterators
-        One for each mutant; the next of an iterator stands in for one that does not compile.
+    of an operator in a file. Returns one for each mutant; the next of an iterator stands in for one that does not
+    compile.
     """
     _changes.cache_clear()
     rooms: dict[Path, list[Path]] = {}

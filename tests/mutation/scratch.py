@@ -97,10 +97,7 @@ def _kernel_build(root: Path) -> Any:
 def compiles(root: Path, changed: Path) -> None:
     """Make what a changed file is a part of: the kernel, an object of the FMU, the page.
 
-    Raises
-    ------
-    RuntimeError
-        With the words of the compiler.
+    Raises `RuntimeError` with the words of the compiler.
     """
     build = _kernel_build(root)
     if changed.suffix == ".js":

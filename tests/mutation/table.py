@@ -46,10 +46,7 @@ class Mutant:
     def apply(self, root: Path = ROOT) -> tuple[Path, str]:
         """The file below `root` that the row means, and its changed content.
 
-        Raises
-        ------
-        ValueError
-            Where the text is not there exactly once.
+        Raises `ValueError` where the text is not there exactly once.
         """
         found = [(path, path.read_text(encoding="utf-8")) for path in files_named(self.file, root)]
         count = sum(content.count(self.original) for _, content in found)
@@ -77,13 +74,7 @@ def _sources(root: Path) -> dict[str, list[Path]]:
 
 
 def read_table(path: Path) -> list[Mutant]:
-    """The rows of a table.
-
-    Raises
-    ------
-    ValueError
-        With the line that cannot be read.
-    """
+    """The rows of a table. Raises `ValueError` with the line that cannot be read."""
     file, tests, original, rows = "", (), None, []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         mark, text = line[:1], line[1:].strip()
