@@ -17,19 +17,13 @@ from viewer.recording import MOST_TIMES, Recording
 
 
 class WrittenPage(NamedTuple):
-    """A page that was written.
-
-    Parameters
-    ----------
-    size : int
-        Bytes.
-    notes : list of str
-        Sentences: thinning, gaps, what is not drawn. They stand in the page too.
-    """
+    """A page that was written."""
 
     path: Path
     size: int
+    """Bytes."""
     notes: list[str]
+    """Sentences: thinning, gaps, what is not drawn. They stand in the page too."""
 
 
 def write_page(

@@ -11,15 +11,10 @@ from viewer.errors import ViewerError
 
 
 class Option(NamedTuple):
-    """An option of the player.
-
-    Parameters
-    ----------
-    good : callable
-        Whether a value is one.
-    """
+    """An option of the player."""
 
     good: Callable[[Any], bool]
+    """Whether a value is one."""
     words: str
     text: str
 

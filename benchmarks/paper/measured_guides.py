@@ -52,22 +52,17 @@ class Signals:
 
 @dataclass(frozen=True)
 class Motion:
-    """Motion of the chassis by double integration; a rate of each stands beside it.
-
-    Attributes
-    ----------
-    time, way, speed, heave, pitch : ndarray, shape (n,)
-        s; m, m/s along the axis of the chassis; m upwards; rad, positive with the nose down.
-    guide : PPoly
-        The way, whose acceleration is straight from sample to sample.
-    """
+    """Motion of the chassis by double integration; a rate of each stands beside it."""
 
     time: Array
     way: Array
     speed: Array
     heave: Array
     pitch: Array
+    """`time`, `way`, `speed`, `heave`, `pitch`: in s; m, m/s along the axis of the chassis; m upwards; rad, positive
+    with the nose down, shape (n,)."""
     guide: PPoly
+    """The way, whose acceleration is straight from sample to sample."""
 
 
 def smooth() -> Trajectory:

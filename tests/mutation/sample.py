@@ -25,32 +25,22 @@ ENOUGH = 2  # points of `Sampled.find`: a line that is short may stand elsewhere
 
 @dataclass(frozen=True)
 class Sampled:
-    """A mutant that was drawn.
-
-    Attributes
-    ----------
-    file : str
-        Path from the root, when it was drawn.
-    function : str
-        Classes and functions around it, with points between.
-    operator : str
-        Kind of the error.
-    before, after : str
-        The nearest lines that are not empty.
-    line, changed : str
-        The lines that change, and what they become.
-    killed_by : str
-        The test that failed, as pytest names it; empty if none did.
-    """
+    """A mutant that was drawn."""
 
     file: str
+    """Path from the root, when it was drawn."""
     function: str
+    """Classes and functions around it, with points between."""
     operator: str
+    """Kind of the error."""
     before: str
     line: str
     changed: str
+    """`line`, `changed`: the lines that change, and what they become."""
     after: str
+    """`before`, `after`: the nearest lines that are not empty."""
     killed_by: str = ""
+    """The test that failed, as pytest names it; empty if none did."""
 
     def __str__(self) -> str:
         line, changed = (" ".join(text.split()) for text in (self.line, self.changed))

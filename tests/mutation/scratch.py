@@ -44,23 +44,17 @@ class Applied(Protocol):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What tests say of a copy.
-
-    Attributes
-    ----------
-    outcome, why : str
-        One of the four words, and the reason in one line.
-    test : str
-        The test that failed, or that was running at the end; empty where all passed.
-    seconds, last : float
-        CPU time of all, and of the test that was running at the limit, with the processes that they started.
-    """
+    """What tests say of a copy."""
 
     outcome: str
     why: str
+    """`outcome`, `why`: one of the four words, and the reason in one line."""
     test: str = ""
+    """The test that failed, or that was running at the end; empty where all passed."""
     seconds: float = 0.0
     last: float = 0.0
+    """`seconds`, `last`: CPU time of all, and of the test that was running at the limit, with the processes that they
+    started."""
 
 
 class _Notes:

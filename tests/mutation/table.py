@@ -23,22 +23,15 @@ SUFFIXES = (".c", ".h", ".js", ".py")
 
 @dataclass(frozen=True)
 class Mutant:
-    """One row of a table.
-
-    Attributes
-    ----------
-    file : str
-        End of the path of the file.
-    original, changed : str
-        The text and what replaces it.
-    tests : tuple of str
-        Test files, from the root of the project.
-    """
+    """One row of a table."""
 
     file: str
+    """End of the path of the file."""
     original: str
     changed: str
+    """`original`, `changed`: the text and what replaces it."""
     tests: tuple[str, ...]
+    """Test files, from the root of the project."""
 
     def __str__(self) -> str:
         return f"{self.file}: {self.original} -> {self.changed or '(nothing)'}"
