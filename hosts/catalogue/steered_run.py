@@ -37,14 +37,8 @@ class SteeredPilot:
     """Holds the speed until the car runs steadily, then steers by a table.
 
     `speed`: when the steering begins, m/s; `time`, `angle`: s from the beginning, and angle of the steering wheel, rad;
-    linear in between, shape (n,); `longest`: time the car has to come to its speed, s.
-
-    Attributes
-    ----------
-    begin : float
-        When the steering began, s; NaN while it has not.
-    gave_up : bool
-        Whether the car did not come to its speed.
+    linear in between, shape (n,); `longest`: time the car has to come to its speed, s. `begin`: when the steering
+    began, s; NaN while it has not; `gave_up`: whether the car did not come to its speed.
     """
 
     def __init__(

@@ -57,12 +57,8 @@ class Replayed:
 class Repeater(Closing):
     """An FMU that follows a recording row by row.
 
-    `fmu`: by default the one that was recorded.
-
-    Raises
-    ------
-    HostError
-        The FMU is not there, lacks a variable, or cannot restore states and the recording has one.
+    `fmu`: by default the one that was recorded. Raises `HostError`: the FMU is not there, lacks a variable, or cannot
+    restore states and the recording has one.
     """
 
     def __init__(self, drive: RecordedDrive, fmu: Path | None = None) -> None:

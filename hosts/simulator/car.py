@@ -34,19 +34,8 @@ _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 class Car(Closing):
     """An FMU that runs in a process of its own; it begins paused, at time 0.
 
-    Attributes
-    ----------
-    names : tuple of str
-        Inputs, then outputs, real and whole ones.
-    units : dict of str to str
-        Of the names.
-    step : float
-        s.
-
-    Raises
-    ------
-    HostError
-        The FMU cannot be started; later, by every method, that the process has ended unasked.
+    `names`: inputs, then outputs, real and whole ones; `units`: of the names; `step`: in s. Raises `HostError`: the FMU
+    cannot be started; later, by every method, that the process has ended unasked.
     """
 
     def __init__(self, settings: CarSettings) -> None:

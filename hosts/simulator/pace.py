@@ -23,15 +23,8 @@ class Pace:
     is moved to now; the deadlines in between count as missed and the time as lost.
 
     `step`: communication step, s; `paced`: without, a step begins as soon as the one before is done, and none is late.
-
-    Attributes
-    ----------
-    speed : float
-        Simulated over wall seconds that are asked for.
-    lateness, cost : float
-        Of the last step, s.
-    behind : bool
-        Whether the car is late now or was within the last second.
+    `speed`: simulated over wall seconds that are asked for; `lateness`, `cost`: of the last step, s; `behind`: whether
+    the car is late now or was within the last second.
     """
 
     def __init__(self, clock: Clock, step: float, times: TimesRecord, paced: bool = True) -> None:

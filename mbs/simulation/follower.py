@@ -33,12 +33,7 @@ def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
 class Follower:
     """The model with ports that follows a simulation.
 
-    `asked`: name of a sensor that it is for.
-
-    Raises
-    ------
-    KeyError
-        There is none; the sentence names the sensor.
+    `asked`: name of a sensor that it is for. Raises `KeyError`: there is none; the sentence names the sensor.
     """
 
     def __init__(self, system: System, asked: str = "") -> None:

@@ -14,12 +14,7 @@ from mbs.system.system import System
 class SystemInstance:
     """An instance of the kernel, and what is read of it wherever it stands.
 
-    Parameters
-    ----------
-    loaded : LoadedSystem
-        The System in the kernel's memory.
-    meta : dict of str to object
-        Its names, which are not changed.
+    `loaded`: the System in the kernel's memory; `meta`: its names, which are not changed.
     """
 
     def __init__(self, system: System, loaded: LoadedSystem, meta: dict[str, Any]) -> None:

@@ -17,12 +17,8 @@ _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
 class Motor:
     """A device that can push. One thread calls this.
 
-    `joystick`: of SDL; it stays open until this is closed.
-
-    Raises
-    ------
-    HostError
-        It has no motor for a constant force, or it cannot be opened.
+    `joystick`: of SDL; it stays open until this is closed. Raises `HostError`: it has no motor for a constant force, or
+    it cannot be opened.
     """
 
     def __init__(self, sdl: Any, joystick: Any) -> None:
