@@ -74,11 +74,6 @@ class ReducedBody:
     def interface(self, name: str) -> InterfaceModes:
         """An interface by the name of its node.
 
-        Returns
-        -------
-        InterfaceModes
-            Its place and its modes.
-
         Raises
         ------
         ModelError
