@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-import mbs
 from ali3.running import run_command
 from benchmarks.methods.growth import (
     CHASSIS_REPEATS,
@@ -24,7 +23,6 @@ from benchmarks.methods.growth import (
 )
 from benchmarks.methods.pages import growth_blocks
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import print_blocks
 
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
@@ -42,9 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     flexible = chassis(MODES[:2] if options.quick else MODES, 1 if options.quick else CHASSIS_REPEATS)
     about = {"step_s": CHASSIS_STEP, "rows": flexible, "exponents": chassis_exponents(flexible)}
     fits = {"exponents": exponents(rows), "chassis": about}
-    meta = describe("growth", mbs.Settings(), repeats=repeats, warm_up=1, step_s=STEP, end_s=END, **fits)
-    print_blocks(growth_blocks({"meta": meta, "rows": rows}))
-    save_rows(options.json, meta, rows)
+    print_blocks(growth_blocks({"meta": fits, "rows": rows}))
+    save_rows(options.json, "growth", rows, repeats=repeats, warm_up=1, step_s=STEP, end_s=END, **fits)
     if options.chart is not None:
         draw(rows, options.chart)
     return 0

@@ -24,7 +24,6 @@ from gymnasium.vector import VectorEnv
 
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from hosts.plant.environments import CarEnvironment
 
@@ -59,8 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for name in watched(ENVIRONMENTS):
             rows += measure(name, options.several, options.repeats, options.steps)
         print_table(rows, COLUMNS)
-        meta = describe("plant", repeats=options.repeats, several=options.several, steps=options.steps)
-        save_rows(options.json, meta, rows)
+        save_rows(options.json, "plant", rows, repeats=options.repeats, several=options.several, steps=options.steps)
         return 0
 
     return run_command(work)

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import mbs
 from ali3.running import run_command
 from benchmarks.methods.pages import stability_blocks
 from benchmarks.methods.stability import ENERGY, WRONG, explain, measure
@@ -19,7 +18,6 @@ from benchmarks.methods.stability_chart import draw
 from benchmarks.methods.stability_margins import margins
 from benchmarks.references.cases import CASES
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import print_blocks
 from benchmarks.shared.warned import wrong_on_purpose
 
@@ -62,17 +60,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 f"{CASES[scene].title} (whole motion, {CASES[scene].end:g} s)",
                 options.charts / f"stability_{scene}.png",
             )
-    meta = describe(
+    found = {"margins": margins(rows), "why": WHY, "classical": explain(rows)}
+    blocks = stability_blocks([{"meta": found, "rows": rows}])
+    print_blocks({name: text for name, text in blocks.items() if "charts" not in name})
+    save_rows(
+        options.json,
         "stability",
-        mbs.Settings(),
+        rows,
         fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
         window="the whole motion of the scene; smaller steps than its budget allows are left out",
-        margins=margins(rows),
-        why=WHY,
-        classical=explain(rows),
+        **found,
     )
-    print_blocks({k: v for k, v in stability_blocks([{"meta": meta, "rows": rows}]).items() if "charts" not in k})
-    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -23,9 +23,8 @@ from benchmarks.car.lanes import CARS, SECONDS, Start, measure, one_after_anothe
 from benchmarks.car.older_cars import older_cars
 from benchmarks.car.speed_pages import THOUSAND, thousand
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings, System
+from mbs import System
 from mbs.kernel.binding import KernelError
 from mbs.scenes import assembly_defect_four_bar, kerb_test
 
@@ -67,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         rows = [row for scene in watched(scenes) for row in rows_of(*scene, rounds=options.rounds, older=options.older)]
         print_table(rows, {key: form for key, form in COLUMNS.items() if key in rows[0]})
         print(f"\nA second of {THOUSAND} cars, computed from the steps above\n{thousand(rows)}")
-        save_rows(options.json, describe("throughput", Settings()), rows)
+        save_rows(options.json, "throughput", rows)
         return 0
 
     return run_command(work, (KernelError,))
