@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 import fmpy
 import gymnasium
 import numpy as np
-from fmpy.fmi2 import FMU2Slave
+from fmpy.simulation import instantiate_fmu
 from gymnasium.vector import VectorEnv
 
 from ali3.running import run_command
@@ -124,13 +124,7 @@ def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
     description = fmpy.read_model_description(path)
     reference = {v.name: v.valueReference for v in description.modelVariables}
     fmpy.extract(path, str(folder))
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="car",
-    )
-    slave.instantiate()
+    slave = instantiate_fmu(str(folder), description)
     inputs = [reference[name] for name in environment.car.inputs]
     outputs = [reference[name] for name in environment._reads]
     values, h = [0.0] * len(inputs), environment.car.step_length

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave, fmi2Real, fmi2ValueReference
+from fmpy.fmi2 import fmi2Real, fmi2ValueReference
+from fmpy.simulation import instantiate_fmu
 
 from benchmarks.shared.fmu_module import FmuModule
 from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
@@ -95,15 +96,8 @@ def _measure(
 
 
 def _native(fmu: Path, folder: Path) -> Measure:
-    description, variables = fmpy.read_model_description(str(fmu)), _variables(fmu)
-    outputs = _outputs(fmu)
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="native",
-    )
-    slave.instantiate()
+    variables, outputs = _variables(fmu), _outputs(fmu)
+    slave = instantiate_fmu(str(folder), fmpy.read_model_description(str(fmu)))
     references = (fmi2ValueReference * len(outputs))(*(variables[n].valueReference for n in outputs))
     values = (fmi2Real * len(outputs))()
 
