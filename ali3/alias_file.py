@@ -86,10 +86,7 @@ def shipped_names() -> list[str]:
 def alias_file(name: str | Path) -> Path:
     """The file of a name that comes with the package, or another; one of that name here comes first.
 
-    Raises
-    ------
-    UserError
-        There is neither.
+    Raises `UserError`: there is neither.
     """
     path = Path(name)
     if not path.is_file() and str(name) in shipped_names():

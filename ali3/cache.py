@@ -17,12 +17,8 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
     """A folder in the cache of the user, made if it is not there.
 
     An environment variable names the cache; else it is a folder where the system keeps caches. Where none can be
-    written, the folder is a temporary one that goes when this process ends.
-
-    Raises
-    ------
-    FileError
-        The variable names a folder that cannot be written.
+    written, the folder is a temporary one that goes when this process ends. Raises `FileError`: the variable names a
+    folder that cannot be written.
     """
     import platformdirs
 

@@ -10,13 +10,7 @@ _APART = 5.0  # m, about
 
 
 def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
-    """Where cones stand along both edges of lanes: at their ends and about every 5 m.
-
-    Returns
-    -------
-    list of (x, y)
-        m.
-    """
+    """Where cones stand along both edges of lanes: at their ends and about every 5 m. Result: in m."""
     places = []
     for gate in gates:
         length = gate.x_end - gate.x_start

@@ -27,12 +27,8 @@ def missing_package(package: str, extra: str = "") -> str:
 def missing_module(error: ModuleNotFoundError, extra: str = "") -> str:
     """The sentence for a module that was not found, also when a library asked for it at run time.
 
-    `error`: as it was caught; `extra`: as of `missing_package`.
-
-    Raises
-    ------
-    ModuleNotFoundError
-        The same, where neither an extra nor a package of an extra asks for the module: a mistake in code.
+    `error`: as it was caught; `extra`: as of `missing_package`. Raises `ModuleNotFoundError`: the same, where neither
+    an extra nor a package of an extra asks for the module: a mistake in code.
     """
     package = (error.name or "").partition(".")[0]
     if _extra_of(package, extra) is not None:

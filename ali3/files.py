@@ -19,17 +19,14 @@ def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Itera
     """A path to write to; when the block ends without an error, the file there replaces `file` at once.
 
     `file`: a device or pipe is written to directly; `make_parents`: whether its folder is made if it is not there.
+    Raises `FileError` with the file and the reason, if it cannot be written. An older file is then unchanged, and
+    nothing is left.
 
     Yields
     ------
     Path
         A file of the same name in a temporary folder beside `file`, so that programs that write the same file at the
         same time do not meet.
-
-    Raises
-    ------
-    FileError
-        With the file and the reason, if it cannot be written. An older file is then unchanged, and nothing is left.
     """
     target = Path(os.path.realpath(file))  # a link stays a link
     _check_file(file, target)
@@ -60,13 +57,7 @@ def write_text(file: str | os.PathLike[str], text: str) -> None:
 
 
 def make_folder(folder: str | os.PathLike[str]) -> Path:
-    """Make a folder and its parents unless they are there.
-
-    Raises
-    ------
-    FileError
-        With the folder and the reason.
-    """
+    """Make a folder and its parents unless they are there. Raises `FileError` with the folder and the reason."""
     path = Path(folder)
     try:
         path.mkdir(parents=True, exist_ok=True)

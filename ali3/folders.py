@@ -18,17 +18,13 @@ from ali3.files import WRITING, make_folder
 def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """A folder to fill; when the block ends without an error it becomes `folder` at once.
 
-    `folder`: one that does not exist. If another program makes it meanwhile, its folder stays.
+    `folder`: one that does not exist. If another program makes it meanwhile, its folder stays. Raises `FileError` with
+    the folder and the reason, if it cannot be written; nothing is left.
 
     Yields
     ------
     Path
         A folder of the same name in a temporary one beside `folder`.
-
-    Raises
-    ------
-    FileError
-        With the folder and the reason, if it cannot be written; nothing is left.
     """
     target = Path(folder)
     parent = make_folder(target.parent)

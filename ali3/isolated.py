@@ -60,12 +60,8 @@ class Isolated(Generic[T, R]):
     def do(self, task: T, tell: Tell = lambda word: None, limit: float | None = None) -> R | Lost:
         """Do a task and wait for it.
 
-        `tell`: called with what the work tells meanwhile; `limit`: in s, after which the process is ended.
-
-        Raises
-        ------
-        UserError
-            The work has raised one, or another error that `run_command` would show.
+        `tell`: called with what the work tells meanwhile; `limit`: in s, after which the process is ended. Raises
+        `UserError`: the work has raised one, or another error that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
         process, is_new = self._started()

@@ -16,12 +16,8 @@ def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
 
     The lock goes with the process that holds it, however it ends.
 
-    `busy`: what is said where another program has locked it; by default its end is waited for.
-
-    Raises
-    ------
-    FileError
-        Another program has locked it, or it cannot be written.
+    `busy`: what is said where another program has locked it; by default its end is waited for. Raises `FileError`:
+    another program has locked it, or it cannot be written.
     """
     from filelock import FileLock, Timeout
 

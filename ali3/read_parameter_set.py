@@ -21,17 +21,8 @@ _SCHEMAS = {"1": "ssv", "2": "ssv2"}
 def read_parameter_set(file: str | os.PathLike[str]) -> ParameterSet:
     """Read an SSV file of SSP 1.0 or 2.0, checked against the standard's XML schema.
 
-    Returns
-    -------
-    ParameterSet
-        Entries in the order of the file. Types of SSP 2.0 are given as those of 1.0.
-
-    Raises
-    ------
-    ParameterSetError
-        It is no such file; a name occurs twice; a value is a list.
-    FileError
-        It cannot be read.
+    Returns entries in the order of the file. Types of SSP 2.0 are given as those of 1.0. Raises `ParameterSetError`: it
+    is no such file; a name occurs twice; a value is a list. Raises `FileError`: it cannot be read.
     """
     from pyssp_standard.ssv import SSVElem
 

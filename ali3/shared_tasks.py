@@ -21,12 +21,8 @@ def done_by(
 ) -> Generator[tuple[int, R | Lost]]:
     """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
 
-    `work`: see `Isolated`; `jobs`: at a time; `told`: called with the place of a task and what its work tells.
-
-    Raises
-    ------
-    UserError
-        The work of a task has raised one; no further task is begun.
+    `work`: see `Isolated`; `jobs`: at a time; `told`: called with the place of a task and what its work tells. Raises
+    `UserError`: the work of a task has raised one; no further task is begun.
 
     Notes
     -----

@@ -10,12 +10,10 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-import mbs
 from ali3.running import run_command
 from benchmarks.paper.assembly_defect import STEP, draw, measure, peaks, refusal
 from benchmarks.references.assembly_defect import ORIGIN, reference
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import assembly_defect_four_bar as scene
@@ -53,14 +51,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         row, run = measure(case, expected, repeats)
         rows.append(row)
     about = {"end_s": scene.DURATION, "h_s": STEP, "reference": ORIGIN}
-    meta = describe("four-bar with assembly defect", mbs.Settings(), repeats=repeats, warm_up=1, **about)
     print(f"Against {ORIGIN};")
     print("largest difference as a fraction of the peak of each moment, and of the largest of all moments\n")
     print_table(rows, TABLE)
     print("\nLargest moments by the diameter of the bars, N m")
     print_table([peaks(radius) for radius in (scene.RADIUS, 0.5 * scene.RADIUS)])
     print(f"\nWith rigid bars: {refusal()}")
-    save_rows(options.json, meta, rows)
+    save_rows(options.json, "four-bar with assembly defect", rows, repeats=repeats, warm_up=1, **about)
     if options.chart is not None:
         draw(run, expected, rows[-1]["bodies_per_bar"], options.chart)
     return 0

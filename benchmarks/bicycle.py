@@ -10,13 +10,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-import mbs
 from ali3.running import run_command
 from benchmarks.methods.bicycle import linear, measure
 from benchmarks.methods.kernel_methods import suits
 from benchmarks.references.cases import system_of
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs.scenes import bicycle
 from mbs.settings.settings import METHODS
@@ -44,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     steps = STEPS[1:2] if options.quick else STEPS
     rows = [measure(method, h) for method, h in watched([(m, h) for m in methods for h in steps])]
     print_table(rows, TABLE)
-    save_rows(options.json, describe("bicycle", mbs.Settings(), linear=straight), rows)
+    save_rows(options.json, "bicycle", rows, linear=straight)
     return 0
 
 

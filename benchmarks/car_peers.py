@@ -23,9 +23,8 @@ from numpy.typing import NDArray
 from ali3.running import run_command
 from benchmarks.car import lanes, manoeuvres, rig
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings, Trajectory, compile, simulate
+from mbs import Trajectory, compile, simulate
 from mbs.scenes import prototype_car
 from mbs.vehicle import Car, load
 
@@ -76,7 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         rows = [row for scene in watched(SCENES) for row in measure(*scene, peers=there)]
         print_table(rows, COLUMNS)
         print("\n" + "\n".join(words for car, words in WORDS.items() if car not in missing))
-        save_rows(options.json, describe("car_peers", Settings(), repeats=ROUNDS, missing_peers=missing), rows)
+        save_rows(options.json, "car_peers", rows, repeats=ROUNDS, missing_peers=missing)
         return 0
 
     return run_command(work)

@@ -23,9 +23,7 @@ from benchmarks.car import accuracy, manoeuvres, trajectories
 from benchmarks.car.scene_instructions import SOURCE, Scene
 from benchmarks.car.scene_instructions import measure as count
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, Row, replace, table
-from mbs import Settings
 from mbs.kernel import build
 
 STEP, SMALLER, FINE = 0.005, (0.002, 0.001), 0.0002  # s
@@ -46,13 +44,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         what = "the program that repeats steps"
         build.compile_c(sources, build.host_target(), program, include=include, what=what, shared=False)
         rows = [row_of(car, options.repeats, program, Path(folder)) for car in watched(options.cars)]
-    meta = describe("car_table", Settings(), repeats=options.repeats)
     if options.write:
         rows = with_stored(rows)
-        save_rows(STORED, meta, rows)
+        save_rows(STORED, "car_table", rows, repeats=options.repeats)
     text = text_of(rows)
     print(text)
-    save_rows(options.json, meta, rows)
+    save_rows(options.json, "car_table", rows, repeats=options.repeats)
     if options.write:
         write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), {"all cars": text}))
     return 0

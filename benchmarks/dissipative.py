@@ -9,12 +9,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-import mbs
 from ali3.running import run_command
 from benchmarks.methods.dissipative import SCENES, measure
 from benchmarks.methods.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TREE_ONLY
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from benchmarks.shared.warned import wrong_on_purpose
 
@@ -46,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for method in ("ali3p",) if options.quick else METHODS:
             rows += [measure(name, method, h) for h in ((0.01,) if options.quick else SCENES[name].steps)]
     print_table(rows, TABLE)
-    save_rows(options.json, describe("dissipative", mbs.Settings()), rows)
+    save_rows(options.json, "dissipative", rows)
     return 0
 
 

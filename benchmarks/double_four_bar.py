@@ -23,7 +23,6 @@ from benchmarks.paper.double_four_bar import (
     settings_tried,
 )
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from benchmarks.shared.warned import wrong_on_purpose
 
@@ -55,19 +54,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         tried = settings_tried()
         print(f"{len(tried)} settings; the paper: {', '.join(f'{h:g} s {e:g} J' for h, (e, _) in PAPER.items())}")
         print_table(tried[:10])
-        save_rows(options.json, describe("settings of the double four-bar"), tried)
+        save_rows(options.json, "settings of the double four-bar", tried)
         return 0
     rows = measure_all(WINDOWS[:2] if options.quick else WINDOWS, REPEATS)
-    meta = describe(
-        "double four-bar",
-        METHODS["ALi3-P"],
-        end_s=END,
-        repeats=REPEATS,
-        warm_up=1,
-        wall="least of repeats through all rows, time in the kernel's step loop",
-        methods={name: settings.kernel_fields() for name, settings in METHODS.items()},
-        paper_table_1=PAPER_ROWS,
-    )
     print()
     print_table(rows, TABLE)
     print("\nThe paper's Table 1 (Matlab, its own machine) beside this run, N = 2; ratio = paper / here")
@@ -75,7 +64,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print("\nRatios within this run, N = 2")
     ratios = cost_of_accuracy(rows)
     print_table(ratios, dict.fromkeys(ratios[0], ".3g"))
-    save_rows(options.json, meta, rows)
+    save_rows(
+        options.json,
+        "double four-bar",
+        rows,
+        end_s=END,
+        repeats=REPEATS,
+        warm_up=1,
+        wall="least of repeats through all rows, time in the kernel's step loop",
+        methods={name: settings.kernel_fields() for name, settings in METHODS.items()},
+        paper_table_1=PAPER_ROWS,
+    )
     if options.chart is not None:
         draw(rows, options.chart)
     return 0

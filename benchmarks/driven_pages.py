@@ -19,7 +19,6 @@ from typing import Any
 
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.simulator_program import simulator
 from benchmarks.shared.tables import print_table
 from viewer import browser
@@ -38,10 +37,8 @@ LIVE = "({ factor: player.factor, moved: player.session.pace.slow, cost: player.
 def pictures(page: Any, seconds: float) -> dict[str, float]:
     """Drive curves to the left and to the right by keys, and count.
 
-    Returns
-    -------
-    dict
-        `median`, `worst`: pictures in a second; `longest_ms`: between two pictures; `calls`, `triangles`: of the last.
+    Result: `median`, `worst`: pictures in a second; `longest_ms`: between two pictures; `calls`, `triangles`: of the
+    last.
     """
     for k in range(round(SETTLING + seconds)):
         if k == SETTLING:
@@ -122,9 +119,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         f"\n{SIZE[0]} x {SIZE[1]}, {options.seconds:g} s; median, worst: pictures in a second; ran, others, stolen: "
         "late steps while the step ran, other programs ran, the processor stood still\nChromium " + version
     )
-    save_rows(
-        options.json, {**describe("driven_pages", chromium=version), "size": SIZE, "seconds": options.seconds}, rows
-    )
+    save_rows(options.json, "driven_pages", rows, chromium=version, size=SIZE, seconds=options.seconds)
     return 0
 
 

@@ -12,12 +12,10 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-import mbs
 from ali3.running import run_command
 from benchmarks.methods.error_control import CHOSEN, REPEATS, TABLE, compare, measure, methods_of, misses
 from benchmarks.references.cases import CASES
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 
 TOLERANCES, QUICK_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-6), (1e-3,)
@@ -43,11 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = sum(row["method"].startswith(CHOSEN) for row in rows)
     print(f"\n{chosen} choices, {len(wrong)} misses")
     print_table(wrong, TABLE)
-    save_rows(
-        options.json,
-        describe("error_control", mbs.Settings(), repeats=1 if options.quick else REPEATS, misses=len(wrong)),
-        rows,
-    )
+    save_rows(options.json, "error_control", rows, repeats=1 if options.quick else REPEATS, misses=len(wrong))
     return 0
 
 

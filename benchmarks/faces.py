@@ -13,7 +13,6 @@ from ali3.running import run_command
 from benchmarks.car import edge_answers
 from benchmarks.car.road_faces import COLUMNS, HEIGHTS, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 
 
@@ -28,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     else:
         rows = [measure(options.car, height) for height in watched(HEIGHTS)]
     print_table(rows, edge_answers.COLUMNS if options.answers else COLUMNS)
-    save_rows(options.json, describe("faces"), rows)
+    save_rows(options.json, "faces", rows)
     return 0
 
 

@@ -13,9 +13,7 @@ from ali3.running import run_command
 from benchmarks.car.fidelity import COMPARED, chart, measure, verdict
 from benchmarks.car.fidelity_runs import NAMES
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 
 STEPS = (0.01, 0.005, 0.002)  # s
 COLUMNS = {
@@ -47,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print_table(rows, COLUMNS)
     lines = verdict(rows)
     print("\n" + "\n".join(lines))
-    save_rows(options.json, describe("fidelity", Settings(), repeats=options.repeats, warm_up=1, verdict=lines), rows)
+    save_rows(options.json, "fidelity", rows, repeats=options.repeats, warm_up=1, verdict=lines)
     if options.chart:
         chart(rows, options.chart)
     return 0

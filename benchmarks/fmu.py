@@ -17,7 +17,6 @@ from ali3.running import run_command
 from benchmarks.car import road_port_cost, road_port_steps
 from benchmarks.car.fmu_calls import QUANTITIES, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
@@ -40,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
             found = road_port_cost.measure("prototype", min(options.steps, 500), Path(folder))
         print_table(found, road_port_cost.COLUMNS)
-        save_rows(options.json, describe("road_ports", step_s=road_port_steps.STEP), found)
+        save_rows(options.json, "road_ports", found, step_s=road_port_steps.STEP)
         return 0
     rows = []
     name, system = load_scene(options.scene)
@@ -58,8 +57,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ]
     columns = {"quantity": "", **{f"{k}, {h}": ".4g" for k in KINDS for h in ("C", "FMPy")}, "meaning": ""}
     print_table(table, columns)
-    meta = describe(
+    save_rows(
+        options.json,
         "fmu",
+        rows,
         scene=options.scene,
         steps=options.steps,
         repeats=options.repeats,
@@ -68,7 +69,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         quantities=QUANTITIES,
         inner_step_s=system.meta["experiment"]["step_s"],
     )
-    save_rows(options.json, meta, rows)
     return 0
 
 

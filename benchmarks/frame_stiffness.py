@@ -12,9 +12,7 @@ from collections.abc import Sequence
 from ali3.running import run_command
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 from mbs.vehicle import car_names, load
 
 
@@ -31,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         hertz = {f"f{k + 1}, Hz": float(f) for k, f in enumerate(found.frequencies)}
         rows.append({"car": name, "between": " and ".join(found.joints), "kN m/deg": found.torsion / 1e3, **hertz})
     print_table(rows, {"car": "", "between": "", "kN m/deg": ".2f", **dict.fromkeys(hertz, ".1f")})
-    save_rows(options.json, describe("frame_stiffness", Settings()), rows)
+    save_rows(options.json, "frame_stiffness", rows)
     return 0
 
 

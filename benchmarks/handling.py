@@ -14,9 +14,7 @@ from benchmarks.car.measures import MEASURES, measure, usual_words
 from benchmarks.car.rig import kinematics
 from benchmarks.car.rig_chart import draw
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 from mbs.vehicle import car_names, load
 
 
@@ -34,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         values = {name: found[m.name] for name, found in measured.items()}
         rows.append({"measure": m.name, "unit": m.unit, **values, "usual": usual_words(m), "meaning": m.meaning})
     print_table(rows, {"measure": "", "unit": "", **dict.fromkeys(cars, ".2f"), "usual": "", "meaning": ""})
-    save_rows(options.json, describe("handling", Settings(), kinematics={n: kinematics(cars[n]) for n in cars}), rows)
+    save_rows(options.json, "handling", rows, kinematics={n: kinematics(cars[n]) for n in cars})
     if options.chart:
         draw(cars, options.chart)
     return 0

@@ -17,14 +17,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import mbs
 from ali3.running import run_command
 from benchmarks.methods import random_honesty
 from benchmarks.methods.honesty import SUMMARY, measure, summary
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 
 LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
@@ -69,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     lines = summary(rows)
     print()
     print_table(lines, SUMMARY)
-    save_rows(options.json, describe("honesty", mbs.Settings(), summary=lines), rows)
+    save_rows(options.json, "honesty", rows, summary=lines)
     return 0
 
 
@@ -83,7 +81,7 @@ def _random(count: int, seed: int, before: Path | None, file: Path | None) -> in
     lines = random_honesty.summary(rows, old)
     print_table(lines, random_honesty.SUMMARY)
     print(f"\n{sum(r['verdict'] == 'none' for r in rows)} without a reference: two runs of it did not agree.")
-    save_rows(file, describe("honesty", mbs.Settings(), seed=seed, summary=lines), rows)
+    save_rows(file, "honesty", rows, seed=seed, summary=lines)
     return 0
 
 

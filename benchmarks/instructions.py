@@ -21,9 +21,8 @@ from benchmarks.car import manoeuvres
 from benchmarks.car.scene_instructions import SOURCE, Scene, command_of, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.instructions import by_function
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings, System, compile
+from mbs import System, compile
 from mbs.kernel import build
 from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain
 
@@ -95,12 +94,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 subprocess.run([part for part in command if part != "-s"], check=True, env=build.compiler_environment())
                 functions = shares(scene, program, Path(folder))
                 print_table(functions, {"function": "", "share": ".0%"})
-                save_rows(options.json, describe("functions", Settings(), scene=scene.name), functions)
+                save_rows(options.json, "functions", functions, scene=scene.name)
                 return 0
             build.compile_c(sources, target, program, include=include, what=what, shared=False)
             rows = [measure(scene, program, Path(folder)) for scene in watched(SCENES)]
         print_table(rows, COLUMNS)
-        save_rows(options.json, describe("instructions", Settings()), rows)
+        save_rows(options.json, "instructions", rows)
         dearer = [] if options.against is None else compared(rows, json.loads(options.against.read_text("utf-8")))
         for line in dearer:
             print(line)

@@ -16,9 +16,7 @@ from ali3.running import run_command
 from benchmarks.car.fidelity import COMPARED, fidelity_of
 from benchmarks.paper.kerb import COLUMNS, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 from mbs.scenes import kerb_test
 
 
@@ -36,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     todo = [(fidelity, h) for fidelity in options.fidelity for h in options.steps]
     rows = [measure(fidelity, h, options.repeats) for fidelity, h in watched(todo)]
     print_table(rows, COLUMNS)
-    save_rows(options.json, describe("kerb", Settings(), repeats=options.repeats, warm_up=1), rows)
+    save_rows(options.json, "kerb", rows, repeats=options.repeats, warm_up=1)
     return 0
 
 

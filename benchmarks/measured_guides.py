@@ -17,10 +17,9 @@ from ali3.running import run_command
 from benchmarks.paper import measured_guides
 from benchmarks.paper.measured_guides_chart import draw
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, replace, table
 from benchmarks.shared.tables import print_table
-from mbs import Settings, compile, simulate
+from mbs import compile, simulate
 from mbs.scenes import kerb_test
 
 PAGE = DOCS / "flexible_car.md"
@@ -41,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         measured_guides.row(name, true, plain, range(options.seeds)) for name in watched(list(measured_guides.CASES))
     ]
     print_table(rows, measured_guides.COLUMNS)
-    save_rows(options.json, describe("measured_guides", Settings(), seeds=options.seeds), rows)
+    save_rows(options.json, "measured_guides", rows, seeds=options.seeds)
     if options.page:
         text = replace(PAGE.read_text(encoding="utf-8"), {"measured guides": table(rows, measured_guides.COLUMNS)})
         write_text(PAGE, text)

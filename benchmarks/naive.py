@@ -12,9 +12,7 @@ from collections.abc import Sequence
 from ali3.running import run_command
 from benchmarks.methods.naive import DURATION, ROD_MASS, SCENES, H, measure
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 
 COLUMNS = {
     "scene": "",
@@ -40,10 +38,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print_table(rows, COLUMNS)
     save_rows(
         options.json,
-        describe(
-            "naive", Settings(), repeats=options.repeats, warm_up=1, h_s=H, duration_s=DURATION, rod_mass_kg=ROD_MASS
-        ),
+        "naive",
         rows,
+        repeats=options.repeats,
+        warm_up=1,
+        h_s=H,
+        duration_s=DURATION,
+        rod_mass_kg=ROD_MASS,
     )
     return 0
 

@@ -16,7 +16,6 @@ from typing import Any
 
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs import compile
 from mbs.scenes import double_four_bar, prototype_car, puma
@@ -116,8 +115,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "first_s: until the first picture; bytes: what a picture of moved things gives to the graphics card"
     )
     print(f"Chromium {version}, {', '.join(sorted(renderers))}; script: {len(script) / 1e3:.0f} kB")
-    meta = describe("page_rate", repeats=options.pictures, warm_up=1, chromium=version, renderers=sorted(renderers))
-    save_rows(options.json, {**meta, "size": options.size, "script_bytes": len(script)}, rows)
+    drawn_by = {"chromium": version, "renderers": sorted(renderers), "size": options.size, "script_bytes": len(script)}
+    save_rows(options.json, "page_rate", rows, repeats=options.pictures, warm_up=1, **drawn_by)
     return 0
 
 

@@ -19,12 +19,11 @@ from typing import Any, TypeAlias
 import fmpy
 import gymnasium
 import numpy as np
-from fmpy.fmi2 import FMU2Slave
+from fmpy.simulation import instantiate_fmu
 from gymnasium.vector import VectorEnv
 
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from hosts.plant.environments import CarEnvironment
 
@@ -59,8 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for name in watched(ENVIRONMENTS):
             rows += measure(name, options.several, options.repeats, options.steps)
         print_table(rows, COLUMNS)
-        meta = describe("plant", repeats=options.repeats, several=options.several, steps=options.steps)
-        save_rows(options.json, meta, rows)
+        save_rows(options.json, "plant", rows, repeats=options.repeats, several=options.several, steps=options.steps)
         return 0
 
     return run_command(work)
@@ -69,10 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
     """Rows of an environment, which is made with `options`.
 
-    Raises
-    ------
-    RuntimeError
-        Environments on threads are not, to the last bit, those one after the other.
+    Raises `RuntimeError`: environments on threads are not, to the last bit, those one after the other.
     """
     single = gymnasium.make(f"ali3/{name}-v0", disable_env_checker=True, **options)
     plain = single.unwrapped
@@ -129,13 +124,7 @@ def _fmpy(environment: CarEnvironment, folder: Path) -> Way:
     description = fmpy.read_model_description(path)
     reference = {v.name: v.valueReference for v in description.modelVariables}
     fmpy.extract(path, str(folder))
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="car",
-    )
-    slave.instantiate()
+    slave = instantiate_fmu(str(folder), description)
     inputs = [reference[name] for name in environment.car.inputs]
     outputs = [reference[name] for name in environment._reads]
     values, h = [0.0] * len(inputs), environment.car.step_length

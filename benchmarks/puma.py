@@ -13,7 +13,6 @@ import mbs
 from ali3.running import run_command
 from benchmarks.paper.puma import LARGE, SMALL, measure, split
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from mbs.scenes import puma
 
@@ -50,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.split:
         print(f"\n{METHODS[0]}, steps of {LARGE} s in one stage and {SMALL} s elsewhere")
         print_table(split(system, METHODS[0]), {"large steps in": "", "when pinned mm": ".3g", "error mm": ".3g"})
-    save_rows(options.json, describe("puma", mbs.Settings(), repeats=repeats), rows)
+    save_rows(options.json, "puma", rows, repeats=repeats)
     return 0
 
 

@@ -26,7 +26,6 @@ from benchmarks.car.step_replay import REPEATS, Replay
 from benchmarks.car.wild_ground import write_ground
 from benchmarks.shared.command import parser_of, save_chart, save_rows
 from benchmarks.shared.instructions import counter
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
@@ -114,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(f"\n{WORDS}")
     if counter() is None:
         print("valgrind is not installed: instructions were not counted")
-    save_rows(options.json, describe("real_time", seconds=options.seconds, seed=options.seed), rows)
+    save_rows(options.json, "real_time", rows, seconds=options.seconds, seed=options.seed)
     if options.chart is not None:
         save_chart(chart([row for row in rows if row["drive"] == WILD]), options.chart)
     return 0

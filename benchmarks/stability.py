@@ -11,21 +11,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import mbs
 from ali3.running import run_command
-from benchmarks.methods.stability import (
-    ENERGY,
-    OUTCOMES,
-    WRONG,
-    explain,
-    measure,
-)
+from benchmarks.methods.pages import stability_blocks
+from benchmarks.methods.stability import ENERGY, WRONG, explain, measure
 from benchmarks.methods.stability_chart import draw
 from benchmarks.methods.stability_margins import margins
 from benchmarks.references.cases import CASES
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
-from benchmarks.shared.tables import print_table
+from benchmarks.shared.pages import print_blocks
 from benchmarks.shared.warned import wrong_on_purpose
 
 QUICK = ("double_four_bar",)
@@ -67,29 +60,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 f"{CASES[scene].title} (whole motion, {CASES[scene].end:g} s)",
                 options.charts / f"stability_{scene}.png",
             )
-    print(
-        "\nDefault settings: the steps over which they are fine, and the decades of eps around the default that are too"
-    )
-    lines = margins(rows)
-    form = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
-    decades = dict.fromkeys(("decades_below", "decades_above"), ".1f")
-    print_table(lines, form | decades | {"usual_h_s": ".1e", "usual_below": ".1f", "usual_above": ".1f"})
-    why = explain(rows)
-    print("\nClassical methods: outcomes, and where they first stop")
-    if why:
-        print_table(why, {"scene": "", "method": ""} | dict.fromkeys(OUTCOMES, "d") | {"first stop": ""})
-    for method, text in WHY.items():
-        print(f"{method}: {text}")
-    meta = describe(
+    found = {"margins": margins(rows), "why": WHY, "classical": explain(rows)}
+    blocks = stability_blocks([{"meta": found, "rows": rows}])
+    print_blocks({name: text for name, text in blocks.items() if "charts" not in name})
+    save_rows(
+        options.json,
         "stability",
-        mbs.Settings(),
+        rows,
         fine=f"position within {WRONG:g} of the extent, energy within {ENERGY:g} of the largest kinetic energy",
         window="the whole motion of the scene; smaller steps than its budget allows are left out",
-        margins=lines,
-        why=WHY,
-        classical=why,
+        **found,
     )
-    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -17,7 +17,6 @@ from typing import Any
 from ali3.running import run_command
 from benchmarks.methods import studies
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from hosts.common.errors import HostError
 
@@ -75,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(f"\n{what}")
             print_table(mine, columns)
     print(f"\n{WORDS}")
-    save_rows(options.json, describe("studies", seconds=options.seconds), rows)
+    save_rows(options.json, "studies", rows, seconds=options.seconds)
     return 0
 
 

@@ -15,9 +15,7 @@ from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.car import manoeuvres, tabled_cars, trajectories
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, replace
-from mbs import Settings
 
 PAGE = DOCS / "cars.md"
 
@@ -40,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         text = tabled_cars.table_of(rows)
         text += f"\n\n{tabled_cars.verdict(rows)}"
         print(text)
-        save_rows(options.json, describe("tables", Settings(), repeats=options.repeats), rows)
+        save_rows(options.json, "tables", rows, repeats=options.repeats)
         if options.write:
             write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), {"tables": text}))
         return 0

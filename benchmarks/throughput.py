@@ -21,10 +21,10 @@ from typing import Any
 from ali3.running import run_command
 from benchmarks.car.lanes import CARS, SECONDS, Start, measure, one_after_another, varied_cars, varied_four_bars
 from benchmarks.car.older_cars import older_cars
+from benchmarks.car.speed_pages import THOUSAND, thousand
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings, System
+from mbs import System
 from mbs.kernel.binding import KernelError
 from mbs.scenes import assembly_defect_four_bar, kerb_test
 
@@ -41,7 +41,6 @@ SCENES = (
     ("flexible four-bar", 0.01, partial(one_after_another, assembly_defect_four_bar.build, 1.0)),
 )
 WITH_LINKS = SCENES[:2]
-THOUSAND = 1000
 COLUMNS = {
     "scene": "",
     "step_ms": "g",
@@ -66,9 +65,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         scenes = SCENES if options.older is None else WITH_LINKS
         rows = [row for scene in watched(scenes) for row in rows_of(*scene, rounds=options.rounds, older=options.older)]
         print_table(rows, {key: form for key, form in COLUMNS.items() if key in rows[0]})
-        for line in thousand(rows):
-            print(line)
-        save_rows(options.json, describe("throughput", Settings()), rows)
+        print(f"\nA second of {THOUSAND} cars, computed from the steps above\n{thousand(rows)}")
+        save_rows(options.json, "throughput", rows)
         return 0
 
     return run_command(work, (KernelError,))
@@ -82,25 +80,6 @@ def rows_of(
         return measure(scene, h, make, rounds=rounds)
     with older_cars(older, make.args[0], h, SECONDS, CARS) as cars:
         return measure(scene, h, make, rounds=rounds, older=cars)
-
-
-def thousand(rows: Sequence[dict[str, Any]]) -> list[str]:
-    """What a thousand cars take, from the measured steps."""
-    lines = []
-    cars = {scene for scene, _, make in SCENES if make.func is varied_cars}
-    for scene, step in dict.fromkeys((row["scene"], row["step_ms"]) for row in rows if row["scene"] in cars):
-        ways = {row["way"]: row for row in rows if (row["scene"], row["step_ms"]) == (scene, step)}
-        widest = next(reversed([way for way in ways if way.endswith("lanes")]))
-        lanes = int(widest.split()[0])
-        single, wide = (1e-3 * ways[way]["us_a_step"] / step for way in ("single", widest))
-        lines.append(
-            f"{scene}: a second of {THOUSAND} cars takes {1e3 * single:.1f} ms on {THOUSAND} cores, a car each, "
-            f"{1e3 * wide * lanes:.1f} ms on {-(-THOUSAND // lanes)} cores in {widest}, "
-            f"{THOUSAND * wide:.1f} s on one core (computed from the steps above); "
-            f"they have {1e-6 * THOUSAND * ways['single']['kilobytes_a_car']:.2g} GB, "
-            f"in {widest} {1e-6 * THOUSAND * ways[widest]['kilobytes_a_car']:.2g} GB."
-        )
-    return lines
 
 
 if __name__ == "__main__":

@@ -11,9 +11,7 @@ from collections.abc import Sequence
 from ali3.running import run_command
 from benchmarks.car.trust import COLUMNS, measure
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -23,9 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name, part in rows.items():
         print(f"\n{name}")
         print_table(part, COLUMNS[name])
-    save_rows(
-        options.json, describe("trust", Settings()), [{"table": k, **r} for k, part in rows.items() for r in part]
-    )
+    save_rows(options.json, "trust", [{"table": k, **r} for k, part in rows.items() for r in part])
     return 0
 
 

@@ -13,7 +13,6 @@ from pathlib import Path
 from ali3.running import run_command
 from benchmarks.car.tyre_formulas import COLUMNS, TRUCK, tyre_rows
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 
 
@@ -24,7 +23,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     rows = tyre_rows(options.files or [TRUCK])
     print_table(rows, COLUMNS)
-    save_rows(options.json, describe("tyre_fits"), rows)
+    save_rows(options.json, "tyre_fits", rows)
     return 0
 
 

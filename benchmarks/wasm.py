@@ -17,7 +17,6 @@ from ali3.running import run_command
 from benchmarks.car.wasm_times import KINDS, open_hosts
 from benchmarks.shared.command import parser_of, save_rows, watched
 from benchmarks.shared.fmu_page import resources_of
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
@@ -65,8 +64,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     sizes = {"bytes": len(wasm), "gzip": len(gzip.compress(wasm, 9, mtime=0))}
     print(f"module: {sizes['bytes'] / 1e3:.0f} kB, {sizes['gzip'] / 1e3:.0f} kB gzipped")
     print("hosts: " + ", ".join(f"{host} {version}" for host, version in versions.items()))
-    meta = describe(
+    save_rows(
+        options.json,
         "wasm",
+        rows,
         repeats=options.repeats * options.rounds,
         warm_up=1,
         rounds=options.rounds,
@@ -76,7 +77,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         module=sizes,
         hosts=versions,
     )
-    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import mbs
 from ali3.running import run_command
 from benchmarks import peers
 from benchmarks.baselines.run import LANGUAGE
@@ -20,7 +19,6 @@ from benchmarks.methods.work_precision import QUICK_SCENES, REPEATS, compare, me
 from benchmarks.methods.work_precision_chart import draw
 from benchmarks.references.cases import CASES, SHARED, size_of
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from benchmarks.shared.warned import wrong_on_purpose
 
@@ -80,9 +78,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print_table(lines, form)
         if options.charts is not None:
             draw(part, CASES[scene], LOST * size_of(scene), options.charts / f"work_{scene}.png")
-    meta = describe(
+    save_rows(
+        options.json,
         "work_precision",
-        mbs.Settings(),
+        rows,
         repeats=options.repeats,
         warm_up=1,
         wall="median over repeats through all rows of a scene, time of the steps alone",
@@ -92,7 +91,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         scenes={s: CASES[s].title for s in scenes},
         ratios=ratios,
     )
-    save_rows(options.json, meta, rows)
     return 0
 
 

@@ -32,25 +32,17 @@ SHARE = 0.2
 
 @dataclass(frozen=True)
 class Change:
-    """A parameter with another value.
-
-    Attributes
-    ----------
-    name, value
-        Of the parameter.
-    difference : float
-        Between the run of the kernel with the value, and others changed with it, and that of a System built so.
-    fmu : float or None
-        Between that run of the FMU and that of the kernel; None: there is no FMU.
-    effect : float
-        Between runs with this and with the old value: 0 says that the run does not show the parameter.
-    """
+    """A parameter with another value."""
 
     name: str
     value: float
+    """`name`, `value`: of the parameter."""
     difference: float
+    """Between the run of the kernel with the value, and others changed with it, and that of a System built so."""
     fmu: float | None
+    """Between that run of the FMU and that of the kernel; None: there is no FMU."""
     effect: float
+    """Between runs with this and with the old value: 0 says that the run does not show the parameter."""
 
 
 def other_value(entry: Mapping[str, float]) -> float:

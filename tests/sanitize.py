@@ -59,10 +59,7 @@ def runtimes(compiler: str) -> list[str]:
 def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> list[str]:
     """Compile what a folder does not hold, by what the preprocessor makes of it: wherever the sources lie.
 
-    Raises
-    ------
-    subprocess.CalledProcessError
-        The compiler refuses a source.
+    Raises `subprocess.CalledProcessError`: the compiler refuses a source.
     """
     folder.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([command[0], "--version"], capture_output=True, check=True).stdout

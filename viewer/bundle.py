@@ -20,12 +20,8 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
     packages of npm that the lock file names. Beside it lies `THIRD_PARTY_LICENSES.txt`.
 
     `page`: folder of the sources; by default `page/` beside this file, which a wheel does not have; `out`: folder of
-    the bundle; by default `bundle/` beside this file.
-
-    Raises
-    ------
-    RuntimeError
-        If the script is not there and cannot be built; one sentence with the remedy.
+    the bundle; by default `bundle/` beside this file. Raises `RuntimeError` if the script is not there and cannot be
+    built; one sentence with the remedy.
     """
     page, out = page or HERE / "page", out or HERE / "bundle"
     if not (page / "package-lock.json").is_file():

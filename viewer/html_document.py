@@ -55,10 +55,7 @@ def html_document(title: str, data: object, function: str, connect: str = "") ->
 def script() -> str:
     """The script of the viewer, which defines ``window.ALi3Viewer``.
 
-    Raises
-    ------
-    ViewerError
-        It is not there and cannot be built.
+    Raises `ViewerError`: it is not there and cannot be built.
     """
     try:
         return bundle().read_text(encoding="utf-8")

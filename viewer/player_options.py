@@ -11,15 +11,10 @@ from viewer.errors import ViewerError
 
 
 class Option(NamedTuple):
-    """An option of the player.
-
-    Parameters
-    ----------
-    good : callable
-        Whether a value is one.
-    """
+    """An option of the player."""
 
     good: Callable[[Any], bool]
+    """Whether a value is one."""
     words: str
     text: str
 
@@ -60,10 +55,7 @@ OPTIONS: dict[str, Option] = {
 def check_options(options: Mapping[str, Any]) -> dict[str, Any]:
     """Options that are what they must be. `options`: by the names of `OPTIONS`.
 
-    Raises
-    ------
-    ViewerError
-        With the name, the value and what would be right.
+    Raises `ViewerError` with the name, the value and what would be right.
     """
     for name, value in options.items():
         if name not in OPTIONS:

@@ -17,21 +17,15 @@ _ON_A_LINE = 1e-9  # distance of the third point from the line of the others, as
 
 @dataclass(frozen=True)
 class Poses:
-    """A frame over time: earth = position + R(quaternion) local.
-
-    Parameters
-    ----------
-    position : array of shape (n, 3)
-        Of its origin in earth axes, m.
-    quaternion : array of shape (n, 4)
-        Unit, scalar first, of continuous sign.
-    shown : array of shape (n,)
-        False where a number is missing; the pose is then that of the nearest time before, or the first one after.
-    """
+    """A frame over time: earth = position + R(quaternion) local."""
 
     position: Vectors
+    """Of its origin in earth axes, m, shape (n, 3)."""
     quaternion: Vectors
+    """Unit, scalar first, of continuous sign, shape (n, 4)."""
     shown: NDArray[np.bool_]
+    """False where a number is missing; the pose is then that of the nearest time before, or the first one after, shape
+    (n,)."""
 
     def points(self, local: Sequence[float] | Vectors) -> Vectors:
         """Earth positions of a point of the frame, of shape (n, 3)."""

@@ -19,10 +19,7 @@ from viewer.scene_types import Scene
 def scene_errors(scene: Any) -> list[str]:
     """What is wrong with a scene. `scene`: as `json.loads` gives it.
 
-    Returns
-    -------
-    list of str
-        A sentence for each fault, with its place, the value and what would be right; empty if there is none.
+    Returns a sentence for each fault, with its place, the value and what would be right; empty if there is none.
     """
     if not isinstance(scene, Mapping):
         return ["A scene is a table with the keys format, version, name, extent, frames and shapes."]

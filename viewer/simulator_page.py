@@ -12,11 +12,6 @@ def simulator_html(title: str) -> str:
 
     It opens a WebSocket to the address ``/drive`` of the host that it comes from, with the token of its own address.
 
-    `title`: of the page; any text.
-
-    Raises
-    ------
-    ViewerError
-        The script is not there and cannot be built.
+    `title`: of the page; any text. Raises `ViewerError`: the script is not there and cannot be built.
     """
     return html_document(title, {}, "ALi3Viewer.simulate", connect=_CONNECT)

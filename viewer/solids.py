@@ -17,21 +17,14 @@ _AXIS = 1e-9  # of the largest radius
 
 @dataclass(frozen=True)
 class Solid:
-    """Triangles, counterclockwise as seen from outside.
-
-    Parameters
-    ----------
-    positions : array of shape (n, 3)
-        m.
-    normals : array of shape (n, 3) or None
-        Unit; None for flat triangles.
-    triangles : array of shape (m, 3)
-        Numbers of positions.
-    """
+    """Triangles, counterclockwise as seen from outside."""
 
     positions: Array
+    """m, shape (n, 3)."""
     normals: Array | None
+    """Unit; None for flat triangles, shape (n, 3)."""
     triangles: NDArray[np.int64]
+    """Numbers of positions, shape (m, 3)."""
 
     def placed(self, rotation: Array, at: Array | Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
         """The solid turned by a matrix, then moved."""

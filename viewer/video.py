@@ -39,25 +39,17 @@ class FilmError(UserError, RuntimeError):
 
 
 class WrittenFilm(NamedTuple):
-    """A film that was written.
-
-    Parameters
-    ----------
-    size : int
-        Bytes.
-    frames : int
-        Pictures.
-    duration : float
-        Of the film, s.
-    notes : list of str
-        Sentences: thinning, gaps, what is not drawn.
-    """
+    """A film that was written."""
 
     path: Path
     size: int
+    """Bytes."""
     frames: int
+    """Pictures."""
     duration: float
+    """Of the film, s."""
     notes: list[str]
+    """Sentences: thinning, gaps, what is not drawn."""
 
 
 def write_mp4(

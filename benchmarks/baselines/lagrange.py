@@ -18,13 +18,9 @@ CUT = 1e-6
 class Lagrange:
     """``[M Phi_q'; Phi_q 0] [qdd; lam] = [Q; -gamma - 2 b Phi' - b^2 Phi]``.
 
-    Parameters
-    ----------
-    penalty : float
-        b, 1/s: both Baumgarte factors; the counterpart of the penalty.
-    minimum_norm : bool
-        Solve for the least acceleration (in the metric of M) that the rows allow beside the free one, so that
-        redundant rows pass; where a coordinate has no mass, for the least accelerations and multipliers. LU otherwise.
+    `penalty`: b, 1/s: both Baumgarte factors; the counterpart of the penalty; `minimum_norm`: solve for the least
+    acceleration (in the metric of M) that the rows allow beside the free one, so that redundant rows pass; where a
+    coordinate has no mass, for the least accelerations and multipliers. LU otherwise.
     """
 
     def __init__(self, mechanism: Mechanism, penalty: float = 10.0, minimum_norm: bool = False) -> None:

@@ -15,13 +15,9 @@ PROJECTIONS, CLOSED = 5, 1e-12
 class Penalty:
     """``(M + Phi_q' a Phi_q) qdd = Q - Phi_q' a (gamma + 2 z w Phi' + w^2 Phi)``.
 
-    Parameters
-    ----------
-    penalty : float
-        a, of the mass-normalised rows.
-    augmented : bool
-        Iterate on the accelerations until the rows are met (index-1 augmented Lagrangian) and project positions and
-        velocities onto the constraints, in the metric of M, after each step.
+    `penalty`: a, of the mass-normalised rows; `augmented`: iterate on the accelerations until the rows are met (index-1
+    augmented Lagrangian) and project positions and velocities onto the constraints, in the metric of M, after each
+    step.
     """
 
     def __init__(self, mechanism: Mechanism, penalty: float = 1e7, augmented: bool = False) -> None:

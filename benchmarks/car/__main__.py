@@ -22,9 +22,7 @@ from ali3.running import run_command
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.accuracy import LOAD_BOUND, PATH_BOUND, _build_fmu, chart, measure, verdict
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
-from mbs import Settings
 
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
 COLUMNS = {
@@ -67,9 +65,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     lines = verdict(rows)
     print("\n".join(f"  {line}" for line in lines))
-    meta = describe(
+    save_rows(
+        options.json,
         "car",
-        Settings(),
+        rows,
         reference=f"own engine, h = {trajectories.STEP:g} s, tests/data/car",
         car=options.car,
         repeats=options.repeats,
@@ -77,7 +76,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
         verdict=lines,
     )
-    save_rows(options.json, meta, rows)
     if options.chart:
         chart(rows, options.chart, options.car)
     return 0

@@ -26,16 +26,10 @@ COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
 def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x: float) -> tuple[float, ...]:
     """Point and normal that answer for a wheel near an edge, which is `edge` high.
 
-    Parameters
-    ----------
-    kind : str
-        `HEIGHT`: level, as high as the road below the contact; `DEEPER`: the edge, with the normal towards the centre
-        of the wheel, or level ground, whichever the wheel is deeper in; `SUM`: the plane whose depth along its normal
-        is the sum of both depths along theirs.
-    edge, radius, contact_x : float
-        m.
-    centre : (3,) ndarray
-        Of the wheel, earth axes, m.
+    `kind`: `HEIGHT`: level, as high as the road below the contact; `DEEPER`: the edge, with the normal towards the
+    centre of the wheel, or level ground, whichever the wheel is deeper in; `SUM`: the plane whose depth along its
+    normal is the sum of both depths along theirs; `edge`, `radius`, `contact_x`: in m; `centre`: of the wheel, earth
+    axes, m.
     """
     if kind == HEIGHT:
         return (contact_x, float(centre[1]), edge if contact_x >= EDGE else 0.0, *UP)
@@ -56,11 +50,8 @@ def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x:
 def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, float, mbs.Simulation]:
     """A car that coasts up an edge: on a kerb, or with answers of a kind every `STEP`.
 
-    Returns
-    -------
-    (float, float, Simulation)
-        Largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers, as the
-        length of the difference of both unit vectors; the car at the end.
+    Returns largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers, as
+    the length of the difference of both unit vectors; the car at the end.
     """
     made = load(car)
     model = made.changed({"ports.road": "planes"}).model() if kind else made.model(KerbRoad(EDGE, edge, upper="after"))

@@ -37,12 +37,7 @@ def measure(
     """All figures of one FMU.
 
     `kind`: ``native`` or ``python``; `steps`, `repeats`, `instances`: calls per timed run, timed runs per figure,
-    instances at once.
-
-    Returns
-    -------
-    list of dict
-        ``quantity``, ``kind``, ``host``, ``value``; None where the C host cannot run it.
+    instances at once. Result: ``quantity``, ``kind``, ``host``, ``value``; None where the C host cannot run it.
     """
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 from benchmarks.shared.pages import Row, table
 
@@ -57,11 +57,3 @@ def _crossed(
     for row in rows:
         lines.setdefault(name(row), {title: name(row)})[row[column]] = cell(row)
     return table(list(lines.values()), dict.fromkeys([title, *dict.fromkeys(r[column] for r in rows)], ""))
-
-
-BLOCKS: Mapping[str, Callable[[Sequence[Row]], dict[str, str]]] = {
-    "fmu": fmu_blocks,
-    "wasm": wasm_blocks,
-    "plant": plant_blocks,
-}
-"""By the option of `benchmarks.pages` that takes the rows."""

@@ -148,10 +148,7 @@ def sampling(name: str, car: str = PROTOTYPE) -> float:
 def record_driver(car: str) -> NDArray[np.float64]:
     """What the host's driver does in the double lane change when it acts every 0.02 s.
 
-    Returns
-    -------
-    ndarray of shape (n, 4)
-        Time, steering, throttle, brake.
+    Returns an array of shape (n, 4): time, steering, throttle, brake.
     """
     h, interval = 1e-3, 0.02
     manoeuvre = load(CLOSED_LOOP, car)

@@ -28,13 +28,7 @@ EVERY = 5
 
 
 def jump(stop_time: float = 6.5) -> Recording:
-    """Drive, and give what is drawn with the world in it.
-
-    Raises
-    ------
-    UserError
-        The world cannot be made.
-    """
+    """Drive, and give what is drawn with the world in it. Raises `UserError`: the world cannot be made."""
     with TemporaryDirectory() as folder:
         with redirect_stdout(StringIO()):
             code = world_command.main(["--world", WORLD, "--out", folder])

@@ -26,15 +26,12 @@ NEUTRAL = {"drive.creep_torque": 0.0}
 def kinematics(car: Car) -> dict[str, float]:
     """What the axles do, by name as ``front.roll_centre_height``. `car`: its drawing is taken for its equilibrium.
 
-    Returns
-    -------
-    dict of str to float
-        Per axle, in the words of ISO 8855: ``wheel_rate`` (wheel load per travel, N/m), ``spring_ratio`` (spring travel
-        per wheel travel), ``bump_steer`` (left wheel, toe-out positive, rad/m), ``bump_camber`` (left wheel, top
-        outwards positive, rad/m); and per suspension roll angle, which is that of the chassis less what the tyres give,
-        ``roll_centre_height`` (m), ``roll_steer`` (mean steering angle to the left as the left side comes up),
-        ``roll_camber`` (inclination of the left wheel against the axle), ``roll_stiffness`` (N m/rad). Of the steering:
-        ``steering_ratio`` at straight ahead, and ``lock_inner``, ``lock_outer`` (rad).
+    Result: per axle, in the words of ISO 8855: ``wheel_rate`` (wheel load per travel, N/m), ``spring_ratio`` (spring
+    travel per wheel travel), ``bump_steer`` (left wheel, toe-out positive, rad/m), ``bump_camber`` (left wheel, top
+    outwards positive, rad/m); and per suspension roll angle, which is that of the chassis less what the tyres give,
+    ``roll_centre_height`` (m), ``roll_steer`` (mean steering angle to the left as the left side comes up),
+    ``roll_camber`` (inclination of the left wheel against the axle), ``roll_stiffness`` (N m/rad). Of the steering:
+    ``steering_ratio`` at straight ahead, and ``lock_inner``, ``lock_outer`` (rad).
     """
     heave, roll, steer = (moved(car, **{kind: True}) for kind in ("heave", "roll", "steer"))
     found: dict[str, float] = {}

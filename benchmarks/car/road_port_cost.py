@@ -23,12 +23,8 @@ COLUMNS = {"road": "", "own road": ",d", "four answers": ",d", "ratio": ".2f"}
 def measure(car: str, steps: int, folder: Path) -> list[Row]:
     """Instructions a step of 2 ms through FMPy on each of `ROADS`: a loop of outputs, answers, inputs, step.
 
-    `car`: as `hosts.fmu.built_fmu.fmu_of_car` takes it; `steps`: counted, after as many that are not.
-
-    Raises
-    ------
-    RuntimeError
-        There is no valgrind.
+    `car`: as `hosts.fmu.built_fmu.fmu_of_car` takes it; `steps`: counted, after as many that are not. Raises
+    `RuntimeError`: there is no valgrind.
     """
     own, ported = folder / "own", folder / "ported"
     for place, ports in ((own, None), (ported, "road")):

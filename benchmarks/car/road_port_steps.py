@@ -10,7 +10,7 @@ import math
 import sys
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave
+from fmpy.simulation import instantiate_fmu
 
 STEP, SPEED, LENGTH, FRICTION = 0.002, 10.0, 2.0, 0.9  # s, m/s, m of a wave, 1
 WHEELS, ANSWER = ("FL", "FR", "RL", "RR"), ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")
@@ -37,9 +37,7 @@ def main(folder: str, road: str, steps: str) -> None:
     """Start the car and make the steps."""
     description = fmpy.read_model_description(folder)
     reference = {v.name: v.valueReference for v in description.modelVariables}
-    model = description.coSimulation.modelIdentifier
-    car = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=model, instanceName="car")
-    car.instantiate()
+    car = instantiate_fmu(folder, description)
     car.setupExperiment(startTime=0.0)
     car.setReal([reference["initial.speed"]], [SPEED])
     asked = [reference[f"wheel_{w}.contact_{c}"] for w in WHEELS for c in "xy"]

@@ -32,7 +32,7 @@ def throughput_blocks(files: Sequence[Mapping[str, Any]]) -> dict[str, str]:
         for name, scenes in LANES.items():
             blocks[name] = _ways([row for scene in scenes for row in rows if row["scene"] == scene])
         blocks["lanes memory"] = _memory(rows)
-        blocks["thousand cars"] = _thousand(rows)
+        blocks["thousand cars"] = thousand(rows)
     return blocks
 
 
@@ -66,10 +66,13 @@ def _memory(rows: Sequence[Row]) -> str:
     return table(lines, {key: "" if key == "scene" else ".0f" for key in lines[0]})
 
 
-def _thousand(rows: Sequence[Row]) -> str:
+def thousand(rows: Sequence[Row]) -> str:
     """What a second of a thousand cars takes, computed from their steps."""
     lines = []
+    there = {row["scene"] for row in rows}
     for scene, car in CARS.items():
+        if scene not in there:
+            continue
         ways = _groups(rows, scene)
         widest = list(ways)[-1]
         lanes = int(widest.split()[0])
@@ -84,7 +87,7 @@ def _thousand(rows: Sequence[Row]) -> str:
                 f"memory: alone, in {widest}": ", ".join(memory),
             }
         )
-    return table(lines, dict.fromkeys(lines[0], ""))
+    return table(lines, dict.fromkeys(lines[0], "")) if lines else ""
 
 
 def peer_blocks(file: Mapping[str, Any]) -> dict[str, str]:

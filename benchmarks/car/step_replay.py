@@ -20,13 +20,7 @@ REPEATS = 50
 
 
 class Replay:
-    """A program that repeats steps of an FMU.
-
-    Parameters
-    ----------
-    folder : Path
-        To unpack and compile in.
-    """
+    """A program that repeats steps of an FMU. `folder`: to unpack and compile in."""
 
     def __init__(self, fmu: Path, folder: Path) -> None:
         with zipfile.ZipFile(fmu) as archive:

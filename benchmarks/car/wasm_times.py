@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import fmpy
-from fmpy.fmi2 import FMU2Slave, fmi2Real, fmi2ValueReference
+from fmpy.fmi2 import fmi2Real, fmi2ValueReference
+from fmpy.simulation import instantiate_fmu
 
 from benchmarks.shared.fmu_module import FmuModule
 from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
@@ -26,12 +27,8 @@ _CLOCK = "async (job) => (await import('/clock.js')).clock((await import('/fmu.j
 def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Measure], dict[str, str]]:
     """The hosts by name, and their versions; what is not installed is said and left out.
 
-    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes what has to be closed.
-
-    Returns
-    -------
-    hosts : dict
-        Functions that take a plan as `clock.js` does and return what it returns.
+    `fmu`: with the libraries of this machine and of wasm32; `stack`: closes what has to be closed. Returns `hosts`:
+    functions that take a plan as `clock.js` does and return what it returns.
     """
     fmpy.extract(str(fmu), unzipdir=str(folder))
     versions = {"native": "zig cc -O3, baseline of the processor family (x86-64: SSE2)"}
@@ -99,15 +96,8 @@ def _measure(
 
 
 def _native(fmu: Path, folder: Path) -> Measure:
-    description, variables = fmpy.read_model_description(str(fmu)), _variables(fmu)
-    outputs = _outputs(fmu)
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="native",
-    )
-    slave.instantiate()
+    variables, outputs = _variables(fmu), _outputs(fmu)
+    slave = instantiate_fmu(str(folder), fmpy.read_model_description(str(fmu)))
     references = (fmi2ValueReference * len(outputs))(*(variables[n].valueReference for n in outputs))
     values = (fmi2Real * len(outputs))()
 

@@ -62,10 +62,7 @@ class Drive:
     def truth(self) -> dict[str, Array]:
         """Judged sensors at the instants of the record, as two methods show them.
 
-        Raises
-        ------
-        NoReferenceError
-            They do not agree, or one refuses.
+        Raises `NoReferenceError`: they do not agree, or one refuses.
         """
         try:
             fine = self.run("ali3p", CHECK, estimate_error=False)

@@ -52,22 +52,17 @@ class Signals:
 
 @dataclass(frozen=True)
 class Motion:
-    """Motion of the chassis by double integration; a rate of each stands beside it.
-
-    Attributes
-    ----------
-    time, way, speed, heave, pitch : ndarray, shape (n,)
-        s; m, m/s along the axis of the chassis; m upwards; rad, positive with the nose down.
-    guide : PPoly
-        The way, whose acceleration is straight from sample to sample.
-    """
+    """Motion of the chassis by double integration; a rate of each stands beside it."""
 
     time: Array
     way: Array
     speed: Array
     heave: Array
     pitch: Array
+    """`time`, `way`, `speed`, `heave`, `pitch`: in s; m, m/s along the axis of the chassis; m upwards; rad, positive
+    with the nose down, shape (n,)."""
     guide: PPoly
+    """The way, whose acceleration is straight from sample to sample."""
 
 
 def smooth() -> Trajectory:
@@ -172,10 +167,8 @@ _LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is cut o
 def moments(run: Trajectory) -> Array:
     """Changes of the moments at the four gauges since the start, after the low-pass, N m.
 
-    Returns
-    -------
-    ndarray of shape (n, 4)
-        Without the last tenth of a second, where the low-pass has one side of the noise alone.
+    Returns an array of shape (n, 4): without the last tenth of a second, where the low-pass has one side of the noise
+    alone.
     """
     h = float(run.t[1] - run.t[0])
     changes = np.stack([low_pass(run[name] - run[name][0], h, FREQUENCY) for name in MOMENTS], axis=1)

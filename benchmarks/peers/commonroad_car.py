@@ -31,12 +31,8 @@ HELPERS = ("steering_constraints", "acceleration_constraints", "vehicle_dynamics
 def drive(cars: int, speed: float, h: float, angles: Array) -> tuple[Array, float]:
     """Several cars one after the other.
 
-    Parameters
-    ----------
-    h : float
-        Step, s.
-    angles : ndarray, shape (steps,)
-        Mean angle of the front wheels at the end of each step, rad. The model takes its rate, which a step holds.
+    `h`: step, s; `angles`: mean angle of the front wheels at the end of each step, rad. The model takes its rate, which
+    a step holds, shape (steps,).
 
     Returns
     -------

@@ -13,7 +13,8 @@ import numpy as np
 from exudyn import itemInterface
 
 from benchmarks.peers.common import PeerRun, samples_times
-from mbs.scenes import bricard, spatial_chain
+from benchmarks.peers.trees import SCENES, Tree, Vector, tree_of
+from mbs.scenes import bricard
 
 INTEGRATORS = ("generalised alpha", "generalised alpha (tree)", "trapezoidal index 2", "RK44 (tree)")
 VERSION = exu.__version__
@@ -21,7 +22,7 @@ VERSION = exu.__version__
 
 def scenes() -> tuple[str, ...]:
     """Names of the shared scenes."""
-    return ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_bar_200")
+    return SCENES
 
 
 def integrators(scene: str) -> tuple[str, ...]:
@@ -42,14 +43,13 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
         raise ValueError(f"{integrator!r} is not for {scene}")
     container = exu.SystemContainer()
     mbs = container.AddSystem()
-    if "four_bar" in scene:
-        windows = int(scene.rpartition("_")[2]) if scene[-1].isdigit() else 2
-        sensor = _four_bar_tree(mbs, windows) if "(tree)" in integrator else _four_bar(mbs, windows)
-        large = windows > 10
-    elif scene == "bricard":
-        sensor, large = _bricard(mbs), False
+    tree = tree_of(scene)
+    columns = tree.components
+    if "four_bar" in scene and "(tree)" not in integrator:
+        sensor, columns = _four_bar(mbs, len(tree.closures)), [0, 1]
     else:
-        sensor, large = _chain(mbs), False
+        sensor = _closed_tree(mbs, scene, tree)
+    large = len(tree.closures) > 10
     mbs.Assemble()
     s = exu.SimulationSettings()
     s.timeIntegration.numberOfSteps = round(end / h)
@@ -76,15 +76,9 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
         finished = False
     wall = time.perf_counter() - begin
     table = np.atleast_2d(mbs.GetSensorStoredData(sensor))
-    planar = "four_bar" in scene
     count = min(len(table), samples + 1)
-    return PeerRun(
-        samples_times(end, samples)[:count],
-        table[:count, 1 : 3 if planar else 4],
-        None,
-        wall,
-        finished and count > samples,
-    )
+    times = samples_times(end, samples)[:count]
+    return PeerRun(times, table[:count, 1:][:, columns], None, wall, finished and count > samples)
 
 
 def _four_bar(mbs: Any, windows: int) -> int:
@@ -114,27 +108,6 @@ def _four_bar(mbs: Any, windows: int) -> int:
     return int(first)
 
 
-def _four_bar_tree(mbs: Any, windows: int) -> int:
-    """Cranks on the ground, couplers on the cranks before them; the far ends of the couplers close the loops."""
-    up, right, z = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
-    n = 2 * windows + 1  # crank i is link i, coupler i is link windows + 1 + i
-    offsets = [i * right for i in range(windows + 1)] + [up] * windows
-    parents = [-1] * (windows + 1) + list(range(windows))
-    rates = [-1.0] * (windows + 1) + [1.0] * windows
-    alongs = [up] * (windows + 1) + [right] * windows
-    tree, sensor = _tree(mbs, offsets, [z] * n, 1.0, 1.0, 0.0, alongs, [0, -9.81, 0], rates, (0, up), parents)
-    R = _frame(z)
-    for i in range(windows):
-        far, tip = (
-            mbs.AddMarker(
-                itemInterface.MarkerKinematicTreeRigid(objectNumber=tree, linkNumber=link, localPosition=R.T @ place)
-            )
-            for link, place in ((windows + 1 + i, right), (i + 1, up))
-        )
-        mbs.AddObject(itemInterface.GenericJoint(markerNumbers=[far, tip], constrainedAxes=[1, 1, 0, 0, 0, 0]))
-    return sensor
-
-
 def _planar(mbs: Any, place: tuple[float, float], velocity: tuple[float, float], rate: float) -> int:
     node = mbs.AddNode(
         itemInterface.NodeRigidBody2D(referenceCoordinates=[*place, 0.0], initialVelocities=[*velocity, rate])
@@ -145,74 +118,63 @@ def _planar(mbs: Any, place: tuple[float, float], velocity: tuple[float, float],
     return int(body)
 
 
-def _tree(
-    mbs: Any,
-    offsets: list[np.ndarray],
-    axes: list[np.ndarray],
-    mass: float,
-    length: float,
-    side: float,
-    alongs: list[np.ndarray],
-    gravity: list[float],
-    rates: list[float],
-    output: tuple[int, np.ndarray],
-    parents: list[int] | None = None,
-) -> tuple[int, int]:
-    """A kinematic tree, by default one chain; joint axes as the third axis of each link's frame."""
-    n = len(axes)
-    parents = list(range(-1, n - 1)) if parents is None else parents
-    frames = [_frame(a) for a in axes]  # columns: link axes in the reference configuration, z along the hinge
-    before = [np.eye(3) if p < 0 else frames[p] for p in parents]
+def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
+    """A kinematic tree and its sensor; joint axes as the third axis of each link's frame."""
+    n = len(tree.links)
+    frames = [_frame(link.axis) for link in tree.links]
+    before = [np.eye(3) if link.parent == 0 else frames[link.parent - 1] for link in tree.links]
     node = mbs.AddNode(
         itemInterface.NodeGenericODE2(
             referenceCoordinates=[0.0] * n,
             initialCoordinates=[0.0] * n,
-            initialCoordinates_t=rates,
+            initialCoordinates_t=[link.rate for link in tree.links],
             numberOfODE2Coordinates=n,
         )
     )
-    axial, transverse = mass * side**2 / 6.0, mass * (length**2 + side**2) / 12.0
-    inertias, coms, transformations, places = (
-        exu.Matrix3DList(),
-        exu.Vector3DList(),
-        exu.Matrix3DList(),
-        exu.Vector3DList(),
-    )
-    for k in range(n):
-        R = frames[k]
-        local = R.T @ alongs[k]
-        inertias.Append(transverse * np.eye(3) + (axial - transverse) * np.outer(local, local))
-        coms.Append(0.5 * length * local)
-        transformations.Append(before[k].T @ R)
-        places.Append(before[k].T @ offsets[k])
-    tree = mbs.AddObject(
+    inertias, transformations = exu.Matrix3DList(), exu.Matrix3DList()
+    coms, places = exu.Vector3DList(), exu.Vector3DList()
+    for link, R, R_before in zip(tree.links, frames, before, strict=True):
+        inertias.Append(R.T @ link.inertia @ R)
+        coms.Append(R.T @ link.centre)
+        transformations.Append(R_before.T @ R)
+        places.Append(R_before.T @ link.place)
+    made = mbs.AddObject(
         itemInterface.ObjectKinematicTree(
             nodeNumber=node,
             jointTypes=[exu.JointType.RevoluteZ] * n,
-            linkParents=parents,
+            linkParents=[link.parent - 1 for link in tree.links],
             jointTransformations=transformations,
             jointOffsets=places,
             linkInertiasCOM=inertias,
             linkCOMs=coms,
-            linkMasses=[mass] * n,
+            linkMasses=[link.mass for link in tree.links],
             baseOffset=[0.0, 0.0, 0.0],
-            gravity=gravity,
+            gravity=tree.gravity.tolist(),
         )
     )
-    link, place = output
     sensor = mbs.AddSensor(
         itemInterface.SensorKinematicTree(
-            objectNumber=tree,
-            linkNumber=link,
-            localPosition=frames[link].T @ place,
+            objectNumber=made,
+            linkNumber=tree.body - 1,
+            localPosition=frames[tree.body - 1].T @ tree.point,
             storeInternal=True,
             outputVariableType=exu.OutputVariableType.Position,
         )
     )
-    return int(tree), int(sensor)
+    return int(made), int(sensor)
 
 
-def _frame(axis: np.ndarray) -> np.ndarray:
+def _on_link(mbs: Any, made: int, tree: Tree, body: int, place: Vector) -> int:
+    """Marker on a link."""
+    local = _frame(tree.links[body - 1].axis).T @ place
+    return int(
+        mbs.AddMarker(
+            itemInterface.MarkerKinematicTreeRigid(objectNumber=made, linkNumber=body - 1, localPosition=local)
+        )
+    )
+
+
+def _frame(axis: Vector) -> Vector:
     """Rotation matrix with the axis as its third column."""
     z = np.asarray(axis, float) / np.linalg.norm(axis)
     x = np.cross([0.0, 1.0, 0.0] if abs(z[1]) < 0.9 else [1.0, 0.0, 0.0], z)
@@ -220,42 +182,26 @@ def _frame(axis: np.ndarray) -> np.ndarray:
     return np.column_stack([x, np.cross(z, x), z])
 
 
-def _bricard(mbs: Any) -> int:
-    b = bricard
-    points = np.array(b.POINTS, float) * b.LENGTH
-    alongs = [(points[k + 1] - points[k]) / b.LENGTH for k in range(5)]
-    offsets = [points[0]] + [points[k] - points[k - 1] for k in range(1, 5)]
-    axes = [np.array(a, float) for a in b.AXES[:5]]
-    tree, sensor = _tree(
-        mbs, offsets, axes, b.MASS, b.LENGTH, b.SECTION, alongs, [0, -9.81, 0], [0.0] * 5, (1, points[2] - points[1])
-    )
-    ground = mbs.AddObject(itemInterface.ObjectGround())
-    R = _frame(axes[4])
-    end = mbs.AddMarker(
-        itemInterface.MarkerKinematicTreeRigid(
-            objectNumber=tree, linkNumber=4, localPosition=R.T @ (points[5] - points[4])
+def _closed_tree(mbs: Any, scene: str, tree: Tree) -> int:
+    """A tree with its loops: in Bricard's mechanism one hinge, elsewhere points in the plane of the links."""
+    made, sensor = _tree(mbs, tree)
+    if scene == "bricard":
+        loop, hinge = tree.closures[0], _frame(np.array(bricard.AXES[5], float))
+        end = _on_link(mbs, made, tree, loop.body_1, loop.place_1)
+        ground = mbs.AddObject(itemInterface.ObjectGround())
+        foot = mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground, localPosition=loop.place_2))
+        turned = _frame(tree.links[loop.body_1 - 1].axis).T @ hinge
+        mbs.AddObject(
+            itemInterface.GenericJoint(
+                markerNumbers=[end, foot],
+                constrainedAxes=[1, 1, 1, 1, 1, 0],
+                rotationMarker0=turned,
+                rotationMarker1=hinge,
+            )
         )
-    )
-    foot = mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground, localPosition=points[5]))
-    hinge = _frame(np.array(b.AXES[5], float))
-    mbs.AddObject(
-        itemInterface.GenericJoint(
-            markerNumbers=[end, foot],
-            constrainedAxes=[1, 1, 1, 1, 1, 0],
-            rotationMarker0=R.T @ hinge,
-            rotationMarker1=hinge,
-        )
-    )
+        return sensor
+    for loop in tree.closures:
+        far = _on_link(mbs, made, tree, loop.body_1, loop.place_1)
+        tip = _on_link(mbs, made, tree, loop.body_2, loop.place_2)
+        mbs.AddObject(itemInterface.GenericJoint(markerNumbers=[far, tip], constrainedAxes=[1, 1, 0, 0, 0, 0]))
     return sensor
-
-
-def _chain(mbs: Any) -> int:
-    s = spatial_chain
-    along, square, across = s.directions()
-    n = s.LINKS
-    offsets = [np.zeros(3)] + [s.LENGTH * along] * (n - 1)
-    axes = [across if k % 2 == 0 else square for k in range(n)]
-    rates = [s.SPIN, s.SPIN] + [0.0] * (n - 2)
-    return _tree(
-        mbs, offsets, axes, s.MASS, s.LENGTH, s.SECTION, [along] * n, [0, 0, -9.81], rates, (n - 1, s.LENGTH * along)
-    )[1]

@@ -264,10 +264,7 @@ class Dynamics:
 def motion(drawing: Drawing) -> Array:
     """Positions of the tips (INSTANTS + 1, n, d), of a run that another at a hundred times its tolerance confirms.
 
-    Raises
-    ------
-    NoReferenceError
-        They differ by more than 1e-5 of the size of the drawing, or one of them does not end.
+    Raises `NoReferenceError`: they differ by more than 1e-5 of the size of the drawing, or one of them does not end.
     """
     coarse, found = (_run(drawing, tolerance) for tolerance in (COARSE, FINE))
     apart = float(np.abs(coarse - found).max()) / drawing.size

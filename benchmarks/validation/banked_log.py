@@ -13,12 +13,8 @@ PORT = "point_reference.Fy"
 def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: float) -> tuple[Path, Path]:
     """Write log and alias file once more, with mass times bank across the car at its reference point.
 
-    Parameters
-    ----------
-    bank : ndarray of shape (n,)
-        Of each row of the log, m/s2, positive to the left.
-    mass : float
-        Of the car, kg. The loads of the wheels on a banked road are not in this force.
+    `bank`: of each row of the log, m/s2, positive to the left, shape (n,); `mass`: of the car, kg. The loads of the
+    wheels on a banked road are not in this force.
     """
     packed = log.suffix == ".gz"
     text = gzip.decompress(log.read_bytes()).decode() if packed else log.read_text(encoding="utf-8")

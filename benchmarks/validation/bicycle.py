@@ -158,11 +158,7 @@ def simulate(
 
     `begins`: samples at which windows begin, with the measured lateral velocity and yaw rate, shape (w,); `steps`:
     samples of a window after its first; `numbers`: sets of numbers, shape (k, p); all windows are driven with each.
-
-    Returns
-    -------
-    vy, yaw_rate : ndarray of shape (k, w, steps + 1)
-        At the centre of mass.
+    Returns `vy` and `yaw_rate`, shape (k, w, steps + 1): at the centre of mass.
 
     Notes
     -----
@@ -203,12 +199,7 @@ def heun(
     """Lateral velocity and yaw rate by Heun's method with a step a sample, from what was measured.
 
     `change`: their rates, m/s2 and rad/s2, at a sample of the windows; `begins`: samples at which windows begin, shape
-    (w,).
-
-    Returns
-    -------
-    vy, yaw_rate : ndarray of shape (sets, w, steps + 1)
-        m/s, rad/s.
+    (w,). Returns `vy` and `yaw_rate`, shape (sets, w, steps + 1): in m/s, rad/s.
     """
     shape = (sets, len(begins), steps + 1)
     vy, r = np.empty(shape), np.empty(shape)

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.machine import describe
 from benchmarks.shared.tables import print_table
 from benchmarks.validation.commonroad_reference import (
     BEGIN,
@@ -123,7 +122,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     made = rows()
     print_table(made, COLUMNS)
-    save_rows(options.json, describe("validation.commonroad"), made)
+    save_rows(options.json, "validation.commonroad", made)
 
 
 if __name__ == "__main__":

@@ -70,12 +70,7 @@ def read_drive(file: Path, aliases: Path) -> Drive:
     """Read a log; single samples that no neighbour supports are bridged by a straight line.
 
     `file`: CSV, perhaps packed (.gz); `aliases`: its alias file, with the angles of both front wheels, the speeds and
-    the yaw rate.
-
-    Raises
-    ------
-    HostError
-        A column is missing, or its samples are not equally spaced.
+    the yaw rate. Raises `HostError`: a column is missing, or its samples are not equally spaced.
     """
     form = read_log_aliases(aliases)
     raw = read_log(file, form.form)

@@ -92,12 +92,8 @@ def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: fl
     """Steady forces of a wheel on a heavy sled.
 
     `load`: in N; `angle`: by which the sled goes to the right of the wheel's heading, deg; `slip`: longitudinal, % of
-    the speed along the wheel, positive when driven.
-
-    Returns
-    -------
-    longitudinal, lateral : float
-        Forces of the road along the wheel's heading and to its left, N.
+    the speed along the wheel, positive when driven. Returns `longitudinal` and `lateral`: forces of the road along the
+    wheel's heading and to its left, N.
     """
     height = RADIUS - load / STIFFNESS
     rolling = (2.0 * RADIUS + height) / 3.0  # of both formulas, where a tyre tells no other

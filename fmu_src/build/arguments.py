@@ -18,17 +18,8 @@ Systems = mbs.System | Sequence[mbs.System] | Mapping[int, mbs.System]
 def systems_by_number(system: Systems) -> dict[int, mbs.System]:
     """The Systems of an FMU by fidelity, ascending from 0.
 
-    Parameters
-    ----------
-    system : mbs.System, sequence of them or mapping of int to mbs.System
-        The numbers may be members of an enumeration, which they stay.
-
-    Raises
-    ------
-    mbs.ArgumentTypeError
-        Something is no System.
-    ValueError
-        There is none, or the numbers are not 0, 1, 2 and on.
+    `system`: the numbers may be members of an enumeration, which they stay. Raises `mbs.ArgumentTypeError`: something
+    is no System. Raises `ValueError`: there is none, or the numbers are not 0, 1, 2 and on.
     """
     given: Any = system
     if isinstance(given, (list, tuple)):

@@ -25,13 +25,7 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
 
 
 def write_beside(parameters: ParameterSet, file: Path) -> bool:
-    """Write the file unless a person has changed the one that is there.
-
-    Returns
-    -------
-    bool
-        Whether it was written.
-    """
+    """Write the file unless a person has changed the one that is there. Returns whether it was written."""
     if file.exists() and not is_as_built(file):
         return False
     write_parameter_set(parameters, file, as_built=True)

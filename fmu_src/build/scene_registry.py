@@ -43,16 +43,14 @@ def scene_names() -> list[str]:
 def load_scene(scene: str) -> tuple[str, mbs.System]:
     """Build and compile a scene. `scene`: name of a scene of the package, or ``path/to/file.py:function``.
 
+    Raises `SceneError` if there is no such scene, it asks for arguments or returns something else than a Model or
+    System.
+
     Returns
     -------
     name : str
         Short name, for file names.
     system : mbs.System
-
-    Raises
-    ------
-    SceneError
-        If there is no such scene, it asks for arguments or returns something else than a Model or System.
     """
     with _scene(scene) as (name, build):
         return name, _system(scene, build)
@@ -63,14 +61,8 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
 
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
-    default of its argument `fidelity`. (The function may still be called `variants`, until the next release.)
-
-    Parameters
-    ----------
-    scene : str
-        As for `load_scene`.
-    poses : {"wheels", "all"} or None
-        As `fmu_src.geometry.posed.posed_systems` takes it.
+    default of its argument `fidelity`. (The function may still be called `variants`, until the next release.) `scene`:
+    as for `load_scene`; `poses`: as `fmu_src.geometry.posed.posed_systems` takes it.
 
     Returns
     -------

@@ -29,23 +29,7 @@ LOG_CATEGORIES = {
 
 @dataclass(frozen=True)
 class Description:
-    """What modelDescription.xml says beside the variables.
-
-    Parameters
-    ----------
-    model_name, model_identifier, guid, description, tool, version : str
-        Attributes of the document.
-    stop_time, step_size : float
-        Default experiment, s.
-    needs_execution_tool : bool
-        Whether a Python interpreter must be there, which has memory of its own.
-    author, copyright, licence : str
-        Of the model; by default those of the solver.
-    sources : sequence of str
-        C files in the folder ``sources``, if it can be compiled from them.
-    texts : sequence of TextVariable
-        Variables that are text; their value references come after those of the others.
-    """
+    """What modelDescription.xml says beside the variables."""
 
     model_name: str
     model_identifier: str
@@ -53,14 +37,20 @@ class Description:
     description: str
     tool: str
     version: str
+    """`model_name`, `model_identifier`, `guid`, `description`, `tool`, `version`: attributes of the document."""
     stop_time: float
     step_size: float
+    """`stop_time`, `step_size`: default experiment, s."""
     needs_execution_tool: bool
+    """Whether a Python interpreter must be there, which has memory of its own."""
     author: str
     copyright: str
     licence: str
+    """`author`, `copyright`, `licence`: of the model; by default those of the solver."""
     sources: Sequence[str] = ()
+    """C files in the folder ``sources``, if it can be compiled from them."""
     texts: Sequence[TextVariable] = ()
+    """Variables that are text; their value references come after those of the others."""
 
 
 def generation_date() -> str:
@@ -96,12 +86,8 @@ def number(value: float) -> str:
 def model_description(head: Description, table: Sequence[Variable], reach: Dependencies) -> bytes:
     """Write the document.
 
-    `head`: attributes and default experiment; `table`: all variables; the place is the value reference.
-
-    Returns
-    -------
-    bytes
-        UTF-8, the same for the same arguments.
+    `head`: attributes and default experiment; `table`: all variables; the place is the value reference. Result: UTF-8,
+    the same for the same arguments.
     """
     own = {"fmiVersion": "2.0", "modelName": head.model_name, "guid": head.guid}
     root = ElementTree.Element("fmiModelDescription", {**own, **about(head), "numberOfEventIndicators": "0"})

@@ -30,12 +30,8 @@ def documentation(
 ) -> str:
     """The page.
 
-    `step_size`: default step, s; `paragraphs`: what is peculiar to the kind of FMU; plain text.
-
-    Returns
-    -------
-    str
-        HTML that needs no other file but the picture.
+    `step_size`: default step, s; `paragraphs`: what is peculiar to the kind of FMU; plain text. Result: HTML that needs
+    no other file but the picture.
     """
     columns = ("name", "causality", "variability", "unit", "start", "min", "max", "description")
     rows = markup([html_table("", columns, ([_cell(getattr(v, c)) for c in columns] for v in table))])

@@ -31,10 +31,8 @@ def with_nominal(
 ) -> tuple[Variable, ...]:
     """Real outputs get a typical size: the power of ten below the largest value, for wheels and sides the same.
 
-    Parameters
-    ----------
-    driven, tried : mapping of int to float
-        Largest values by the places of outputs: of a drive, and of trials for those that a drive does not move.
+    `driven`, `tried`: largest values by the places of outputs: of a drive, and of trials for those that a drive does
+    not move.
     """
     sizes = {i: driven[i] if driven.get(i, 0.0) > _ROUND_OFF else size for i, size in tried.items()}
     group = [_SIDE.sub("*", v.name) for v in table]
@@ -52,10 +50,7 @@ def with_nominal(
 def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dict[int, float]:
     """Largest absolute values of sensors in a drive of each System, by their places in the table.
 
-    Returns
-    -------
-    dict of int to float
-        After each step, up to where a drive is refused.
+    Result: after each step, up to where a drive is refused.
     """
     sensed = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
     moved = [v for v in table if v.source == "input" and not v.whole]

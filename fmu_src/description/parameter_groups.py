@@ -24,12 +24,8 @@ def parameter_groups(
     """Sort the parameters of a System.
 
     `kernel`: of it; it is reset; `value`: a value in the range of a parameter, by its number; another one at each call;
-    `rng`: for the places where forces are compared.
-
-    Returns
-    -------
-    list of list of int
-        Numbers of parameters that move a start, of those of roads, of the others; empty groups are left out.
+    `rng`: for the places where forces are compared. Returns numbers of parameters that move a start, of those of roads,
+    of the others; empty groups are left out.
     """
     arrays = system.arrays
     moving: list[int] = []

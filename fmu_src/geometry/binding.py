@@ -36,13 +36,7 @@ class Bound:
 
 
 def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Shared]) -> Bound:
-    """Find what moves the frames of a drawing.
-
-    Parameters
-    ----------
-    shared : sequence of (frame, place, frame, place)
-        Points that frames share.
-    """
+    """Find what moves the frames of a drawing. `shared`: points that frames share."""
     rows, bound = SensorRows(system), Bound({}, {}, {}, {})
     assert system.drawing is not None, "asked for before"
     places = {place.columns[0]: place for place in system.drawing.places.bodies}

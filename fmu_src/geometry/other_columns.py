@@ -15,13 +15,8 @@ _COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "co
 def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
     """The scene with its columns as they are called.
 
-    Parameters
-    ----------
-    scene : mapping
-        As `fmu_src.geometry.geometry.geometry` gives it.
-    named : mapping of str to Variable
-        Variables that have another name, by ours. A scene is in SI units: what reads one that has another is left out,
-        frames with a word in ``missing``.
+    `scene`: as `fmu_src.geometry.geometry.geometry` gives it; `named`: variables that have another name, by ours. A
+    scene is in SI units: what reads one that has another is left out, frames with a word in ``missing``.
     """
     odd = {ours for ours, v in named.items() if v.scale != 1.0}
     frames, missing = dict(scene["frames"]), list(scene["missing"])

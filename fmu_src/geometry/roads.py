@@ -19,18 +19,9 @@ def with_parameters(
 ) -> list[dict[str, Any]]:
     """Roads as a host may change them.
 
-    Parameters
-    ----------
-    roads : sequence of mapping
-        Of the drawing; the first are those of the System in its order, or have their numbers.
-    known : collection of str
-        Names of the FMU's variables that are numbers.
-
-    Returns
-    -------
-    list of dict
-        With the keys `variables`, the parameters by what they set: `kerb_x`, `kerb_height`, `file`; paths are those in
-        the FMU.
+    `roads`: of the drawing; the first are those of the System in its order, or have their numbers; `known`: names of
+    the FMU's variables that are numbers. Result: with the keys `variables`, the parameters by what they set: `kerb_x`,
+    `kerb_height`, `file`; paths are those in the FMU.
     """
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
     found = []

@@ -35,11 +35,8 @@ _VARIABLE = Variable("nothing", "local", "constant", "1", "", "constant", 0, 0.0
 def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
     """A context in whose background libraries are compiled.
 
-    Parameters
-    ----------
-    work : sequence of (str, str)
-        Faces, see `compile_library`, and platforms; the first is wanted first. What has not been begun when the context
-        is left is left out, what has is ended.
+    `work`: faces, see `compile_library`, and platforms; the first is wanted first. What has not been begun when the
+    context is left is left out, what has is ended.
     """
     with tempfile.TemporaryDirectory(prefix="ali3-ahead-", ignore_cleanup_errors=True) as folder:
         table = Path(folder, "table.c")

@@ -19,12 +19,7 @@ _ZIP_DATE = (1980, 1, 1, 0, 0, 0)
 def identity_of(entries: Mapping[str, bytes], more: Any) -> tuple[str, str]:
     """Hash of the content.
 
-    Parameters
-    ----------
-    entries : mapping of str to bytes
-        Files by name.
-    more : JSON value
-        Anything else that makes this FMU what it is.
+    `entries`: files by name; `more`: anything else that makes this FMU what it is.
 
     Returns
     -------

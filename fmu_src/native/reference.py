@@ -45,12 +45,8 @@ def reference_runs(system: mbs.System, follower: mbs.System | None = None) -> tu
 
     An input goes a fifth of the way to the end of its range and back, and is held over each step.
 
-    `follower`: with ports: computes what the System leaves out (`mbs.compiler.ports`).
-
-    Raises
-    ------
-    SimulationError
-        When the default experiment does not run; the sentence names what of the scene sets it.
+    `follower`: with ports: computes what the System leaves out (`mbs.compiler.ports`). Raises `SimulationError` when
+    the default experiment does not run; the sentence names what of the scene sets it.
     """
     experiment = system.meta["experiment"]
     step = float(experiment["step_s"])
@@ -142,12 +138,7 @@ def with_other_names(run: ReferenceRun, named: Mapping[str, Variable]) -> Refere
 def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float) -> dict[str, bytes]:
     """Manifest, experiments, their inputs and results.
 
-    `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s.
-
-    Returns
-    -------
-    dict of str to bytes
-        By path in the FMU.
+    `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s. Result: by path in the FMU.
     """
     ElementTree.register_namespace("fmi-ls", _NAMESPACE)
     manifest = ElementTree.Element(

@@ -23,13 +23,7 @@ def shell_files(face: str) -> list[Path]:
 
 
 def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
-    """All sources as they lie in the FMU's folder ``sources``, headers too.
-
-    Returns
-    -------
-    dict of str to bytes
-        By path with forward slashes.
-    """
+    """All sources as they lie in the FMU's folder ``sources``, headers too. Result: by path with forward slashes."""
     files = {f.name: f.read_bytes() for f in shell_files(face)}
     files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(_OTHER[face])}
     rooms = [*(build.HERE / "src").rglob("*.h"), *build.sources(lanes=False)]

@@ -13,16 +13,8 @@ _ALIGN = 14  # pages of Apple's ARM processors: 2^14 bytes
 def universal(thin: Sequence[bytes]) -> bytes:
     """Join files of different processors. `thin`: 64-bit Mach-O files.
 
-    Returns
-    -------
-    bytes
-        Header, one entry per file (processor, subtype, offset, size, alignment; big endian), then the files at
-        aligned offsets.
-
-    Raises
-    ------
-    ValueError
-        If a file is none, or two are for the same processor.
+    Result: header, one entry per file (processor, subtype, offset, size, alignment; big endian), then the files at
+    aligned offsets. Raises `ValueError` if a file is none, or two are for the same processor.
     """
     entries, body = [], b""
     start = 8 + 20 * len(thin)

@@ -41,11 +41,8 @@ class Array:
 def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     """Group the variables of a table.
 
-    Returns
-    -------
-    tuple of Array
-        Vectors where all components are outputs of one unit and follow each other, series such as gauge_1.stress,
-        gauge_2.stress ..., else single variables; in the order of the table.
+    Returns vectors where all components are outputs of one unit and follow each other, series such as gauge_1.stress,
+    gauge_2.stress ..., else single variables; in the order of the table.
     """
     found: list[Array] = []
     taken: set[int] = set()

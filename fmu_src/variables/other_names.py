@@ -33,18 +33,9 @@ class Renamed:
 def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     """The variables as an alias file calls them.
 
-    Parameters
-    ----------
-    table : sequence of Variable
-        With our names.
-    content : Content
-        Of the file. What it computes from several variables keeps our name, and so does what needs another zero.
-
-    Raises
-    ------
-    UserError
-        The file names none of the variables, without ``partial`` one that is not there, a name twice, or one that no
-        variable of an FMU can have.
+    `table`: with our names; `content`: of the file. What it computes from several variables keeps our name, and so does
+    what needs another zero. Raises `UserError`: the file names none of the variables, without ``partial`` one that is
+    not there, a name twice, or one that no variable of an FMU can have.
     """
     place = {v.name: k for k, v in enumerate(table)}
     values = {v.name: v for v in table if v.source == "constant"}

@@ -26,13 +26,7 @@ class TextVariable:
 
 
 def text_table(meta: Mapping[str, Any], table: Sequence[Variable]) -> tuple[TextVariable, ...]:
-    """The text variables of a System.
-
-    Raises
-    ------
-    ValueError
-        A name is taken.
-    """
+    """The text variables of a System. Raises `ValueError`: a name is taken."""
     taken = {v.name for v in table}
     found = []
     for entry in meta.get("road_files", ()):

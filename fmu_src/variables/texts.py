@@ -15,10 +15,7 @@ _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 def check_texts(description: str, rights: Sequence[str], table: Sequence[Variable]) -> None:
     """Refuse texts with characters that XML cannot hold. `rights`: author, copyright, licence.
 
-    Raises
-    ------
-    ValueError
-        With the text, the character and its place.
+    Raises `ValueError` with the text, the character and its place.
     """
     texts = {"description of the model": description}
     texts |= dict(zip(("author", "copyright", "licence"), rights, strict=True))

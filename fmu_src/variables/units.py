@@ -103,12 +103,7 @@ def parse_unit(name: str, foreign: bool = False) -> Unit:
 
     `name`: products by ``.``, ``*`` or a space; everything after a ``/`` divides; powers as digits with or without
     ``^``; `foreign`: whether ``h`` is an hour and ``g`` standard gravity, as other programs have them; in models they
-    are not known.
-
-    Raises
-    ------
-    ValueError
-        If a symbol is not known.
+    are not known. Raises `ValueError` if a symbol is not known.
 
     Examples
     --------

@@ -40,12 +40,8 @@ def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> 
     """Measures of a stop.
 
     `result`: from before the onset to rest; `onset`: first movement of the pedal, s; NaN if braking did not begin;
-    `settings`: ``speed``, km/h, and ``pedal``.
-
-    Returns
-    -------
-    list of Measure
-        The same names whatever the car tells; NaN with a note where it does not.
+    `settings`: ``speed``, km/h, and ``pedal``. Returns the same names whatever the car tells; NaN with a note where it
+    does not.
     """
     time, speed, nominal = result.time, result["speed"], settings["speed"] / 3.6
     began = not math.isnan(onset)

@@ -35,23 +35,10 @@ _APPROACH = 60.0
 
 @dataclass(frozen=True)
 class CircleRun:
-    """What a run yields, from where the car runs steadily to its largest lateral acceleration.
-
-    Parameters
-    ----------
-    result : Result
-        All of the run, at longer intervals than it was driven.
-    time, acceleration, steering, sideslip, roll, torque, speed : ndarray of shape (n,)
-        SI units, positive to the left; NaN where the car has no such output. The acceleration is level.
-    largest : float
-        Lateral acceleration to the side of the run, mean over 1 s, m/s².
-    end : str
-        What else than the grip of the tyres has ended the run, with "the" before; else empty.
-    steering_note : str
-        What is not known of the steering wheel; else empty.
-    """
+    """What a run yields, from where the car runs steadily to its largest lateral acceleration."""
 
     result: Result
+    """All of the run, at longer intervals than it was driven."""
     time: NDArray[np.float64]
     acceleration: NDArray[np.float64]
     steering: NDArray[np.float64]
@@ -59,9 +46,14 @@ class CircleRun:
     roll: NDArray[np.float64]
     torque: NDArray[np.float64]
     speed: NDArray[np.float64]
+    """`time`, `acceleration`, `steering`, `sideslip`, `roll`, `torque`, `speed`: SI units, positive to the left; NaN
+    where the car has no such output. The acceleration is level, shape (n,)."""
     largest: float
+    """Lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str
+    """What else than the grip of the tyres has ended the run, with "the" before; else empty."""
     steering_note: str
+    """What is not known of the steering wheel; else empty."""
 
 
 class _Watch:

@@ -42,12 +42,8 @@ def amplitudes(a: float, first: float, increment: float, full_lock: float) -> li
     """Amplitudes of a series.
 
     `a`: angle at 0.3 g, rad; `first`, `increment`: in units of it; `full_lock`: largest angle the car can be steered
-    by, rad.
-
-    Returns
-    -------
-    list of float
-        rad, rising; the last is the greater of 6.5 A and 270°, 300° where 6.5 A is above it, or full lock.
+    by, rad. Result: in rad, rising; the last is the greater of 6.5 A and 270°, 300° where 6.5 A is above it, or full
+    lock.
     """
     last = min(_MOST if 6.5 * a > _MOST else max(6.5 * a, _LEAST_LAST), full_lock)
     rising = a * (first + increment * np.arange(math.ceil(max(last / a - first, 0.0) / increment)))

@@ -12,12 +12,8 @@ ROLLED = math.radians(60.0)
 class Ends:
     """Ends a run, and tells why.
 
-    `stands`: a car slower than this stands, m/s; 0: it does not end the run.
-
-    Attributes
-    ----------
-    reason : str
-        ``stands``, ``spun`` or ``rolled``; empty while the run goes on; that of the last call.
+    `stands`: a car slower than this stands, m/s; 0: it does not end the run. `reason`: ``stands``, ``spun`` or
+    ``rolled``; empty while the run goes on; that of the last call.
     """
 
     def __init__(self, stands: float) -> None:

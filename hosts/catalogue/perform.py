@@ -20,10 +20,7 @@ Reason: TypeAlias = str
 def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str, float]:
     """All settings of a test, those that are given and those by default. `given`: by the names of `test.settings`.
 
-    Raises
-    ------
-    HostError
-        If a name is not known or a value out of its range.
+    Raises `HostError` if a name is not known or a value out of its range.
     """
     known = {s.name: s for s in test.settings}
     for name, value in given.items():
@@ -68,12 +65,8 @@ def perform(
 ) -> TestRecord:
     """Do a test.
 
-    `settings`: those that are not by default; `progress`: called with the part that is done, 0 to 1.
-
-    Raises
-    ------
-    HostError
-        If a setting is wrong, or the car cannot do the test.
+    `settings`: those that are not by default; `progress`: called with the part that is done, 0 to 1. Raises `HostError`
+    if a setting is wrong, or the car cannot do the test.
     """
     wanted = settings_of_test(test, settings or {})
     missing = missing_for(test, car, wanted)

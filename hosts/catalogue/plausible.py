@@ -15,11 +15,8 @@ _NEAR = (0.7, 1.4)
 def implausible(run: SteeredRun) -> str | None:
     """What cannot be in a turn of slowly rising steering; None if all can.
 
-    Returns
-    -------
-    str or None
-        A sentence. In such a turn the car accelerates and turns to the side of the steering, and its lateral
-        acceleration is near speed times yaw rate.
+    Returns a sentence. In such a turn the car accelerates and turns to the side of the steering, and its lateral
+    acceleration is near speed times yaw rate.
     """
     if len(run.time) < 20:
         return None

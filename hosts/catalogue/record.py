@@ -105,11 +105,7 @@ class StandardTest(Protocol):
     def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
         """Do the test.
 
-        `settings`: every one of `settings`; `progress`: called with the part that is done, 0 to 1.
-
-        Raises
-        ------
-        HostError
-            If the car cannot do it, with what is missing.
+        `settings`: every one of `settings`; `progress`: called with the part that is done, 0 to 1. Raises `HostError`
+        if the car cannot do it, with what is missing.
         """
         ...

@@ -28,13 +28,7 @@ TESTS: tuple[str, ...] = tuple(name for name in _ALL if importlib.util.find_spec
 
 
 def standard_test(name: str) -> StandardTest:
-    """A test by its name.
-
-    Raises
-    ------
-    HostError
-        If there is none of it, with the names that there are.
-    """
+    """A test by its name. Raises `HostError` if there is none of it, with the names that there are."""
     if name not in TESTS:
         hint = did_you_mean(name, TESTS, f"they are: {', '.join(TESTS)}")
         raise HostError(f"There is no test '{name}' in the catalogue{hint}")

@@ -49,13 +49,7 @@ class SteadyMap:
         return float(np.interp(acceleration, np.maximum.accumulate(self.acceleration), self.angle))
 
     def need_angle_at(self, acceleration: float) -> float:
-        """The same of the setting `lateral_acceleration`.
-
-        Raises
-        ------
-        HostError
-            If it was not reached.
-        """
+        """The same of the setting `lateral_acceleration`. Raises `HostError` if it was not reached."""
         angle = self.angle_at(acceleration)
         if math.isnan(angle):
             raise HostError(
@@ -113,12 +107,8 @@ def _late(angle: NDArray[np.float64], acceleration: NDArray[np.float64], rate: f
 def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, acceleration: float) -> SteadyMap:
     """The map at a speed or, for a car that does not reach it, at a lower one.
 
-    `speed`, `lower`: in m/s; `acceleration`: up to which the map is wanted, m/s².
-
-    Raises
-    ------
-    HostError
-        If the car reaches neither, its FMU refuses a step, or signs or units of its signals do not fit.
+    `speed`, `lower`: in m/s; `acceleration`: up to which the map is wanted, m/s². Raises `HostError` if the car reaches
+    neither, its FMU refuses a step, or signs or units of its signals do not fit.
     """
     found = steady_map(car, speed, acceleration)
     if not len(found.angle) and lower < speed:

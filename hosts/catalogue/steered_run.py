@@ -37,14 +37,8 @@ class SteeredPilot:
     """Holds the speed until the car runs steadily, then steers by a table.
 
     `speed`: when the steering begins, m/s; `time`, `angle`: s from the beginning, and angle of the steering wheel, rad;
-    linear in between, shape (n,); `longest`: time the car has to come to its speed, s.
-
-    Attributes
-    ----------
-    begin : float
-        When the steering began, s; NaN while it has not.
-    gave_up : bool
-        Whether the car did not come to its speed.
+    linear in between, shape (n,); `longest`: time the car has to come to its speed, s. `begin`: when the steering
+    began, s; NaN while it has not; `gave_up`: whether the car did not come to its speed.
     """
 
     def __init__(
@@ -101,32 +95,24 @@ class SteeredPilot:
 
 @dataclass(frozen=True)
 class SteeredRun:
-    """What such a run yields; at even times, 0 where the steering begins.
-
-    Parameters
-    ----------
-    result : Result
-        As recorded, with rows at least 5 ms apart or each step.
-    begin : float
-        Of the steering in its time, s; NaN if the car did not come to its speed.
-    time : ndarray of shape (n,)
-        s; from 1 s before the beginning or later. Empty if there was none.
-    steering, yaw_rate, acceleration, sideslip, roll, speed : ndarray of shape (n,)
-        rad, rad/s, m/s², rad, rad, m/s; NaN where the car has no such output. The acceleration is lateral and level.
-    whole : bool
-        Whether the table was driven to its end.
-    """
+    """What such a run yields; at even times, 0 where the steering begins."""
 
     result: Result
+    """As recorded, with rows at least 5 ms apart or each step."""
     begin: float
+    """Of the steering in its time, s; NaN if the car did not come to its speed."""
     time: NDArray[np.float64]
+    """s; from 1 s before the beginning or later. Empty if there was none, shape (n,)."""
     steering: NDArray[np.float64]
     yaw_rate: NDArray[np.float64]
     acceleration: NDArray[np.float64]
     sideslip: NDArray[np.float64]
     roll: NDArray[np.float64]
     speed: NDArray[np.float64]
+    """`steering`, `yaw_rate`, `acceleration`, `sideslip`, `roll`, `speed`: in rad, rad/s, m/s², rad, rad, m/s; NaN
+    where the car has no such output. The acceleration is lateral and level, shape (n,)."""
     whole: bool
+    """Whether the table was driven to its end."""
 
     def shortfall(self, amplitude: float) -> str:
         """A sentence where the steering wheel did not come to an angle, rad, that was asked for; else empty."""

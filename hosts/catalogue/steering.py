@@ -36,13 +36,7 @@ class SteeringInput:
 
     @classmethod
     def of(cls, facts: CarFacts) -> SteeringInput:
-        """The best of the inputs of a car.
-
-        Raises
-        ------
-        HostError
-            If the car has no input to steer it.
-        """
+        """The best of the inputs of a car. Raises `HostError` if the car has no input to steer it."""
         full = abs(facts.constants.get(LARGEST, math.nan))
         limit = full if full > 0.0 else math.inf
         for name in (DEMAND, ANGLE):
@@ -64,12 +58,7 @@ class SteeringInput:
     def measured(self, result: Result, step: float) -> NDArray[np.float64]:
         """Angle of the steering wheel over a run: that of the car where it tells it, else what was asked for.
 
-        `result`: with n rows; `step`: communication step of the run, s.
-
-        Returns
-        -------
-        ndarray of shape (n,)
-            rad.
+        `result`: with n rows; `step`: communication step of the run, s. Returns an array of shape (n,): in rad.
         """
         if self.is_angle and ANGLE in result:
             return result[ANGLE]

@@ -18,12 +18,7 @@ def check(task: tuple[Path, int, Mapping[str, Value]], tell: Callable[[Finding],
     """Do all checks.
 
     `task`: the FMU, communication steps per run, and what is set in each instance before it starts; `tell`: called with
-    each finding at once.
-
-    Returns
-    -------
-    int
-        Findings that are bad.
+    each finding at once. Returns how many findings are bad.
     """
     from hosts.check.behaviour import BEHAVIOUR_CHECKS
     from hosts.check.documents import DOCUMENT_CHECKS

@@ -33,10 +33,7 @@ class Case:
 def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     """Write the cases as one test suite. `file`: whole or not at all; its folder is made.
 
-    Raises
-    ------
-    FileError
-        The file cannot be written.
+    Raises `FileError`: the file cannot be written.
     """
     counts = {
         "tests": len(cases),

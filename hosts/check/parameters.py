@@ -22,12 +22,7 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
     """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
 
     `given`: what is set in it before; `diff`: parameter set of which only what is other is printed; `show`: whether the
-    table is printed when a set is written too.
-
-    Returns
-    -------
-    int
-        Exit code.
+    table is printed when a set is written too. Result: exit code.
     """
     from ali3.files import check_writable
     from ali3.write_parameter_set import write_parameter_set

@@ -42,18 +42,9 @@ def check_references(
     """Compare an FMU with a table, or with all tables in a folder, by name.
 
     `cases`: takes what was found, also before an error; `bounds`: see `deviations`; each fits an output of one of the
-    tables; `how`: of `check_reference`.
-
-    Returns
-    -------
-    int
-        Exit code: 0 if all are within their bounds and no step was refused.
-
-    Raises
-    ------
-    HostError
-        There is no table, or no output that a bound fits; or the first of what `check_reference` raises, when all
-        tables have been tried.
+    tables; `how`: of `check_reference`. Result: exit code: 0 if all are within their bounds and no step was refused.
+    Raises `HostError`: there is no table, or no output that a bound fits; or the first of what `check_reference`
+    raises, when all tables have been tried.
     """
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
     if not files:

@@ -15,15 +15,8 @@ _ERROR = "error: "
 def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
     """Run the command of a module to its end. `hear`: hears each line of its standard error at once.
 
-    Returns
-    -------
-    str
-        Its standard error. What it prints is left out.
-
-    Raises
-    ------
-    HostError
-        It did not succeed; with its words, or how its process ended.
+    Result: its standard error. What it prints is left out. Raises `HostError`: it did not succeed; with its words, or
+    how its process ended.
     """
     lines: list[str] = []
     with subprocess.Popen(

@@ -98,12 +98,8 @@ _OF_OUR_NAMES = (
 def unit_definition(text: str, where: str) -> UnitDefinition:
     """A unit that a person or a logger has written.
 
-    `text`: such as ``km/h``, ``°/s`` or ``[m/s^2]``; `where`: how messages call where it stands.
-
-    Raises
-    ------
-    HostError
-        It is not known; with near ones.
+    `text`: such as ``km/h``, ``°/s`` or ``[m/s^2]``; `where`: how messages call where it stands. Raises `HostError`: it
+    is not known; with near ones.
     """
     found = known_unit(text)
     if found is None:
@@ -157,12 +153,8 @@ def same_quantity(one: UnitDefinition, other: UnitDefinition) -> bool:
 def conversion(unit: str, other: str, where: str = "the unit") -> float:
     """The factor from values in a unit to those in another.
 
-    `unit`, `other`: as a person writes them; `where`: how messages call where `unit` stands.
-
-    Raises
-    ------
-    HostError
-        One is not known, the two measure different quantities, or their zeros differ.
+    `unit`, `other`: as a person writes them; `where`: how messages call where `unit` stands. Raises `HostError`: one is
+    not known, the two measure different quantities, or their zeros differ.
     """
     if unit == other:
         return 1.0

@@ -55,12 +55,8 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
     """A world by its name, or from a file.
 
     `given`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it
-    is, where it is made for the first time; `thin`: few and round numbers, as a page carries it.
-
-    Raises
-    ------
-    HostError
-        It is no world; with the words of ``ali3 road --world``.
+    is, where it is made for the first time; `thin`: few and round numbers, as a page carries it. Raises `HostError`: it
+    is no world; with the words of ``ali3 road --world``.
     """
     file = Path(given)
     room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if file.is_file() else "named"

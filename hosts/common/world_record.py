@@ -15,15 +15,8 @@ _REMEDY = "make it again with: ali3 road --world NAME-or-FILE --out FOLDER."
 def read_world_record(file: Path) -> dict[str, Any]:
     """Read the record of a world.
 
-    Returns
-    -------
-    dict
-        With ``name``, ``road``, ``bounds``, ``places``, ``roads`` and ``scenery``.
-
-    Raises
-    ------
-    HostError
-        It cannot be read, or is no world of this version.
+    Result: with ``name``, ``road``, ``bounds``, ``places``, ``roads`` and ``scenery``. Raises `HostError`: it cannot be
+    read, or is no world of this version.
     """
     content: dict[str, Any] = read_json(file, HostError)
     found = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
@@ -35,10 +28,7 @@ def read_world_record(file: Path) -> dict[str, Any]:
 def world_beside(road: Path) -> dict[str, Any] | None:
     """The record of the world that a road file is of; None where none of that name lies beside it.
 
-    Raises
-    ------
-    HostError
-        It is a world that cannot be read, or that of another road file of that name.
+    Raises `HostError`: it is a world that cannot be read, or that of another road file of that name.
     """
     file = road.with_suffix(".json")
     if not file.is_file():

@@ -20,10 +20,7 @@ _MOST_LAGS = 4000
 def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
     """Autocovariances of an autoregressive process fitted to a signal. `residual`: equally spaced, shape (n,).
 
-    Returns
-    -------
-    ndarray of shape (n,)
-        At lags 0 to n - 1; those beyond 4000 are 0.
+    Returns an array of shape (n,): at lags 0 to n - 1; those beyond 4000 are 0.
     """
     n = len(residual)
     size = 1 << (2 * n - 1).bit_length()

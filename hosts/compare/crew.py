@@ -38,13 +38,7 @@ class Crew:
         self._workers: list[Isolated[_Task, Result]] = [Isolated(member) for _ in range(min(jobs, len(stretches)))]
 
     def drive(self, values: Mapping[str, Value] | None, can_reset: bool | None) -> list[Result]:
-        """Drive all stretches; results in their order.
-
-        Raises
-        ------
-        HostError
-            A process has ended.
-        """
+        """Drive all stretches; results in their order. Raises `HostError`: a process has ended."""
         tasks: list[_Task] = [(k, dict(values or {}), can_reset) for k in range(len(self._stretches))]
         results: dict[int, Result] = {}
         for k, result in shared_by(self._workers, tasks):

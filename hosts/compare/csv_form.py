@@ -39,13 +39,7 @@ class FoundForm:
 
 
 def find_form(path: Path, wish: Form) -> FoundForm:
-    """Look at the first lines of a file.
-
-    Raises
-    ------
-    HostError
-        If it holds no table; one sentence.
-    """
+    """Look at the first lines of a file. Raises `HostError` if it holds no table; one sentence."""
     lines, encoding = _first_lines(path, wish.encoding)
     if not any(line.strip() for line in lines):
         raise HostError(f"The log {path} is empty; it needs a line of names and rows of values.")

@@ -14,10 +14,7 @@ from hosts.driving.result import Result
 class Curve:
     """A simulated signal between its points, and its slope there; a cubic spline, at the ends it stays as it is.
 
-    Attributes
-    ----------
-    end : float
-        s; it begins at 0. Runs that were put one after the other have a spline each.
+    `end`: in s; it begins at 0. Runs that were put one after the other have a spline each.
     """
 
     def __init__(self, result: Result, name: str) -> None:

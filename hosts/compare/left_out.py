@@ -58,11 +58,7 @@ def parts_of(outputs: Mapping[str, Signal], stretches: Sequence[Stretch]) -> Par
 def clustered_covariance(jacobian: Array, residual: Array, parts: Parts) -> Array:
     """Covariance of parameters whose residuals may be alike within a part in any way, and between neighbours.
 
-    `jacobian`: shape (n, p); `residual`: shape (n,).
-
-    Returns
-    -------
-    ndarray of shape (p, p)
+    `jacobian`: shape (n, p); `residual`: shape (n,). Returns an array of shape (p, p).
 
     Notes
     -----
@@ -95,11 +91,7 @@ def folds(jacobian: Array, residual: Array, parts: Parts) -> Array:
 
     A fold is parts one after the other, as many in each as can be.
 
-    `jacobian`: shape (n, p); `residual`: shape (n,).
-
-    Returns
-    -------
-    ndarray of shape (FOLDS, p)
+    `jacobian`: shape (n, p); `residual`: shape (n,). Returns an array of shape (FOLDS, p).
     """
     order = np.argsort(parts.begins, kind="stable")
     return _changes(jacobian, residual, parts, [list(fold) for fold in np.array_split(order, FOLDS)])

@@ -57,12 +57,8 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
 class LoadedFmu:
     """An FMU and our names for its variables.
 
-    `step`: communication step, s.
-
-    Attributes
-    ----------
-    can_reset : bool or None
-        Whether it repeats itself after a reset; else it is loaded again for each drive. None: not known.
+    `step`: communication step, s. `can_reset`: whether it repeats itself after a reset; else it is loaded again for
+    each drive. None: not known.
     """
 
     def __init__(self, path: Path, aliases: Aliases, step: float) -> None:

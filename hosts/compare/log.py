@@ -86,11 +86,7 @@ def log_for(
 
     `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
     parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it is empty.
-
-    Raises
-    ------
-    HostError
-        A column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
+    Raises `HostError`: a column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
     """
     tunable = fmu.tunable
     inputs, outputs = [*fmu.names("input"), *(n for n in tunable if n not in chosen)], fmu.names("output")

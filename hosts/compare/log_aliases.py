@@ -72,12 +72,8 @@ def read_log_aliases(file: Path) -> LogAliases:
     """Read the alias file of a log.
 
     `file`: TOML with tables ``[file]``, ``[time]`` and ``[signals]``; in the last ``"our name" = "column"`` or ``"our
-    name" = { name = "column", unit = "deg/s", factor = -1.0, offset = 0.0, time = "column of times" }``.
-
-    Raises
-    ------
-    HostError
-        With the file, the key and what would be right.
+    name" = { name = "column", unit = "deg/s", factor = -1.0, offset = 0.0, time = "column of times" }``. Raises
+    `HostError` with the file, the key and what would be right.
     """
     content = read_toml(file, HostError, f"The alias file {file}")
     unknown = next((key for key in content if key not in _TABLES), None)
@@ -94,10 +90,7 @@ def read_log_aliases(file: Path) -> LogAliases:
 def check_of_fmu(file: Path) -> None:
     """Refuse the alias file of a log where that of an FMU is asked for.
 
-    Raises
-    ------
-    HostError
-        It has only tables of a log's file.
+    Raises `HostError`: it has only tables of a log's file.
     """
     if file.is_file() and (content := read_toml(file)) and set(content) <= set(_TABLES):
         raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")

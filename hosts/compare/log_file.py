@@ -54,10 +54,7 @@ class RawLog:
     def numbers(self, name: str) -> NDArray[np.float64]:
         """Values of a column of shape (n,), NaN where there is none.
 
-        Raises
-        ------
-        HostError
-            A cell is no number; with its row.
+        Raises `HostError`: a cell is no number; with its row.
         """
         column = self.table[name]
         numbers = pd.to_numeric(column, errors="coerce")
@@ -83,12 +80,8 @@ class RawLog:
 def read_log(path: Path, form: Form) -> RawLog:
     """Read a log.
 
-    `path`: a file that ends in ``.parquet``, or CSV; `form`: what is known of a CSV file.
-
-    Raises
-    ------
-    HostError
-        It cannot be read; one sentence.
+    `path`: a file that ends in ``.parquet``, or CSV; `form`: what is known of a CSV file. Raises `HostError`: it cannot
+    be read; one sentence.
     """
     check_file(path, LARGEST, HostError, f"The log {path}")
     if path.suffix.lower() in _MDF:

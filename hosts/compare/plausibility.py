@@ -35,12 +35,8 @@ _ALIKE = 0.8  # correlation
 def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:
     """Refuse inputs with gaps and values that the FMU cannot take.
 
-    `longest`: gap that is bridged by a straight line, s; `notes`: gains a sentence for each gap that is bridged.
-
-    Raises
-    ------
-    HostError
-        With the input, where, and what to do.
+    `longest`: gap that is bridged by a straight line, s; `notes`: gains a sentence for each gap that is bridged. Raises
+    `HostError` with the input, where, and what to do.
     """
     for name, signal in inputs.items():
         steps = np.diff(signal.time)

@@ -129,10 +129,7 @@ class Replay(Closing):
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
         """Drive all stretches with other start values than those of their manoeuvres. `values`: by our names.
 
-        Returns
-        -------
-        Result
-            Under our names; several stretches as `joined` puts them.
+        Result: under our names; several stretches as `joined` puts them.
         """
         if self._crew is None:
             results = [self._own.drive(stretch, values) for stretch in self.stretches]
@@ -146,10 +143,7 @@ class Replay(Closing):
     def check_reset(self) -> bool:
         """Drive the first stretch twice; an FMU that does not repeat itself is loaded again for each drive from now on.
 
-        Returns
-        -------
-        bool
-            Whether it repeats itself to the last bit, after a reset or loaded again.
+        Returns whether it repeats itself to the last bit, after a reset or loaded again.
         """
         for self._own.can_reset in (True, False):
             first, again = (self._own.drive(self.stretches[0]).values for _ in range(2))

@@ -35,12 +35,8 @@ def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
 def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle: Signal) -> Signal:
     """The input ``steering`` at which the standing car turns its front wheels by the measured angle on the mean.
 
-    `angle`: of `mean_angle`.
-
-    Raises
-    ------
-    HostError
-        The wheels of the FMU do not follow its steering, or the measured angle lies beyond both locks.
+    `angle`: of `mean_angle`. Raises `HostError`: the wheels of the FMU do not follow its steering, or the measured
+    angle lies beyond both locks.
 
     Notes
     -----

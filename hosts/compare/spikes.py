@@ -16,15 +16,10 @@ _LONGEST = 0.0201  # s between neighbours: over a longer time a pedal or a wheel
 def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which samples no neighbour supports.
 
-    `time`: increasing, s, shape (n,); `values`: shape (n,).
-
-    Returns
-    -------
-    ndarray of bool, shape (n,)
-        A spike is further from the median of the two samples before and the two after it than four times the range of
-        these four and 30 times the usual distance (median of those that are not zero) together. What lasts for two
-        samples, and a step, is none; nor are the two samples at either end, and where neighbours are 20 ms apart or
-        more nothing is looked for.
+    `time`: increasing, s, shape (n,); `values`: shape (n,). Returns an array of shape (n,): a spike is further from the
+    median of the two samples before and the two after it than four times the range of these four and 30 times the usual
+    distance (median of those that are not zero) together. What lasts for two samples, and a step, is none; nor are the
+    two samples at either end, and where neighbours are 20 ms apart or more nothing is looked for.
     """
     found = np.zeros(len(values), dtype=np.bool_)
     if len(values) <= 2 * _SIDE:

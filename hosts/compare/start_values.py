@@ -97,12 +97,7 @@ def measured_start(
 def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]) -> tuple[float, float]:
     """Where the reference point of the car at rest lies from the origin of its drawing, forward and to the left, m.
 
-    `start`: start values; those of pose and speed are not used.
-
-    Returns
-    -------
-    tuple of float
-        Zero where the FMU does not tell its place.
+    `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not tell its place.
     """
     with Fmu(fmu_path) as opened:
         fmu = AliasedFmu(opened, aliases)

@@ -21,12 +21,8 @@ _CLOSE = 0.005  # of the pedal
 def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float) -> list[Stretch]:
     """The stretches with the constant pedals at which the FMU has the measured speed half a second after the start.
 
-    `step`: communication step, s.
-
-    Returns
-    -------
-    list of Stretch
-        The pedal is that of the throttle, negative: of the brake; 1 or -1 where that is not enough.
+    `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
+    is not enough.
     """
     fmu = LoadedFmu(path, aliases, step)
     try:

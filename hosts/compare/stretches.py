@@ -42,10 +42,7 @@ class Stretch:
 def spans(text: str | None) -> Spans | None:
     """Spans of time that a user has written as ``A:B,C:D``, s; None for all.
 
-    Raises
-    ------
-    HostError
-        They are not of that form, or not in the order of time.
+    Raises `HostError`: they are not of that form, or not in the order of time.
     """
     if text is None:
         return None
@@ -85,10 +82,7 @@ def one_after_the_other(signals: Mapping[str, Signal], stretches: Sequence[Stret
 def joined(results: Sequence[Result], stretches: Sequence[Stretch]) -> Result:
     """Runs of stretches as one; one that was refused keeps its last outputs to its end.
 
-    Returns
-    -------
-    Result
-        Without refused steps; `starts` are the rows at which the stretches begin.
+    Result: without refused steps; `starts` are the rows at which the stretches begin.
     """
     times, values, starts, rows = [], [], [], 0
     for result, stretch in zip(results, stretches, strict=True):

@@ -68,13 +68,7 @@ class Task:
 
 
 def prepare(options: argparse.Namespace) -> Task:
-    """Read log and FMU, and check them.
-
-    Raises
-    ------
-    HostError
-        One sentence.
-    """
+    """Read log and FMU, and check them. Raises `HostError`: one sentence."""
     log_aliases = LogAliases() if options.log_aliases is None else read_log_aliases(options.log_aliases)
     if options.aliases is not None:
         check_of_fmu(options.aliases)
@@ -244,13 +238,9 @@ def _add_steering(
 ) -> dict[str, float]:
     """A car that is steered by a normalised input, and a log with the angle of the steering wheel or of road wheels.
 
-    Where another ratio of the steering is set or sought, full lock is at another angle than the constant of the
-    drawing says: then the angle itself is the input.
-
-    Returns
-    -------
-    dict of str to float
-        The input that the car follows, with the frequency of its follower, Hz; empty where there is none.
+    Where another ratio of the steering is set or sought, full lock is at another angle than the constant of the drawing
+    says: then the angle itself is the input. Returns the input that the car follows, with the frequency of its
+    follower, Hz; empty where there is none.
     """
     largest, frequency = fmu.constants().get(_ANGLE_MAX), fmu.constants().get(_FREQUENCY)
     if _STEERING not in fmu.names("input") or _STEERING in inputs:

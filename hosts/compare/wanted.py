@@ -21,12 +21,8 @@ def wanted_parameters(
 ) -> list[Unknown]:
     """Parameters to be fitted.
 
-    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `given`: values that the user sets: there the search begins.
-
-    Raises
-    ------
-    HostError
-        A name, kind or range is wrong.
+    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `given`: values that the user sets: there the search begins. Raises
+    `HostError`: a name, kind or range is wrong.
     """
     found: list[Unknown] = []
     for text in texts:

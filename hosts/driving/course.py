@@ -25,10 +25,7 @@ class Course:
     def path(self, x: float) -> tuple[float, float, float]:
         """The path at x: lane centres, joined by quintics that begin and end within the lanes. `x`: in m.
 
-        Returns
-        -------
-        y, slope, curvature : float
-            m, dy/dx, 1/m (positive to the left).
+        Returns `y`, `slope` and `curvature`: in m, dy/dx, 1/m (positive to the left).
         """
         y, slope, bend = self.gates[0].centre, 0.0, 0.0
         for begin, length, rise in self._changes:
@@ -56,12 +53,8 @@ class Course:
     ) -> float:
         """How far a rectangle driven along a path leaves the gates at most.
 
-        `x`, `y`, `yaw`: centre of the rectangle and heading, m and rad, shape (n,); `length`, `width`: in m.
-
-        Returns
-        -------
-        float
-            m; zero or less: it stays inside, by that margin.
+        `x`, `y`, `yaw`: centre of the rectangle and heading, m and rad, shape (n,); `length`, `width`: in m. Result: in
+        m; zero or less: it stays inside, by that margin.
         """
         worst = -np.inf
         for a in (-0.5 * length, 0.5 * length):

@@ -25,12 +25,8 @@ _FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
     """A scene with the cones of a course that a driver follows, on its roads.
 
-    `scene`: roads with the values that were set; `course`: in earth axes.
-
-    Returns
-    -------
-    dict
-        The scene with cones in its scenery; where the height of its road is not known they stand in `missing` instead.
+    `scene`: roads with the values that were set; `course`: in earth axes. Returns the scene with cones in its scenery;
+    where the height of its road is not known they stand in `missing` instead.
     """
     return with_marks(
         scene, [lanes([astuple(gate) for gate in course.gates], (0.0, 0.0, 0.0))], f"cones of {course.name}"
@@ -56,10 +52,7 @@ def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> di
 def things_of(marks: Sequence[Mark]) -> list[Mark]:
     """Cones and lines, of which scenes are made, for marks.
 
-    Raises
-    ------
-    ValueError, KeyError, TypeError, OverflowError
-        They are no marks.
+    Raises `ValueError` or `KeyError` or `TypeError` or `OverflowError`: they are no marks.
     """
     things = []
     for mark in marks:

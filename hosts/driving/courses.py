@@ -13,12 +13,8 @@ TRACKS: dict[str, Track] = {"iso_3888_1": "ISO 3888-1", "iso_3888_2": "ISO 3888-
 def course_of(name: str, vehicle_width: float, x_start: float = 15.0) -> Course:
     """The course of a name.
 
-    `name`: one of `TRACKS`; `vehicle_width`: without mirrors, m; `x_start`: where the first lane begins, m.
-
-    Raises
-    ------
-    HostError
-        If there is none.
+    `name`: one of `TRACKS`; `vehicle_width`: without mirrors, m; `x_start`: where the first lane begins, m. Raises
+    `HostError` if there is none.
     """
     if name not in TRACKS:
         raise HostError(f"There is no course '{name}'; known are: {', '.join(TRACKS)}.")

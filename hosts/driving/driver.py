@@ -30,12 +30,8 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
     """Driver from the ``[driver]`` section of a manoeuvre and the constants of the FMU.
 
     `settings`: ``course`` and the fields of `DriverSettings`; they take precedence over the constants of the FMU;
-    `constants`: constants of the FMU by name; see `CONSTANTS`.
-
-    Raises
-    ------
-    HostError
-        If a setting is not known, no number, or missing both there and in the FMU.
+    `constants`: constants of the FMU by name; see `CONSTANTS`. Raises `HostError` if a setting is not known, no number,
+    or missing both there and in the FMU.
     """
     numbers = {name: constants[constant] for name, constant in CONSTANTS.items() if constant in constants}
     known = {f.name for f in fields(DriverSettings)}
@@ -66,10 +62,7 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
 def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
-    Raises
-    ------
-    HostError
-        If the FMU is no car for a driver, or a setting is wrong or missing.
+    Raises `HostError` if the FMU is no car for a driver, or a setting is wrong or missing.
     """
     if not manoeuvre.driver:
         return None

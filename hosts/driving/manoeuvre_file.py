@@ -29,12 +29,8 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     `manoeuvre`: name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has
     ``stop_time`` in s, ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time``
     and each input, ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to
-    begin with: ``file`` beside it, ``time``. `stop_time`: in place of its own, s.
-
-    Raises
-    ------
-    HostError
-        With the line or key and the reason.
+    begin with: ``file`` beside it, ``time``. `stop_time`: in place of its own, s. Raises `HostError` with the line or
+    key and the reason.
     """
     path = Path(manoeuvre)
     if path.suffix not in SUFFIXES:

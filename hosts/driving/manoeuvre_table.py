@@ -31,12 +31,8 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded
     with. A table that a run has written is read with the record beside it.
 
-    `known`: inputs that there are; columns of other names are not read. By default all columns are inputs.
-
-    Raises
-    ------
-    HostError
-        With the line and the reason.
+    `known`: inputs that there are; columns of other names are not read. By default all columns are inputs. Raises
+    `HostError` with the line and the reason.
     """
     table = TextTable(path, HostError)
     names = table.names

@@ -18,12 +18,8 @@ from hosts.driving.manoeuvre_table import number_of, read_table, value_of
 def read_old_manoeuvre(path: Path) -> Manoeuvre:
     """Read both files, or that which there is.
 
-    `path`: one of them. The settings have ``[start]`` values, a ``[driver]`` and ``stop_time`` in ``[run]``.
-
-    Raises
-    ------
-    HostError
-        With the line and the reason.
+    `path`: one of them. The settings have ``[start]`` values, a ``[driver]`` and ``stop_time`` in ``[run]``. Raises
+    `HostError` with the line and the reason.
     """
     table, settings = path.with_suffix(".csv"), path.with_suffix(".ini")
     made = read_table(table) if table.is_file() else Manoeuvre(path.stem, np.zeros(0), {}, np.nan)

@@ -42,12 +42,7 @@ def planned(course: Course, begin: float, length: float, width: float) -> Planne
     """The course with the line of least curvature.
 
     `begin`: up to which the line is straight, in the middle of the first lane, m; `length`, `width`: outline of the
-    car, centred on what follows the line, m.
-
-    Raises
-    ------
-    HostError
-        If a car of this width does not fit through.
+    car, centred on what follows the line, m. Raises `HostError` if a car of this width does not fit through.
 
     Notes
     -----

@@ -18,11 +18,8 @@ _LARGEST_RECORD = 4e9
 def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | None) -> float:
     """The step of a run: the one that was asked for, else that of the FMU. `step`: in s.
 
-    Raises
-    ------
-    HostError
-        If it or the stop time is not positive, or if it is longer than the manoeuvre or so short that the record would
-        not fit into the memory.
+    Raises `HostError` if it or the stop time is not positive, or if it is longer than the manoeuvre or so short that
+    the record would not fit into the memory.
     """
     experiment = fmu.description.defaultExperiment
     if step is None:
@@ -49,12 +46,8 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
 def steps_of(interval: float, step: float, what: str) -> int:
     """How many communication steps an interval has.
 
-    `interval`, `step`: in s; `what`: how messages call the interval.
-
-    Raises
-    ------
-    HostError
-        It is no whole multiple of the step.
+    `interval`, `step`: in s; `what`: how messages call the interval. Raises `HostError`: it is no whole multiple of the
+    step.
     """
     every = round(interval / step) if math.isfinite(interval) else 0
     if every < 1 or abs(every * step - interval) > 1e-6 * interval:
@@ -66,10 +59,7 @@ def steps_of(interval: float, step: float, what: str) -> int:
 def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
     """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
 
-    Raises
-    ------
-    HostError
-        With the column, and what it would have to be.
+    Raises `HostError` with the column, and what it would have to be.
     """
     inputs, tunable = fmu.names("input"), fmu.tunable
     for name, values in manoeuvre.inputs.items():

@@ -35,10 +35,7 @@ def rows_before_jumps(
 ) -> list[tuple[int, list[float]]]:
     """Rows that a table lacks, the last first: the row before which each stands, and its inputs.
 
-    Raises
-    ------
-    HostError
-        The table beside the record is not the one that was written with it.
+    Raises `HostError`: the table beside the record is not the one that was written with it.
     """
     found = []
     for k, (t, *before) in sorted(record.jumps.items(), reverse=True):

@@ -12,10 +12,7 @@ from hosts.common.errors import HostError
 def read_state(file: Path, where: str) -> bytes:
     """The saved state of an FMU. `where`: the place that names it, for messages.
 
-    Raises
-    ------
-    HostError
-        It cannot be read.
+    Raises `HostError`: it cannot be read.
     """
     return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
 

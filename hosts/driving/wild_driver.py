@@ -72,12 +72,8 @@ class WildDriver:
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the step that begins at `time`.
 
-        `time`: in s; `senses`: of `SENSES` those that the FMU has.
-
-        Returns
-        -------
-        dict of str to float
-            For those of the five controls that the FMU has, within their ranges.
+        `time`: in s; `senses`: of `SENSES` those that the FMU has. Result: for those of the five controls that the FMU
+        has, within their ranges.
         """
         if time >= self._until:
             self._choose(time, senses)
@@ -172,13 +168,8 @@ class WildDriver:
 def wild_start(seed: int, targets: Sequence[Target] = ()) -> dict[str, Value]:
     """Start values of a car for a wild drive: mostly fast before a target, often in the air, sometimes far away.
 
-    `targets`: half of the starts are 30 to 60 m before one of them, in its direction.
-
-    Returns
-    -------
-    dict of str to float
-        `initial.x`, `.y`, `.z`, `.yaw` and `.speed`: up to 1 m high, up to 40 m/s, and one in four up to 100 km from
-        the origin along each axis.
+    `targets`: half of the starts are 30 to 60 m before one of them, in its direction. Result: `initial.x`, `.y`, `.z`,
+    `.yaw` and `.speed`: up to 1 m high, up to 40 m/s, and one in four up to 100 km from the origin along each axis.
     """
     chance = random.Random(f"start {seed}")
     draw = chance.random

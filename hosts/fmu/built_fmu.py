@@ -81,12 +81,7 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
 def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
     """Build a native FMU, for this machine unless the options name other platforms.
 
-    `options`: of the command, that say what is built.
-
-    Raises
-    ------
-    HostError
-        With the words of the build.
+    `options`: of the command, that say what is built. Raises `HostError` with the words of the build.
     """
     try:
         run_module("ali3", "build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))

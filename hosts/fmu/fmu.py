@@ -45,13 +45,7 @@ class StartRefusedError(HostError):
 
 
 def described(path: Path) -> ModelDescription:
-    """The description of an FMU of any version that FMPy reads.
-
-    Raises
-    ------
-    HostError
-        It is no FMU that can be read.
-    """
+    """The description of an FMU of any version that FMPy reads. Raises `HostError`: it is no FMU that can be read."""
     return _read(path)[0]
 
 
@@ -83,14 +77,9 @@ def unpack(path: Path, folder: Path) -> None:
 class Fmu(Closing):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
-    Attributes
-    ----------
-    variables : dict of str to ScalarVariable
-        Scalars by name, in the order of the model description; types are those of FMI 2.0.
-    table : Variables
-        The same as a person sets them.
-    messages : list of str
-        What the FMU logged at warning or above; not that an output is not computed: what opens it here reads all.
+    `variables`: scalars by name, in the order of the model description; types are those of FMI 2.0; `table`: the same
+    as a person sets them; `messages`: what the FMU logged at warning or above; not that an output is not computed: what
+    opens it here reads all.
     """
 
     def __init__(self, path: Path) -> None:

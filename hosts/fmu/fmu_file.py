@@ -27,12 +27,8 @@ def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None 
     """The FMU that a command takes.
 
     `given`: of the command line: an FMU; or a car by its name, its folder or its file; `tell`: takes the sentences that
-    are said while a car is built; `poses`: of a car, as ``ali3 build --poses`` takes them.
-
-    Raises
-    ------
-    HostError
-        The car cannot be built; with the words of the build.
+    are said while a car is built; `poses`: of a car, as ``ali3 build --poses`` takes them. Raises `HostError`: the car
+    cannot be built; with the words of the build.
     """
     if given is None and DIST.is_file():
         return FoundFmu(DIST)

@@ -43,12 +43,7 @@ class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; what FMI refuses is an `FMICallException` of FMPy.
 
     `told`: takes status, category and text of each message; `token`: in place of that of the description; `resources`:
-    their location, of FMI 2.0, in place of the right one.
-
-    Attributes
-    ----------
-    three : bool
-        Whether it is FMI 3.0.
+    their location, of FMI 2.0, in place of the right one. `three`: whether it is FMI 3.0.
     """
 
     def __init__(

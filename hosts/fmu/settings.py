@@ -40,10 +40,7 @@ class Settings:
     def add_numbers(self, values: Mapping[str, Value], source: str) -> None:
         """Values in the units of the FMU. `source`: how messages call where they come from.
 
-        Raises
-        ------
-        HostError
-            A name, value or kind is wrong.
+        Raises `HostError`: a name, value or kind is wrong.
         """
         self._put([self._checked(name, value, source) for name, value in values.items()])
 
@@ -127,13 +124,7 @@ class Settings:
 
 
 def settings_of(variables: Variables, wishes: Wishes) -> Settings:
-    """What the command line sets in an FMU.
-
-    Raises
-    ------
-    HostError
-        A name, value, kind or unit is wrong.
-    """
+    """What the command line sets in an FMU. Raises `HostError`: a name, value, kind or unit is wrong."""
     settings = Settings(variables)
     settings.add_wishes(wishes)
     return settings

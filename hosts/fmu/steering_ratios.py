@@ -16,12 +16,7 @@ _BY_RATIO = ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio")
 def steering_as_set(constants: Mapping[str, float], table: Variables, start: Mapping[str, Value]) -> dict[str, float]:
     """Constants of the steering where another ratio is set: full lock is a place of the rack or the arm.
 
-    `constants`: of the FMU, which keeps those of the car file.
-
-    Returns
-    -------
-    dict of str to float
-        Empty where the ratio is that of the car file.
+    `constants`: of the FMU, which keeps those of the car file. Result: empty where the ratio is that of the car file.
     """
     scale = 1.0
     for name, power in RATIOS.items():

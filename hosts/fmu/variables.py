@@ -72,10 +72,7 @@ class Variable:
     def read(self, text: str, source: str) -> Value:
         """The value that a person has written, checked. `source`: how messages call where it stands.
 
-        Raises
-        ------
-        HostError
-            It is no value of this variable.
+        Raises `HostError`: it is no value of this variable.
         """
         if self.kind == "String":
             return text
@@ -94,10 +91,7 @@ class Variable:
     def check(self, value: Value, source: str) -> Value:
         """The value as its kind has it, if it may be set.
 
-        Raises
-        ------
-        HostError
-            It is of another kind or out of the range.
+        Raises `HostError`: it is of another kind or out of the range.
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
@@ -121,10 +115,7 @@ class Variable:
     def from_display(self, value: float, unit: str, source: str) -> float:
         """A value in a display unit of the FMU, in the variable's unit.
 
-        Raises
-        ------
-        HostError
-            The FMU has no such display unit for it.
+        Raises `HostError`: the FMU has no such display unit for it.
         """
         if unit not in self.displays:
             raise HostError(
@@ -154,10 +145,7 @@ class Variables:
     def settable(self, name: str, source: str) -> Variable:
         """A variable that may be set before the start. `source`: how messages call where it is asked for.
 
-        Raises
-        ------
-        HostError
-            There is no such variable, or it may not be set.
+        Raises `HostError`: there is no such variable, or it may not be set.
         """
         variable = self._variables.get(name)
         if variable is None and (elements := [n for n in self.names if n.startswith(f"{name}[")]):

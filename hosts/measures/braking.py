@@ -20,12 +20,8 @@ def travelled(time: NDArray[np.float64], speed: NDArray[np.float64]) -> NDArray[
 def time_below(time: NDArray[np.float64], speed: NDArray[np.float64], value: float, after: float) -> float:
     """When a speed first falls to a value.
 
-    `time`, `speed`: in s, m/s, shape (n,); `value`: in m/s; `after`: in s; what was before does not count.
-
-    Returns
-    -------
-    float
-        s, linear between samples; NaN if it does not.
+    `time`, `speed`: in s, m/s, shape (n,); `value`: in m/s; `after`: in s; what was before does not count. Result: in
+    s, linear between samples; NaN if it does not.
     """
     below = np.flatnonzero((speed <= value) & (time >= after - 1e-9))
     if not len(below):
@@ -51,11 +47,7 @@ def mean_fully_developed_deceleration(
     """Deceleration averaged over the way from 80 % to 10 % of the initial speed.
 
     `time`, `speed`: in s, m/s, shape (n,); `onset`: when the pedal is first moved, s; `initial`: speed then, m/s.
-
-    Returns
-    -------
-    float
-        m/s2; NaN if the car does not come down to 10 %.
+    Result: in m/s2; NaN if the car does not come down to 10 %.
 
     Notes
     -----
@@ -73,12 +65,7 @@ def stopping_distance(
     """Way from the onset of braking to rest.
 
     `time`, `speed`: in s, m/s, shape (n,); `onset`: in s; `deceleration`: with which the rest of the way below
-    `STANDING` is covered, m/s2.
-
-    Returns
-    -------
-    float
-        m; NaN if the car does not come to stand.
+    `STANDING` is covered, m/s2. Result: in m; NaN if the car does not come to stand.
     """
     rest = STANDING**2 / (2.0 * deceleration) if deceleration > 0.0 else math.nan
     return way_between(time, speed, onset, time_below(time, speed, STANDING, onset)) + rest

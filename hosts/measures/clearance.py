@@ -34,13 +34,9 @@ def clearance(
     """Distance of a car's outline from the edges of the lanes, along which cones stand.
 
     `x`, `y`, `yaw`: centre of the outline and heading, m and rad, in the axes of the course, shape (n,); `length`,
-    `width`: in m.
-
-    Returns
-    -------
-    ndarray of shape (n,)
-        m; the least of that of the outline's corners from the edges beside them and that of the edges' ends from the
-        outline; negative: cones are hit, by that depth. Infinite between lanes.
+    `width`: in m. Returns an array of shape (n,): in m; the least of that of the outline's corners from the edges
+    beside them and that of the edges' ends from the outline; negative: cones are hit, by that depth. Infinite between
+    lanes.
 
     Notes
     -----

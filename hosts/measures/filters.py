@@ -49,12 +49,7 @@ def resample(
 def crossing(time: NDArray[np.float64], values: NDArray[np.float64], level: float, after: float = -np.inf) -> float:
     """When a signal first passes a level, by linear interpolation.
 
-    `time`, `values`: shape (n,); `after`: earlier passages do not count, s.
-
-    Returns
-    -------
-    float
-        s; NaN if it never does.
+    `time`, `values`: shape (n,); `after`: earlier passages do not count, s. Result: in s; NaN if it never does.
     """
     side = np.signbit(values - level)
     passed = np.flatnonzero((side[1:] != side[:-1]) & (time[1:] > after))

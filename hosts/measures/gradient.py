@@ -31,12 +31,8 @@ NONE = Gradient(math.nan, math.nan, math.nan)
 def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: float) -> Gradient:
     """Least squares over the points whose x lies in a range, all x weighing the same however dense the points are.
 
-    `x`, `y`: points, shape (n,); those that are not finite do not count; `low`, `high`: range of x.
-
-    Returns
-    -------
-    Gradient
-        `NONE` where the points do not span most of the range.
+    `x`, `y`: points, shape (n,); those that are not finite do not count; `low`, `high`: range of x. Result: `NONE`
+    where the points do not span most of the range.
     """
     chosen = np.isfinite(x) & np.isfinite(y) & (x >= low) & (x <= high)
     if chosen.sum() < _FEWEST or np.ptp(x[chosen]) < _SPAN * (high - low):

@@ -13,13 +13,9 @@ from hosts.measures.wheels import LIFTED
 def weight_from_momentum(time: NDArray[np.float64], load: NDArray[np.float64]) -> float:
     """Weight of a car that rests vertically at the first and at the last sample.
 
-    `time`, `load`: in s, sum of the normal forces of a level road in N, shape (n,).
-
-    Returns
-    -------
-    float
-        N. The momentum is zero at both ends, so the impulse of the road is that of gravity: the mean load is the
-        weight, whatever happens in between and whatever the gravity.
+    `time`, `load`: in s, sum of the normal forces of a level road in N, shape (n,). Result: in N. The momentum is zero
+    at both ends, so the impulse of the road is that of gravity: the mean load is the weight, whatever happens in
+    between and whatever the gravity.
     """
     return float(np.trapezoid(load, time) / (time[-1] - time[0]))
 
@@ -38,12 +34,8 @@ def fall_time(height: float, gravity: float) -> float:
 def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final: float, band: float) -> float:
     """When a signal enters a band around its final value for good.
 
-    `time`, `values`: shape (n,); `final`, `band`: the band is `final` ± `band`.
-
-    Returns
-    -------
-    float
-        s, time of the first sample after the last one outside; NaN if the last sample is outside.
+    `time`, `values`: shape (n,); `final`, `band`: the band is `final` ± `band`. Result: in s, time of the first sample
+    after the last one outside; NaN if the last sample is outside.
     """
     outside = np.flatnonzero(np.abs(values - final) > band)
     if not len(outside):
@@ -54,10 +46,8 @@ def settling_time(time: NDArray[np.float64], values: NDArray[np.float64], final:
 def rebound(height: NDArray[np.float64]) -> tuple[int, int]:
     """Where a body that has touched the ground is lowest first and, after that, highest. `height`: in m, shape (n,).
 
-    Returns
-    -------
-    lowest, highest : int
-        Samples; the lowest is the end of the first fall, the highest is that of all that follow.
+    Returns `lowest` and `highest`: samples; the lowest is the end of the first fall, the highest is that of all that
+    follow.
     """
     rising = np.flatnonzero(np.diff(height) > 0.0)
     lowest = int(rising[0]) if len(rising) else len(height) - 1

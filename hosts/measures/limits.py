@@ -28,10 +28,7 @@ class _LimitsFile(BaseModel):
 def read_limits(file: Path) -> dict[str, LimitEntry]:
     """The table ``[limits]`` of a file, which may be a study file.
 
-    Raises
-    ------
-    HostError
-        There is none, or with the key, its value, and what would be right.
+    Raises `HostError`: there is none, or with the key, its value, and what would be right.
     """
     record = read_toml(file, HostError)
     try:
@@ -46,12 +43,7 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
     """Limits by the columns of measures, in the units of these.
 
     `entries`: as the file has them; a name may leave out the test before it where only one measure ends so; `columns`:
-    units of all measures.
-
-    Raises
-    ------
-    HostError
-        There is no such measure, or the unit is one of another quantity.
+    units of all measures. Raises `HostError`: there is no such measure, or the unit is one of another quantity.
     """
     found: dict[str, Limit] = {}
     for name, entry in entries.items():

@@ -41,12 +41,8 @@ def correlation_lag(
     """Shift at which two signals correlate best.
 
     `given`, `answer`: at even times, shape (n,); they are taken as zero outside; `interval`: between samples, s;
-    `longest`: largest shift that is looked at, s.
-
-    Returns
-    -------
-    lag, correlation : float
-        How much later the answer comes, s, between samples by a parabola; and the coefficient there.
+    `longest`: largest shift that is looked at, s. Returns `lag` and `correlation`: how much later the answer comes, s,
+    between samples by a parabola; and the coefficient there.
     """
     lags = correlation_lags(len(answer), len(given)) * interval
     product = correlate(answer, given) / math.sqrt(float(np.dot(given, given) * np.dot(answer, answer)))

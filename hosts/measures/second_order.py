@@ -43,12 +43,8 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
     """Fit one natural frequency and damping ratio to several responses, each with its own gain and numerator.
 
     `responses`: of one system, at four frequencies or more each; `zeros`: degrees of the numerators: 1 for the yaw rate
-    and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring.
-
-    Returns
-    -------
-    list of SecondOrder
-        One for each response; all NaN if it does not converge.
+    and the sideslip angle of a bicycle model, 2 for its lateral acceleration, 0 for a mass on a spring. Returns one for
+    each response; all NaN if it does not converge.
 
     Notes
     -----

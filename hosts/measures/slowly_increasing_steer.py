@@ -21,12 +21,8 @@ def angle_by_regression(
 
     `steering`, `acceleration`: in rad and m/s², of one turn, shape (n,); both of one sign, or both of the other;
     `wanted`: m/s²; `lowest`, `highest`: sizes of the lateral acceleration between which the line is fitted, m/s²: from
-    the first sample that is reached to the one before the first beyond.
-
-    Returns
-    -------
-    float
-        Size of the angle, rad; NaN if the run does not reach `highest`.
+    the first sample that is reached to the one before the first beyond. Returns size of the angle, rad; NaN if the run
+    does not reach `highest`.
     """
     size = np.abs(acceleration)
     if not (size >= highest).any():

@@ -49,12 +49,7 @@ def reference_time(
     """When the steering has passed half of its step.
 
     `time`, `steering`: s and the angle of the steering wheel, shape (n,); `before`, `steady`: begin and end, s, of the
-    windows over which the angles before and after the step are averaged.
-
-    Returns
-    -------
-    float
-        s; NaN if there is no step.
+    windows over which the angles before and after the step are averaged. Result: in s; NaN if there is no step.
     """
     first, last = mean_between(time, steering, *before)[0], mean_between(time, steering, *steady)[0]
     return crossing(time, steering, 0.5 * (first + last), before[1])
@@ -70,12 +65,8 @@ def step_response(
     """Measures of the response of one quantity.
 
     `time`, `values`: shape (n,); `reference`: reference time, s; `before`, `steady`: beginning and end of the windows
-    before the step and of the steady state, s.
-
-    Returns
-    -------
-    StepResponse
-        All NaN where the record ends before the steady window, or the quantity does not change.
+    before the step and of the steady state, s. Result: all NaN where the record ends before the steady window, or the
+    quantity does not change.
 
     Notes
     -----

@@ -9,10 +9,7 @@ from numpy.typing import NDArray
 def circle_through(x: NDArray[np.float64], y: NDArray[np.float64]) -> tuple[float, float, float]:
     """Circle of least squares through points (of their squared distances, after Kåsa). `x`, `y`: in m, shape (n,).
 
-    Returns
-    -------
-    centre_x, centre_y, radius : float
-        m.
+    Returns `centre_x`, `centre_y` and `radius`: in m.
     """
     # around their mean, for the numbers' sake
     mx, my = float(x.mean()), float(y.mean())

@@ -22,10 +22,7 @@ LONGEST_STEP = 0.005
 def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Transfer function of Wk.
 
-    Returns
-    -------
-    numerator, denominator : ndarray
-        Of s in rad/s, descending powers; of degree 5 and 8.
+    Returns `numerator` and `denominator`: of s in rad/s, descending powers; of degree 5 and 8.
     """
 
     def w(frequency: float) -> float:
@@ -47,12 +44,8 @@ def weighting_wk() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.float64]:
     """Vertical acceleration weighted with Wk.
 
-    `acceleration`: in m/s2, zero at rest, shape (n,); `interval`: between samples, s.
-
-    Returns
-    -------
-    ndarray of shape (n,)
-        m/s2; the filter starts at rest.
+    `acceleration`: in m/s2, zero at rest, shape (n,); `interval`: between samples, s. Returns an array of shape (n,):
+    in m/s2; the filter starts at rest.
     """
     # in factors: coefficients of degree 8 lose all digits at short steps
     factors: Any = bilinear_zpk(*tf2zpk(*weighting_wk()), fs=1.0 / interval)

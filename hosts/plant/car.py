@@ -225,10 +225,7 @@ class Car(Closing):
     def restore(self, saved: Saved) -> None:
         """Go on from a state of `save`, to the same bits.
 
-        Raises
-        ------
-        HostError
-            It is of another car or of another build.
+        Raises `HostError`: it is of another car or of another build.
         """
         self._check_open()
         if not (isinstance(saved, Saved) and isinstance(saved.content, bytes) and is_finite(saved.time)):

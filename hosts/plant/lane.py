@@ -68,10 +68,7 @@ class Lane:
     def place(self, x: float, y: float) -> float:
         """Way along the lane of the point of its centre line that is nearest, near that of the last call, m.
 
-        Raises
-        ------
-        HostError
-            The place is not finite.
+        Raises `HostError`: the place is not finite.
         """
         if not (is_finite(x) and is_finite(y)):
             raise HostError(f"The place on a lane is ({brief(x)}, {brief(y)}); it must be two finite numbers.")

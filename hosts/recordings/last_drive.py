@@ -44,13 +44,7 @@ class _Row:
 
 
 def last_drive(drive: RecordedDrive) -> LastDrive:
-    """The drive that led to the end of a recording.
-
-    Raises
-    ------
-    HostError
-        There is no step in it.
-    """
+    """The drive that led to the end of a recording. Raises `HostError`: there is no step in it."""
     path = _path(drive)
     begin = max((k for k, row in enumerate(path) if row.start is not None), default=0)
     path = path[begin : begin + 1] + [row for row in path[begin + 1 :] if row.is_step]
@@ -91,10 +85,7 @@ def _path(drive: RecordedDrive) -> list[_Row]:
 def recorded_manoeuvre(folder: Path) -> Manoeuvre:
     """The last drive of a recording as a manoeuvre; where it begins with a saved state, so does the manoeuvre.
 
-    Raises
-    ------
-    HostError
-        It is no recording, or there is no step in it.
+    Raises `HostError`: it is no recording, or there is no step in it.
     """
     drive = read_recording(folder)
     last = last_drive(drive)

@@ -13,12 +13,8 @@ from hosts.recordings.format import is_recording
 def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     """Read a manoeuvre by name or path; a folder that holds a recording of the simulator is its last drive.
 
-    `manoeuvre`: see `hosts.driving.manoeuvre_file.read_manoeuvre`; `stop_time`: in place of its own, s.
-
-    Raises
-    ------
-    HostError
-        With the line and the reason.
+    `manoeuvre`: see `hosts.driving.manoeuvre_file.read_manoeuvre`; `stop_time`: in place of its own, s. Raises
+    `HostError` with the line and the reason.
     """
     if not is_recording(Path(manoeuvre)):
         return read_manoeuvre(manoeuvre, stop_time)

@@ -23,12 +23,7 @@ def recorded_columns(
     dozens of columns that only the colours of stresses need.
 
     `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step; amplitudes are then
-    recorded too.
-
-    Raises
-    ------
-    HostError
-        The interval is no whole multiple of the step.
+    recorded too. Raises `HostError`: the interval is no whole multiple of the step.
     """
     every = dict.fromkeys(inputs, 1)
     if interval is not None:

@@ -79,9 +79,7 @@ class RecordedDrive:
     def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
         """Which values of rows are recorded. `epoch_before`: of the row before the first of these; None: there is none.
 
-        Returns
-        -------
-        ndarray of shape (n, len(names))
+        Returns an array of shape (n, len(names)).
         """
         begins = np.diff(rows.epoch, prepend=-1 if epoch_before is None else epoch_before) != 0
         return recorded(rows.steps, begins, self.every)
@@ -182,10 +180,7 @@ class RecordedDrive:
 def read_recording(folder: Path) -> RecordedDrive:
     """Read a recording; its rows are read when they are asked for. `folder`: or its file `recording.json`.
 
-    Raises
-    ------
-    HostError
-        It is no recording; one sentence with the file and the reason.
+    Raises `HostError`: it is no recording; one sentence with the file and the reason.
     """
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION

@@ -25,18 +25,14 @@ def other_build(fmu: Path, name: str) -> str:
 def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tuple[Recording, list[str]]:
     """A recording for the viewer, in the time of the driver: what was rewound is shown too.
 
-    `geometry`: FMU or scene that is drawn in place of the FMU that was recorded.
+    `geometry`: FMU or scene that is drawn in place of the FMU that was recorded. Raises `HostError`: it cannot be read,
+    or the FMU is not there any more.
 
     Returns
     -------
     recording : Recording
     told : list of str
         Sentences for the user.
-
-    Raises
-    ------
-    HostError
-        It cannot be read, or the FMU is not there any more.
     """
     drive = read_recording(folder)
     told = list(drive.notes)

@@ -57,12 +57,8 @@ class Replayed:
 class Repeater(Closing):
     """An FMU that follows a recording row by row.
 
-    `fmu`: by default the one that was recorded.
-
-    Raises
-    ------
-    HostError
-        The FMU is not there, lacks a variable, or cannot restore states and the recording has one.
+    `fmu`: by default the one that was recorded. Raises `HostError`: the FMU is not there, lacks a variable, or cannot
+    restore states and the recording has one.
     """
 
     def __init__(self, drive: RecordedDrive, fmu: Path | None = None) -> None:
@@ -170,12 +166,8 @@ def replay(
 ) -> Replayed:
     """Repeat a recording and compare all outputs bit for bit.
 
-    `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done.
-
-    Raises
-    ------
-    HostError
-        The FMU cannot repeat it at all; see `Repeater`.
+    `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done. Raises `HostError`:
+    the FMU cannot repeat it at all; see `Repeater`.
     """
     made = Replayed()
     outputs = drive.names[len(drive.inputs) :]

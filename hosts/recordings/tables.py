@@ -48,11 +48,8 @@ def recorded(steps: ArrayLike, begins: ArrayLike, every: ArrayLike) -> NDArray[n
     """Which values of rows are recorded.
 
     `steps`: steps computed up to each row, shape (n,); `begins`: whether an epoch begins with the row, shape (n,); all
-    its values are recorded then; `every`: of each column, every so many steps a value is recorded, shape (m,).
-
-    Returns
-    -------
-    ndarray of shape (n, m)
+    its values are recorded then; `every`: of each column, every so many steps a value is recorded, shape (m,). Returns
+    an array of shape (n, m).
     """
     due = np.asarray(steps)[:, np.newaxis] % np.asarray(every) == 0
     kept: NDArray[np.bool_] = due | np.asarray(begins, dtype=bool)[:, np.newaxis]

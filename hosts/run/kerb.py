@@ -30,17 +30,8 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
     """Do the test, print its moments and write its files.
 
     `file`: FMU of the scene; by default `DIST`, else one that is built and kept; `fidelity`: 1 to 3; by default that of
-    the FMU; `step`: communication step, s; by default `STEP`.
-
-    Returns
-    -------
-    int
-        Exit code.
-
-    Raises
-    ------
-    HostError
-        The step is too long for the filter, or the FMU is none of this scene.
+    the FMU; `step`: communication step, s; by default `STEP`. Result: exit code. Raises `HostError`: the step is too
+    long for the filter, or the FMU is none of this scene.
     """
     import numpy as np
 

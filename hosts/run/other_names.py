@@ -20,14 +20,7 @@ from hosts.fmu.settings import Settings
 class OtherNames:
     """The FMU through an alias file.
 
-    `file`: of ``--aliases``.
-
-    Attributes
-    ----------
-    fmu : SimulatedFmu
-        Under our names.
-    names : dict of str to (str, float, float)
-        For the record of a run.
+    `file`: of ``--aliases``. `fmu`: under our names; `names`: for the record of a run.
     """
 
     def __init__(self, fmu: Fmu, file: Path) -> None:

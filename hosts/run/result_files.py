@@ -92,13 +92,7 @@ def write_record(
 
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:
-    """Print tables, what the FMU logged and where the files are.
-
-    Returns
-    -------
-    int
-        Exit code: 0 if every step was accepted.
-    """
+    """Print tables, what the FMU logged and where the files are. Result: exit code: 0 if every step was accepted."""
     for rows in tables:
         for line in in_columns(rows):
             print(line)

@@ -36,11 +36,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     """Rows of the summary table; those whose variables the FMU lacks are left out.
 
     `step`: communication step, s; `course`: rows of `hosts.run.course_result.passed`, where a driver followed a course.
-
-    Returns
-    -------
-    list of (str, str)
-        What and how much.
+    Returns what and how much.
     """
     rows: list[tuple[str, str]] = []
     interval = float(result.time[1]) if len(result.time) > 1 else step

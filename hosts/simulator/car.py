@@ -34,19 +34,8 @@ _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 class Car(Closing):
     """An FMU that runs in a process of its own; it begins paused, at time 0.
 
-    Attributes
-    ----------
-    names : tuple of str
-        Inputs, then outputs, real and whole ones.
-    units : dict of str to str
-        Of the names.
-    step : float
-        s.
-
-    Raises
-    ------
-    HostError
-        The FMU cannot be started; later, by every method, that the process has ended unasked.
+    `names`: inputs, then outputs, real and whole ones; `units`: of the names; `step`: in s. Raises `HostError`: the FMU
+    cannot be started; later, by every method, that the process has ended unasked.
     """
 
     def __init__(self, settings: CarSettings) -> None:
@@ -114,12 +103,8 @@ class Car(Closing):
         """What inputs are to become.
 
         `values`: input to its value, limited to the range of the model description, and its largest change per second
-        of simulated time; infinite: at once, which whole numbers always do.
-
-        Raises
-        ------
-        HostError
-            There is no such input, or a number cannot be used; nothing is then changed.
+        of simulated time; infinite: at once, which whole numbers always do. Raises `HostError`: there is no such input,
+        or a number cannot be used; nothing is then changed.
         """
         checked = []
         for name, (value, rate) in values.items():
@@ -144,12 +129,8 @@ class Car(Closing):
         """Ask for something.
 
         `name`: ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
-        simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``.
-
-        Raises
-        ------
-        HostError
-            There is no such command, or its value cannot be used.
+        simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
+        `HostError`: there is no such command, or its value cannot be used.
         """
         known = COMMANDS[:-1]
         if name not in known:
@@ -168,12 +149,8 @@ class Car(Closing):
     def restart(self, changes: Mapping[str, Value]) -> None:
         """A new start at time 0 with other start values, which stay for later resets.
 
-        `changes`: parameters and start values over those so far.
-
-        Raises
-        ------
-        HostError
-            There is no such parameter or input, or it cannot have this value.
+        `changes`: parameters and start values over those so far. Raises `HostError`: there is no such parameter or
+        input, or it cannot have this value.
         """
         checked = {n: self._table.settable(n, "start values").check(v, "start values") for n, v in changes.items()}
         with self._lock:

@@ -47,13 +47,7 @@ class ConnectedPage:
         return name
 
     def heard(self) -> None:
-        """It has said something.
-
-        Raises
-        ------
-        HostError
-            It says too much.
-        """
+        """It has said something. Raises `HostError`: it says too much."""
         now = self._now()
         self._may_say = min(BURST, self._may_say + (now - self._heard) * MESSAGES_PER_SECOND) - 1.0
         self._heard = now
@@ -62,13 +56,7 @@ class ConnectedPage:
             raise HostError(f"A page may send {MESSAGES_PER_SECOND:g} messages a second; this one sent more.")
 
     def malformed(self) -> None:
-        """It has said something wrong.
-
-        Raises
-        ------
-        HostError
-            Too often.
-        """
+        """It has said something wrong. Raises `HostError`: too often."""
         self._malformed += 1
         if self._malformed > MOST_MALFORMED:
             raise HostError(f"More than {MOST_MALFORMED} messages of this page were wrong.")

@@ -74,11 +74,8 @@ class Hands:
     def gone(self, source: str) -> list[str]:
         """A source is no longer there: what it held is let go.
 
-        Returns
-        -------
-        list of str
-            Inputs that it held away from zero and that go back; another source takes them when it says again what it
-            wants.
+        Returns inputs that it held away from zero and that go back; another source takes them when it says again what
+        it wants.
         """
         with self._lock:
             free = {}

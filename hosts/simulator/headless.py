@@ -40,10 +40,7 @@ class Held:
 class OfManoeuvre:
     """Inputs of a manoeuvre: of its table, and of its driver where it has one.
 
-    Raises
-    ------
-    HostError
-        The car has not what it needs.
+    Raises `HostError`: the car has not what it needs.
     """
 
     def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:

@@ -11,12 +11,8 @@ from numpy.typing import NDArray
 class Inputs:
     """Values of the inputs, and where they are going.
 
-    `start`: values at every new start; `whole`: which can only have whole numbers: these change at once.
-
-    Attributes
-    ----------
-    values : ndarray of shape (n,)
-        Of the step that comes or was made.
+    `start`: values at every new start; `whole`: which can only have whole numbers: these change at once. `values`: of
+    the step that comes or was made, shape (n,).
     """
 
     def __init__(self, start: Sequence[float], whole: Sequence[bool]) -> None:

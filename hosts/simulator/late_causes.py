@@ -27,13 +27,9 @@ class LateCauses:
         """Take a step into account.
 
         `elapsed`: from its scheduled begin, or from the end of the step before where that was later, to its end, s;
-        `period`: what it had been given, s; `late`: whether it missed its deadline.
-
-        Returns
-        -------
-        str
-            One of `CAUSES`; empty where it was not late or the system does not tell. A step that is late only because
-            the one before was has the cause of that one.
+        `period`: what it had been given, s; `late`: whether it missed its deadline. Returns one of `CAUSES`; empty
+        where it was not late or the system does not tell. A step that is late only because the one before was has the
+        cause of that one.
         """
         spent = self._clock.spent()
         if spent is None or self._before is None:

@@ -23,15 +23,8 @@ class Pace:
     is moved to now; the deadlines in between count as missed and the time as lost.
 
     `step`: communication step, s; `paced`: without, a step begins as soon as the one before is done, and none is late.
-
-    Attributes
-    ----------
-    speed : float
-        Simulated over wall seconds that are asked for.
-    lateness, cost : float
-        Of the last step, s.
-    behind : bool
-        Whether the car is late now or was within the last second.
+    `speed`: simulated over wall seconds that are asked for; `lateness`, `cost`: of the last step, s; `behind`: whether
+    the car is late now or was within the last second.
     """
 
     def __init__(self, clock: Clock, step: float, times: TimesRecord, paced: bool = True) -> None:
@@ -74,10 +67,7 @@ class Pace:
     def done(self) -> str:
         """The step has been made: count it, and set when the next begins.
 
-        Returns
-        -------
-        str
-            What is to be said of a car that does not keep up; mostly empty.
+        Returns what is to be said of a car that does not keep up; mostly empty.
         """
         now, times, period = self._clock.now(), self._times, self.period
         self.cost = now - self._began

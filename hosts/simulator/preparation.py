@@ -90,10 +90,7 @@ class Prepared:
 def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
     """Find, check and read everything. `tell`: takes sentences.
 
-    Raises
-    ------
-    HostError
-        Something is wrong or cannot be used; one sentence with what would be right.
+    Raises `HostError`: something is wrong or cannot be used; one sentence with what would be right.
     """
     if asked.record is not None:
         from hosts.recordings.recording import check_folder

@@ -19,15 +19,8 @@ _PATIENCE = (1.4, 0.4)
 class Process:
     """A process that drives an FMU, seen from the main process.
 
-    Attributes
-    ----------
-    ended : str
-        Why it has ended unasked, as one sentence; empty while it lives.
-
-    Raises
-    ------
-    HostError
-        The FMU cannot be started; nothing is then left of the process.
+    `ended`: why it has ended unasked, as one sentence; empty while it lives. Raises `HostError`: the FMU cannot be
+    started; nothing is then left of the process.
     """
 
     def __init__(self, order: Order) -> None:

@@ -110,13 +110,7 @@ Message = Want | Order | Seen | Place | Report | WatchDevices | ForDevices
 
 
 def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
-    """A message of a page, checked.
-
-    Raises
-    ------
-    HostError
-        It is no such message; with the reason.
-    """
+    """A message of a page, checked. Raises `HostError`: it is no such message; with the reason."""
     if not isinstance(data, str):
         raise HostError("A message is text; this one is binary.")
     try:

@@ -79,13 +79,7 @@ class RunReport:
         self.tell(f"First frame sent to a page {self.passed('first frame'):.2f} s after the start of the command.")
 
     def finish(self, times: StepTimes, file: Path | None) -> None:
-        """Show the report, and write it. `file`: JSON.
-
-        Raises
-        ------
-        FileError
-            It cannot be written.
-        """
+        """Show the report, and write it. `file`: JSON. Raises `FileError`: it cannot be written."""
         self.tell(times.text())
         if self._kinds:
             told = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))

@@ -41,12 +41,8 @@ _LONGEST_REASON = 120  # a close frame takes 123 bytes
 class Server:
     """Serves pages.
 
-    `tell`: takes kind and text of what happens, for the terminal.
-
-    Attributes
-    ----------
-    devices : ShownDevices or None
-        What pages see of them; None: the simulator has none.
+    `tell`: takes kind and text of what happens, for the terminal. `devices`: what pages see of them; None: the
+    simulator has none.
     """
 
     def __init__(

@@ -32,10 +32,7 @@ _TAKEN = (errno.EADDRINUSE, errno.EACCES)
 def listening_socket(address: str, port: int | None) -> socket.socket:
     """A socket that listens. `port`: by default the first free one from `DEFAULT_PORT` on.
 
-    Raises
-    ------
-    HostError
-        The port is taken, with the next free one; or there is no such address.
+    Raises `HostError`: the port is taken, with the next free one; or there is no such address.
     """
     if port is not None and not 0 <= port <= 65535:
         raise HostError(f"The port is {port}; it must be from 1 to 65535, or 0 for any that is free.")

@@ -59,10 +59,7 @@ def drive_with_pages(
 ) -> None:
     """Serve pages until Ctrl-C. `car`: paused; it runs from the first frame of the first page on.
 
-    Raises
-    ------
-    HostError
-        The car has ended.
+    Raises `HostError`: the car has ended.
     """
     hands = Hands(car.want, car.inputs)
     server = Server(car, hands, content, opened.guard, report.event)

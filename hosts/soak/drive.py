@@ -211,10 +211,7 @@ class _Drive:
 def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> Outcome:
     """Drive a task. `tell`: hears the simulated seconds that are done.
 
-    Raises
-    ------
-    HostError
-        The FMU cannot be started with what is set.
+    Raises `HostError`: the FMU cannot be started with what is set.
     """
     begin = clock.perf_counter()
     with Fmu(Path(task.fmu)) as fmu:

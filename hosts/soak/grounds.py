@@ -100,12 +100,7 @@ def jump_heights() -> tuple[NDArray[np.float64], tuple[Target, ...]]:
 def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
     """Make the road file with ramps, by ``ali3 road``.
 
-    `centre`: of the square, m.
-
-    Raises
-    ------
-    HostError
-        The road cannot be made.
+    `centre`: of the square, m. Raises `HostError`: the road cannot be made.
     """
     heights, targets = jump_heights()
     x, y = centre
@@ -126,10 +121,7 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
 def world_ground(name: str, folder: Path) -> Ground:
     """The road of a world, by ``ali3 road --world``; its places are driven at.
 
-    Raises
-    ------
-    HostError
-        It is no world; with the words of ``ali3 road --world``.
+    Raises `HostError`: it is no world; with the words of ``ali3 road --world``.
     """
     run_module("ali3", "road", "--world", name, "--out", str(make_folder(folder)))
     files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)

@@ -37,10 +37,7 @@ _FIDELITIES = (0, 2)
 def soak(options: argparse.Namespace, prog: str) -> int:
     """Do the drives that the options of the command say. `prog`: how the user typed the command.
 
-    Returns
-    -------
-    int
-        Exit code: 1 if something failed.
+    Result: exit code: 1 if something failed.
     """
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.settings import settings_of

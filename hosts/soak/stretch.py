@@ -52,13 +52,7 @@ class Stretch:
         self._parts = [*self._parts[-1:], _Part(self._fmu.state_bytes(), [_Row(time, values)])]
 
     def save(self, folder: Path, kind: str, text: str, seed: int, refused: Sequence[float] | None) -> Path:
-        """Write the stretch as a recording, with a manoeuvre of it.
-
-        Returns
-        -------
-        Path
-            The manoeuvre, for ``ali3 run``.
-        """
+        """Write the stretch as a recording, with a manoeuvre of it. Returns the manoeuvre, for ``ali3 run``."""
         rows = [*self._parts[0].rows, *(row for part in self._parts[1:] for row in part.rows[1:])]
         units = {name: self._fmu.variables[name].unit or "1" for name in self._names}
         meta = recording_meta(self._fmu.path, self._step, self._start, seed=seed)

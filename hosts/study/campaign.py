@@ -48,11 +48,8 @@ def run_study(
 ) -> Ended | None:
     """Check a study, make the runs that are missing, and write their rows; None after a dry run.
 
-    `scheduler`: address; `dry`: only print the plan; `again`: make failed runs again.
-
-    Raises
-    ------
-    HostError, FileError
+    `scheduler`: address; `dry`: only print the plan; `again`: make failed runs again. Raises `HostError` or
+    `FileError`.
     """
     study, content = read_study_file(file)
     folder = out_folder(out, study, file)

@@ -20,12 +20,8 @@ from hosts.study.job import Job
 def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where: str) -> tuple[str, dict[str, float]]:
     """Name and settings of a test, if it can be done with an FMU.
 
-    `given`: settings that are not by default; `where`: how messages call where it is asked for.
-
-    Raises
-    ------
-    HostError
-        There is no such test or setting, or the FMU lacks what it needs.
+    `given`: settings that are not by default; `where`: how messages call where it is asked for. Raises `HostError`:
+    there is no such test or setting, or the FMU lacks what it needs.
     """
     try:
         test = standard_test(name)

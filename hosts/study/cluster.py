@@ -104,10 +104,7 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
 def bring(client: Client, plan: Plan) -> None:
     """Give the study to all workers, also those to come, and check that they would make the same runs.
 
-    Raises
-    ------
-    HostError
-        A worker has another version of ALi3, or cannot load it.
+    Raises `HostError`: a worker has another version of ALi3, or cannot load it.
     """
     plugin = StudyPlugin(plan.key, plan.work, plan.seed, plan.fmu.read_bytes())
     try:

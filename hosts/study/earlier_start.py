@@ -31,13 +31,7 @@ _MOST = 3
 
 
 def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) -> None:
-    """Refuse to go on with another study than the one that began.
-
-    Raises
-    ------
-    HostError
-        With what differs.
-    """
+    """Refuse to go on with another study than the one that began. Raises `HostError` with what differs."""
     same = {key: json.loads(json.dumps(value)) for key, value in now.items()}
     keys = [key for key in dict.fromkeys((*_WORDS, *before, *same)) if key not in _FREE]
     differ = [key for key in keys if before.get(key) != same.get(key)]

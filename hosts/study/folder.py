@@ -17,13 +17,7 @@ RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"
 
 
 def read_record(folder: Path) -> dict[str, Any] | None:
-    """What is known of the study in a folder; None where there is none.
-
-    Raises
-    ------
-    HostError
-        The file is damaged.
-    """
+    """What is known of the study in a folder; None where there is none. Raises `HostError`: the file is damaged."""
     file = folder / RECORD
     if not file.exists():
         return None

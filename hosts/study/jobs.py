@@ -22,10 +22,7 @@ from hosts.study.study_file import ManoeuvreEntry, StudyFile
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:
     """What is done at each point. `parameters`: those that the study varies.
 
-    Raises
-    ------
-    HostError
-        A manoeuvre cannot be driven with this FMU, or overwrites a parameter.
+    Raises `HostError`: a manoeuvre cannot be driven with this FMU, or overwrites a parameter.
     """
     jobs: list[Job] = []
     for number, entry in enumerate(study.manoeuvres, start=1):

@@ -16,10 +16,7 @@ from hosts.fmu.variables import Variable
 def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
     """The aliases that a study file names: a file beside it, else one of the package.
 
-    Raises
-    ------
-    HostError
-        The file is not right, or is none for this FMU.
+    Raises `HostError`: the file is not right, or is none for this FMU.
     """
     beside = file.parent / name
     return aliases_of(beside if beside.is_file() else name, fmu.table)
@@ -28,10 +25,7 @@ def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
 def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
     """A variable that can be set, by our name and in our unit; None where it has no name of ours.
 
-    Raises
-    ------
-    HostError
-        It is no parameter or input.
+    Raises `HostError`: it is no parameter or input.
     """
     if not isinstance(fmu, AliasedFmu) or name not in fmu.table:
         return None

@@ -86,10 +86,7 @@ class Parameter:
 def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str) -> Parameter:
     """A parameter, checked against its variable. `file`: how messages call the study file.
 
-    Raises
-    ------
-    HostError
-        A value is of another kind or out of the range of the FMU, with what would be right.
+    Raises `HostError`: a value is of another kind or out of the range of the FMU, with what would be right.
     """
     where = f"{file}: parameters.'{name}'"
     if entry.range is not None:

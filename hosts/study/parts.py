@@ -56,10 +56,7 @@ def part_files(folder: Path) -> list[Path]:
 def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
     """Which runs have a row, of shape (runs,).
 
-    Raises
-    ------
-    HostError
-        A part is damaged, or has a row that no study has.
+    Raises `HostError`: a part is damaged, or has a row that no study has.
     """
     done = np.zeros(runs, dtype=np.bool_)
     for file in part_files(folder):
@@ -111,13 +108,7 @@ class PartWriter:
             rows[name].extend(_texts(chunk.values[name], self._schema.field(name).type))
 
     def flush(self) -> None:
-        """Write the kept rows as a part.
-
-        Raises
-        ------
-        FileError
-            It cannot be written; the parts before it stay.
-        """
+        """Write the kept rows as a part. Raises `FileError`: it cannot be written; the parts before it stay."""
         if not len(self):
             return
         arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]

@@ -73,11 +73,8 @@ class Plan:
 def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
     """Check a study against its FMU. `file`: where it was read from; files it names are looked for beside it.
 
-    Raises
-    ------
-    HostError
-        Whatever can be said before the first run: an unknown parameter, signal or measure, a value out of range with
-        its row, an empty grid, a manoeuvre that overwrites a parameter.
+    Raises `HostError`: whatever can be said before the first run: an unknown parameter, signal or measure, a value out
+    of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
     """
     content = fmu_path.read_bytes() if fmu_path.is_file() else b""
     with Fmu(fmu_path) as opened:

@@ -37,10 +37,8 @@ class PlannedRuns:
 def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     """The runs of a study file. `file`: where it was read from; files it names are looked for beside it.
 
-    Raises
-    ------
-    HostError
-        An unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
+    Raises `HostError`: an unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that
+    overwrites a parameter.
     """
     fmu: SimulatedFmu = opened
     aliases: Aliases | None = None

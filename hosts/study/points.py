@@ -45,10 +45,7 @@ class SampledPoints:
 def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, file: str) -> SampledPoints:
     """Points of a grid, or random ones. `file`: how messages call the study file.
 
-    Raises
-    ------
-    HostError
-        There would be too many.
+    Raises `HostError`: there would be too many.
     """
     if sampling.method == "grid":
         parameters = tuple(p.of_grid() for p in parameters)

@@ -36,10 +36,7 @@ class Repeat:
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
     """A function that gives the commands of a run by its number, and writes the manoeuvre that they name.
 
-    Raises
-    ------
-    HostError
-        The folder is of no study; the function raises it where there is no such run.
+    Raises `HostError`: the folder is of no study; the function raises it where there is no such run.
     """
     from hosts.study.planned_runs import runs_of_folder
 

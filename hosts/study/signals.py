@@ -78,10 +78,7 @@ class SignalWriter:
     def flush(self) -> None:
         """Write what was kept; before the rows, so that each row that is there has its signals.
 
-        Raises
-        ------
-        FileError
-            It cannot be written.
+        Raises `FileError`: it cannot be written.
         """
         for number, samples in self._kept.items():
             store = signal_store(self._folder, self._jobs[number].label)

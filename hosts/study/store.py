@@ -16,13 +16,7 @@ if TYPE_CHECKING:
 
 
 def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """What is known of a study, as in its file ``study.json``.
-
-    Raises
-    ------
-    HostError
-        It is no folder of a study.
-    """
+    """What is known of a study, as in its file ``study.json``. Raises `HostError`: it is no folder of a study."""
     record = read_record(Path(folder))
     if record is None:
         raise HostError(f"{folder} is no folder of a study: there is no {RECORD} in it.")
@@ -32,19 +26,12 @@ def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
 def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     """The table of a study.
 
-    Returns
-    -------
-    DataFrame
-        A row for each run that has ended, by its index. Columns: ``point``, ``manoeuvre``, ``seed``, the parameters by
-        their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where a measure is missing,
-        ``failed``), ``reason``, ``missing`` (names of measures that there should be; other NaN are of measures that the
-        run has not, as a critical speed), ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has
-        units of columns and the rest of what is known of the study.
-
-    Raises
-    ------
-    HostError
-        It is no folder of a study, or a part is damaged.
+    Returns a row for each run that has ended, by its index. Columns: ``point``, ``manoeuvre``, ``seed``, the parameters
+    by their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where a measure is missing,
+    ``failed``), ``reason``, ``missing`` (names of measures that there should be; other NaN are of measures that the run
+    has not, as a critical speed), ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has units of
+    columns and the rest of what is known of the study. Raises `HostError`: it is no folder of a study, or a part is
+    damaged.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -64,16 +51,9 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
 def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -> xr.Dataset:
     """Signals of a manoeuvre, read from the disk as they are used. `manoeuvre`: may be left out where there is one.
 
-    Returns
-    -------
-    Dataset
-        Dimensions ``point`` and ``time``; NaN where a run has not been made, and after one that ended early. The
-        parameters are coordinates along ``point``, as far as runs have been made.
-
-    Raises
-    ------
-    HostError
-        There are no signals of it.
+    Result: dimensions ``point`` and ``time``; NaN where a run has not been made, and after one that ended early. The
+    parameters are coordinates along ``point``, as far as runs have been made. Raises `HostError`: there are no signals
+    of it.
     """
     import xarray as xr
 

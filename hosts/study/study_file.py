@@ -141,16 +141,13 @@ class StudyFile(_Part):
 def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     """Read a study file.
 
+    Raises `HostError` with the key, its value, and what would be right.
+
     Returns
     -------
     StudyFile
     bytes
         Content of the file.
-
-    Raises
-    ------
-    HostError
-        With the key, its value, and what would be right.
     """
     content = read_bytes(file, LARGEST_TOML, HostError)
     record = toml_of(content, HostError, str(file))

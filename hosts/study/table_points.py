@@ -34,12 +34,7 @@ def table_points(
     """Points of a CSV file whose heading names parameters.
 
     `variable_of`: of a name and of words for messages; raises `HostError` where there is no such variable that can be
-    set; `entries`: units of columns whose heading has none.
-
-    Raises
-    ------
-    HostError
-        With the line, the name and the value.
+    set; `entries`: units of columns whose heading has none. Raises `HostError` with the line, the name and the value.
     """
     table = TextTable(file, HostError, f"The table {file}", units=True)
     names = table.names

@@ -54,12 +54,8 @@ class Target:
 def target_of(text: str, by: str, limits: str | None) -> Target:
     """What the options ask for.
 
-    `text`: ``MEASURE=VALUE``, the value with a unit or without; `limits`: ``LOW:HIGH``.
-
-    Raises
-    ------
-    HostError
-        It is not of this form.
+    `text`: ``MEASURE=VALUE``, the value with a unit or without; `limits`: ``LOW:HIGH``. Raises `HostError`: it is not
+    of this form.
     """
     name, _, value = (part.strip() for part in text.partition("="))
     found = _VALUE.fullmatch(value)
@@ -80,12 +76,8 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     """Seek the value, print and write what was found; whether the measure can be what is wanted.
 
     `file`: a study file: its FMU or car, its manoeuvres and ``[start]``; its other parameters stay as the FMU has them;
-    `out`: folder of the files.
-
-    Raises
-    ------
-    HostError
-        There is no such parameter or measure, or the unit is one of another quantity.
+    `out`: folder of the files. Raises `HostError`: there is no such parameter or measure, or the unit is one of another
+    quantity.
     """
     study, _ = read_study_file(file)
     fmu = fmu_of_study(study, file)

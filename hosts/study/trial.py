@@ -37,10 +37,7 @@ class Trial:
 def try_out(plan: Plan) -> Trial:
     """Make runs of the first point, and of others where it fails, in a process of their own.
 
-    Raises
-    ------
-    HostError
-        No run of a manoeuvre can be made, with the reason of the first.
+    Raises `HostError`: no run of a manoeuvre can be made, with the reason of the first.
     """
     work, notes = replace(plan.work, reuse=False), list[str]()
     columns: dict[str, str] = {}

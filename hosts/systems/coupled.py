@@ -122,12 +122,8 @@ class CoupledFmus(Closing):
     def initialise(self, **start: Value) -> None:
         """Start all parts at the time 0, each with what those before it give; once more after steps, too.
 
-        `start`: parameters and inputs as ``part.variable``.
-
-        Raises
-        ------
-        HostError
-            There is no such part, or a part does not take its values.
+        `start`: parameters and inputs as ``part.variable``. Raises `HostError`: there is no such part, or a part does
+        not take its values.
         """
         by_part = starts_of(start, self._fmus())
         now: dict[tuple[str, str], float] = {}
@@ -144,11 +140,8 @@ class CoupledFmus(Closing):
     def step(self) -> None:
         """A communication step of all parts.
 
-        Raises
-        ------
-        hosts.fmu.fmu.StepRefusedError, HostError
-            A part refused it, or an input. Where all parts can save their states, they are then as before the step;
-            else the system must be initialised again.
+        Raises `hosts.fmu.fmu.StepRefusedError` or `HostError`: a part refused it, or an input. Where all parts can save
+        their states, they are then as before the step; else the system must be initialised again.
         """
         self._fmus()
         if self._state != "whole":
@@ -185,16 +178,8 @@ class CoupledFmus(Closing):
         """Steps over a time.
 
         `duration`: a whole number of communication steps, s; `names`: what is read at each communication point; `act`:
-        called before each step, to set inputs of parts.
-
-        Returns
-        -------
-        ndarray of shape (steps + 1, len(names))
-
-        Raises
-        ------
-        hosts.fmu.fmu.StepRefusedError, HostError
-            As of `step`; or the time is no whole number of steps.
+        called before each step, to set inputs of parts. Raises `hosts.fmu.fmu.StepRefusedError` or `HostError` as of
+        `step`; or the time is no whole number of steps. Returns an array of shape (steps + 1, len(names)).
         """
         steps = duration / self.step_length if is_finite(duration) else np.nan
         if not (0.0 <= steps < np.inf and abs(steps - round(steps)) < 1e-6 * max(steps, 1.0)):

@@ -33,10 +33,7 @@ class Wire:
 def fmus_of(parts: Mapping[str, Path], stack: ExitStack) -> dict[str, Fmu]:
     """The FMUs of a system by the names of its parts, which `stack` closes.
 
-    Raises
-    ------
-    HostError
-        A part has a name that no file can have, or no FMU that can be opened.
+    Raises `HostError`: a part has a name that no file can have, or no FMU that can be opened.
     """
     for part, path in mapping(parts, "The parts of a system").items():
         if not re.fullmatch(r"[\w-]+", part):
@@ -49,12 +46,8 @@ def fmus_of(parts: Mapping[str, Path], stack: ExitStack) -> dict[str, Fmu]:
 def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[Wire, ...]:
     """Connections of a system, held against its parts.
 
-    `connections`: outputs by the inputs that take them, each as ``part.variable``.
-
-    Raises
-    ------
-    HostError
-        There is no such part or variable, or the units of both ends differ.
+    `connections`: outputs by the inputs that take them, each as ``part.variable``. Raises `HostError`: there is no such
+    part or variable, or the units of both ends differ.
     """
     wires = []
     for end, start in mapping(connections, "The connections").items():
@@ -74,10 +67,7 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
 def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str, dict[str, Value]]:
     """Start values by part and variable. `start`: parameters and inputs, as ``part.variable``.
 
-    Raises
-    ------
-    HostError
-        There is no such part or variable, or a value is none of its variable.
+    Raises `HostError`: there is no such part or variable, or a value is none of its variable.
     """
     found: dict[str, dict[str, Value]] = {part: {} for part in parts}
     for text, value in mapping(start, "The start values").items():

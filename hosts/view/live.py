@@ -193,10 +193,7 @@ def _start(fmus: Sequence[FmuParts], wanted: Wishes) -> dict[str, Value]:
 def with_binary(fmu: FmuParts) -> FmuParts:
     """The FMU itself if it has a binary in WebAssembly, else one with it, compiled from its own sources.
 
-    Raises
-    ------
-    HostError
-        It cannot be compiled here; with the command that builds one that has it.
+    Raises `HostError`: it cannot be compiled here; with the command that builds one that has it.
     """
     from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
 

@@ -32,13 +32,7 @@ class Page:
     """What is said when a recording is over, one for each."""
 
     def text(self, title: str) -> str:
-        """The HTML file.
-
-        Raises
-        ------
-        ViewerError
-            The script of the viewer is not there and cannot be built.
-        """
+        """The HTML file. Raises `ViewerError`: the script of the viewer is not there and cannot be built."""
         data: dict[str, Any] = {
             "fmus": [fmu.record(name) for fmu, name in zip(self.fmus, self.names, strict=True)],
             "options": dict(self.options),
@@ -54,10 +48,7 @@ class Page:
 def script_of(manoeuvre: Manoeuvre) -> dict[str, Any]:
     """Inputs over time as the page reads them.
 
-    Raises
-    ------
-    HostError
-        The manoeuvre has a driver: he cannot sit in a page.
+    Raises `HostError`: the manoeuvre has a driver: he cannot sit in a page.
     """
     if manoeuvre.driver:
         raise HostError(

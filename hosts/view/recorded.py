@@ -34,12 +34,8 @@ def read_table(path: Path) -> Table:
     """Read a table whose first column is the time.
 
     `path`: CSV: headings ``time`` and names, or ``time [s]`` and ``name [unit]``; lines that begin with ``#`` are left
-    out. Of a table that would fill the memory every so many rows are read.
-
-    Raises
-    ------
-    HostError
-        It cannot be read, or is no such table; one sentence with file, line and reason.
+    out. Of a table that would fill the memory every so many rows are read. Raises `HostError`: it cannot be read, or is
+    no such table; one sentence with file, line and reason.
     """
     text = TextTable(path, HostError, units=True)
     if text.names[0] != "time":

@@ -43,7 +43,8 @@ class RunWishes:
 def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) -> tuple[list[Recording], list[str]]:
     """Recordings of all that the user named.
 
-    `geometry`: FMU or scene that results are drawn with, in place of that of their record.
+    `geometry`: FMU or scene that results are drawn with, in place of that of their record. Raises `HostError`:
+    something cannot be read or run; one sentence.
 
     Returns
     -------
@@ -51,11 +52,6 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         With names that differ.
     told : list of str
         Sentences for the user.
-
-    Raises
-    ------
-    HostError
-        Something cannot be read or run; one sentence.
     """
     made: list[Recording] = []
     told: list[str] = []

@@ -26,12 +26,8 @@ class LinearisationWarning(UserWarning):
 def smooth_side(evaluator: Evaluator, side: int | None) -> State:
     """The state about which to take differences: beside its kinks in the velocities.
 
-    `side`: 1 or -1: rising or falling velocities; None takes rising ones and warns.
-
-    Warns
-    -----
-    LinearisationWarning
-        Names the coordinate, both slopes and what was taken.
+    `side`: 1 or -1: rising or falling velocities; None takes rising ones and warns. Warns `LinearisationWarning`: names
+    the coordinate, both slopes and what was taken.
     """
     state = evaluator.state
     names = evaluator.system.meta["coordinates"]

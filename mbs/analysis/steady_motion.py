@@ -57,12 +57,8 @@ class _Candidate:
 def steady_frame(evaluator: Evaluator, V: Array) -> SteadyFrame:
     """Frame in which the present motion stands still, as nearly as there is one.
 
-    `V`: admissible displacements, shape (nq, n).
-
-    Raises
-    ------
-    ValueError
-        If the System was read from a file and does not know its frames.
+    `V`: admissible displacements, shape (nq, n). Raises `ValueError` if the System was read from a file and does not
+    know its frames.
     """
     state = evaluator.state
     frames = evaluator.system.frames

@@ -177,10 +177,7 @@ def one_of(value: object, words: Collection[str], what: str, error: Error = Mode
 def instance_of(kind: type[Thing] | tuple[type[Thing], ...], value: object, what: str, wanted: str) -> Thing:
     """A value of some class.
 
-    Raises
-    ------
-    ArgumentTypeError
-        The value is of another class; `wanted` says in a few words what would be right.
+    Raises `ArgumentTypeError`: the value is of another class; `wanted` says in a few words what would be right.
     """
     if not isinstance(value, kind):
         raise ArgumentTypeError(f"{capital(what)} must be {wanted}, not {shown(value)}.")

@@ -108,10 +108,6 @@ class AutomaticDrive:
 
         Parameters
         ----------
-        left, right : Affine
-            Absolute spins of the two wheels, rad.
-        f, g : AffineVector
-            Orthonormal vectors of the frame, f x g to the left.
         throttle : int
             Number of an input, 0 to 1.
         gear : int

@@ -45,10 +45,6 @@ class Brake:
 
         Parameters
         ----------
-        f, g : AffineVector
-            Orthonormal vectors of the carrier, f x g along the axis.
-        spin : Affine
-            Absolute spin of the wheel, rad.
         input : int
             Number of the input of the pedal, 0 to 1, or of the size.
         hand : int, optional

@@ -28,13 +28,7 @@ class CoordinateFriction:
     """Unit of the force, "N m" or "N"."""
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """The force element.
-
-        Parameters
-        ----------
-        coordinate : Affine
-            An angle, rad, or a length, m.
-        """
+        """The force element."""
         what = f"the friction '{name}'"
         return ElementRecord(
             name,

@@ -19,15 +19,7 @@ class GyroscopicSpin:
     """Moment of inertia about the axis, kg m^2."""
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """The force element.
-
-        Parameters
-        ----------
-        f, g : AffineVector
-            Orthonormal vectors of the carrier, f x g along the axis.
-        spin : Affine
-            Absolute spin of the wheel, rad.
-        """
+        """The force element."""
         what = f"the spinning wheel '{name}'"
         signals = (*carrier_signals(f, g, what), spin)
         return ElementRecord(

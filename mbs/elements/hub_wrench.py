@@ -23,17 +23,7 @@ class HubWrench:
     """Numbers of the inputs: three components of the force, N, three of the moment, N m."""
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
-        """The force element.
-
-        Parameters
-        ----------
-        centre : AffineVector
-            Of the wheel.
-        axis : AffineVector
-            Unit vector along its axis, to the left.
-        spin : Affine
-            Absolute spin of the wheel, rad.
-        """
+        """The force element."""
         what = f"the wrench '{name}'"
         return ElementRecord(
             name,

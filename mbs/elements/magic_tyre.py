@@ -105,15 +105,6 @@ class MagicTyre:
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
 
-        Parameters
-        ----------
-        centre : AffineVector
-            Centre of the wheel, m.
-        axis : AffineVector
-            Unit spin axis, pointing left.
-        spin : Affine
-            Absolute spin, rad.
-
         Raises
         ------
         ModelError

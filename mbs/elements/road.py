@@ -165,10 +165,4 @@ class RoadOfFile(ABC):
 
     @abstractmethod
     def check(self) -> None:
-        """Refuse what is not there or no road.
-
-        Raises
-        ------
-        RoadFileError
-            With the file and what is wrong with it.
-        """
+        """Refuse what is not there or no road. Raises `RoadFileError` with the file and what is wrong with it."""

@@ -34,13 +34,7 @@ class ScalarSpringDamper:
     """Factor on the damping, for parameters."""
 
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
-        """The force element.
-
-        Parameters
-        ----------
-        coordinate : Affine
-            An angle, rad, or a length, m.
-        """
+        """The force element."""
         what = f"the spring-damper '{name}'"
         return ElementRecord(
             name,

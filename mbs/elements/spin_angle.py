@@ -21,13 +21,6 @@ class SpinAngle:
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
         """The element.
 
-        Parameters
-        ----------
-        f, g : AffineVector
-            Orthonormal vectors of the carrier, f x g along the axis.
-        spin : Affine
-            Absolute spin of the wheel, rad.
-
         Returns
         -------
         ElementRecord

@@ -21,15 +21,7 @@ class SpinTorque:
     """Torque on the wheel about its axis per unit of the input, N m."""
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
-        """The force element.
-
-        Parameters
-        ----------
-        f, g : AffineVector
-            Orthonormal vectors of the carrier, f x g along the axis.
-        spin : Affine
-            Absolute spin of the wheel, rad.
-        """
+        """The force element."""
         what = f"the spin torque '{name}'"
         return ElementRecord(
             name,

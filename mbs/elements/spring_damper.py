@@ -116,11 +116,6 @@ class SpringDamper:
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
         """The force element.
 
-        Parameters
-        ----------
-        difference : AffineVector
-            Difference p2 - p1 of two points in earth axes, two or three components, m.
-
         Raises
         ------
         ModelError

@@ -31,11 +31,6 @@ def inertia_relief(
     rows : ndarray or sparse array, shape (n_outputs, n_dof)
         Outputs per unit nodal displacement, e.g. of `recovery.gauge_rows`.
 
-    Returns
-    -------
-    InertiaRelief
-        Its matrices.
-
     Raises
     ------
     ModelError

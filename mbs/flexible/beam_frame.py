@@ -90,22 +90,13 @@ class BeamFrame:
     def element_freedoms(self, element: int) -> np.ndarray:
         """Numbers of the twelve degrees of freedom of a beam.
 
-        Returns
-        -------
-        ndarray of int, shape (12,)
-            Six of node i, six of node j.
+        Returns an array of shape (12,): six of node i, six of node j.
         """
         beam = self.beams[int(element)]
         return np.concatenate([6 * beam.i + np.arange(6), 6 * beam.j + np.arange(6)])
 
     def element_stiffness(self, element: int) -> np.ndarray:
-        """Stiffness of a beam in its local axes.
-
-        Returns
-        -------
-        ndarray, shape (12, 12)
-            N/m, N and N m per m and rad.
-        """
+        """Stiffness of a beam in its local axes. Returns an array of shape (12, 12): N/m, N and N m per m and rad."""
         beam = self.beams[int(element)]
         return beam_stiffness(beam.section, beam.material, self.element_axes(element)[0], self.theory)
 

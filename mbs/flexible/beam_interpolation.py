@@ -9,11 +9,8 @@ def bending_functions(xi: float, length: float, phi: float) -> tuple[np.ndarray,
     """Deflection and rotation at ``x = xi * length`` from (v1, theta1, v2, theta2) with theta = +dv/dx.
 
     `phi` = 12 E I / (k G A L2) is the shear parameter; 0 gives Hermite's cubics of Euler and Bernoulli. These functions
-    solve the unloaded Timoshenko beam exactly (Przemieniecki 1968, section 5.6; Friedman and Kosmatka 1993).
-
-    Returns
-    -------
-    deflection, rotation : ndarray, shape (4,)
+    solve the unloaded Timoshenko beam exactly (Przemieniecki 1968, section 5.6; Friedman and Kosmatka 1993). Returns
+    `deflection` and `rotation`, shape (4,).
     """
     mu, x, L = 1.0 / (1.0 + phi), xi, length
     deflection = mu * np.array(
@@ -33,10 +30,7 @@ def section_motion(xi: float, length: float, phi_y: float, phi_z: float) -> np.n
     """Displacement and rotation of the section at ``xi`` in local axes from the twelve of the ends.
 
     Ends are (u, v, w, rx, ry, rz) of node i, then of node j. `phi_y` belongs to deflections along y, `phi_z` along z.
-
-    Returns
-    -------
-    ndarray, shape (6, 12)
+    Returns an array of shape (6, 12).
     """
     N = np.zeros((6, 12))
     for row in (0, 3):  # stretch and twist are linear

@@ -22,11 +22,7 @@ def shear_parameters(section: Section, material: Material, length: float, theory
 def beam_stiffness(section: Section, material: Material, length: float, theory: str) -> np.ndarray:
     """Stiffness in local axes, exact for loads at the ends (Przemieniecki 1968, equation 5.116).
 
-    Order of the rows: (u, v, w, rx, ry, rz) of node i, then of node j.
-
-    Returns
-    -------
-    ndarray, shape (12, 12)
+    Order of the rows: (u, v, w, rx, ry, rz) of node i, then of node j. Returns an array of shape (12, 12).
     """
     E, L = material.E, length
     k = np.zeros((12, 12))

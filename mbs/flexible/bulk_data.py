@@ -17,18 +17,14 @@ _COLUMNS = 72
 def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
     """Places and systems of displacement of all grid points.
 
-    `path`: bulk data, or a whole deck; what it includes is read.
+    `path`: bulk data, or a whole deck; what it includes is read. Raises `ValueError` or `OSError`: a number is damaged,
+    a coordinate system is not there, or an included file.
 
     Returns
     -------
     dict of int to (array of shape (3,), int)
         By number, ascending: the place in the basic system, and the number of the coordinate system of the
         displacements, 0: the basic one.
-
-    Raises
-    ------
-    ValueError, OSError
-        A number is damaged, a coordinate system is not there, or an included file.
     """
     found: dict[str, list[list[str]]] = {}
     for name, *data in _cards(_lines(path)):

@@ -28,12 +28,8 @@ class FixedInterface:
     """Model with the reference and the interface degrees of freedom held; the inner stiffness is factorised once.
 
     `reference`: node that carries the floating frame, or three nodes where nodes have no rotations; `interfaces`: a
-    plain node stands for its translations.
-
-    Attributes
-    ----------
-    held, boundary, inner : ndarray of int
-        Degrees of freedom of the reference (6), of the interfaces (one per static mode, in order), and the others.
+    plain node stands for its translations. `held`, `boundary`, `inner`: degrees of freedom of the reference (6), of the
+    interfaces (one per static mode, in order), and the others.
     """
 
     def __init__(

@@ -41,18 +41,7 @@ class ShapeIntegrals:
 
 
 def shape_integrals(body: ModalBody) -> ShapeIntegrals:
-    """Sums over the mass points of a reduced body.
-
-    Parameters
-    ----------
-    body : ModalBody
-        With its mass points and their shapes.
-
-    Returns
-    -------
-    ShapeIntegrals
-        In the axes of the finite-element model.
-    """
+    """Sums over the mass points of a reduced body, in the axes of the finite-element model."""
     m, x, phi = body.masses, body.mass_positions, body.mass_shapes
     n = body.n_modes
     weighted = (m[:, None, None] * phi).reshape(len(m), 3 * n)

@@ -44,11 +44,6 @@ def external_model(
         Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
         with x, y, z when the matrices have three freedoms per node.
 
-    Returns
-    -------
-    FiniteElementModel
-        With symmetric matrices.
-
     Raises
     ------
     ModelError
@@ -84,11 +79,6 @@ def external_model(
 
 def read_matrix(path: str | Path) -> sp.csc_array:
     """Sparse matrix from Matrix Market (``.mtx``, ``.mtx.gz``) or SciPy's ``.npz``.
-
-    Returns
-    -------
-    sparse array
-        As stored.
 
     Raises
     ------

@@ -64,11 +64,6 @@ def modes_for_output(
     inertia_modes : bool
         Whether the reduction will have the inertia modes.
 
-    Returns
-    -------
-    ModeChoice
-        The modes, and what they leave out.
-
     Raises
     ------
     ModelError

@@ -75,7 +75,10 @@ def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray
 
 @dataclass(frozen=True)
 class StrainGauge:
-    """Strain gauges on a beam, as single ones or joined to bridges."""
+    """Strain gauges on a beam, as single ones or joined to bridges.
+
+    What they read are rows of shape (1, n_dof), in N, N m or Pa per m and rad of the nodes.
+    """
 
     name: str
     element: int
@@ -86,77 +89,36 @@ class StrainGauge:
     half-bridge sits on the opposite point."""
 
     def bending_moment(self, frame: BeamFrame) -> sp.csr_array:
-        """Moment about the axis across the fibre, positive when the fibre is stretched; My for the highest fibre.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            N m per m and rad.
-        """
+        """Moment about the axis across the fibre, positive when the fibre is stretched; My for the highest fibre."""
         y, z = self._point(frame)
         size = float(np.hypot(y, z))
         forces = section_forces(frame, self.element, self.xi)
         return sp.csr_array(forces[[4]] * (z / size) - forces[[5]] * (y / size))
 
     def half_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Stress of the fibre minus that of the opposite one; blind to pull and twist.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            Pa per m and rad.
-        """
+        """Stress of the fibre minus that of the opposite one; blind to pull and twist."""
         y, z = self._point(frame)
         both = fibre_stresses(frame, self.element, self.xi, np.array([(y, z), (-y, -z)]))
         return sp.csr_array(both[[0]] - both[[1]])
 
     def quarter_bridge(self, frame: BeamFrame) -> sp.csr_array:
-        """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            Pa per m and rad.
-        """
+        """Normal stress of the fibre, by pull and by bending: Young's modulus times the strain that one gauge reads."""
         return fibre_stresses(frame, self.element, self.xi, np.array([self._point(frame)]))
 
     def axial_force(self, frame: BeamFrame) -> sp.csr_array:
-        """N, positive when the beam is pulled.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            N per m and rad.
-        """
+        """N, positive when the beam is pulled."""
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[0]])
 
     def axial_stress(self, frame: BeamFrame) -> sp.csr_array:
-        """Mean normal stress, N / A.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            Pa per m and rad.
-        """
+        """Mean normal stress, N / A."""
         return sp.csr_array(self.axial_force(frame) * (1.0 / frame.beams[int(self.element)].section.area))
 
     def torque(self, frame: BeamFrame) -> sp.csr_array:
-        """T, positive when it turns the far side of the section right-handed about the beam from start to end.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            N m per m and rad.
-        """
+        """T, positive when it turns the far side of the section right-handed about the beam from start to end."""
         return sp.csr_array(section_forces(frame, self.element, self.xi)[[3]])
 
     def shear_stress(self, frame: BeamFrame) -> sp.csr_array:
         """Shear stress of the torque at the fibre of a round section, T r / J.
-
-        Returns
-        -------
-        sparse array, shape (1, n_dof)
-            Pa per m and rad.
 
         Raises
         ------
@@ -212,12 +174,8 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 def peak_tube_stress(frame: BeamFrame, forces: np.ndarray) -> np.ndarray:
     """Largest |normal stress| round each round section, |N|/A + r sqrt(My2 + Mz2)/I, Pa.
 
-    `forces`: of `section_force_field`, shape (12 n_elements,).
-
-    Returns
-    -------
-    ndarray, shape (n_elements, 2)
-        At the start and at the end of each element.
+    `forces`: of `section_force_field`, shape (12 n_elements,). Returns an array of shape (n_elements, 2): at the start
+    and at the end of each element.
     """
     f = np.asarray(forces).reshape(len(frame.beams), 2, 6)
     area = np.array([b.section.area for b in frame.beams])[:, None]

@@ -28,11 +28,6 @@ class ReducedBody(ModalBody):
     def interface(self, name: str) -> InterfaceModes:
         """An interface by the name of its node.
 
-        Returns
-        -------
-        InterfaceModes
-            Its place and its modes.
-
         Raises
         ------
         ModelError

@@ -35,11 +35,6 @@ class Section:
         ----------
         nu : float
             Poisson ratio.
-
-        Returns
-        -------
-        float, float
-            ky and kz.
         """
         ky, kz = ((a + b * nu) / (c + d * nu) for a, b, c, d in (self.shear_y, self.shear_z))
         return ky, kz
@@ -52,11 +47,6 @@ def tube(outer_diameter: float, wall: float) -> Section:
     ----------
     outer_diameter, wall : float
         m.
-
-    Returns
-    -------
-    Section
-        Its constants.
 
     Raises
     ------
@@ -81,11 +71,6 @@ def round_bar(diameter: float) -> Section:
     ----------
     diameter : float
         m.
-
-    Returns
-    -------
-    Section
-        Its constants.
     """
     _positive("round bar", diameter=diameter)
     return tube(diameter, diameter / 2)
@@ -98,11 +83,6 @@ def rectangle(width: float, height: float) -> Section:
     ----------
     width, height : float
         Along y and along z, m.
-
-    Returns
-    -------
-    Section
-        Its constants.
     """
     _positive("rectangle", width=width, height=height)
     a, b = max(width, height), min(width, height)

@@ -88,12 +88,8 @@ def cache_directory() -> Path:
 def compiler() -> str:
     """The program `zig` that the package `ziglang` brings.
 
-    It is called by its path: ``python -m ziglang`` would look into the current folder first.
-
-    Raises
-    ------
-    ModuleNotFoundError
-        If the package is not installed.
+    It is called by its path: ``python -m ziglang`` would look into the current folder first. Raises
+    `ModuleNotFoundError` if the package is not installed.
     """
     found = importlib.util.find_spec("ziglang")
     if found is None or not found.submodule_search_locations:

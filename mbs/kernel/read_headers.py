@@ -78,10 +78,7 @@ def text_of(file: str) -> str:
 def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
     """Items of the enumeration that starts with `first`, without the prefix and without its count.
 
-    Raises
-    ------
-    ValueError
-        If the header has no such enumeration or an item has another prefix.
+    Raises `ValueError` if the header has no such enumeration or an item has another prefix.
     """
     found = re.search(r"enum \{\s*(" + first + r"\b[^}]*)\}", text_of(file))
     if found is None:
@@ -119,13 +116,7 @@ def table(file: str, name: str) -> list[list[str]]:
 
 
 def element_types() -> dict[str, int]:
-    """The types of force elements and their numbers.
-
-    Raises
-    ------
-    ValueError
-        If two have one number.
-    """
+    """The types of force elements and their numbers. Raises `ValueError` if two have one number."""
     types = {name.upper(): int(number) for number, name in table(ELEMENTS, "ALI3_ELEMENT_TYPES")}
     if len(set(types.values())) != len(types):
         raise ValueError(f"two types of ALI3_ELEMENT_TYPES in {ELEMENTS} have one number.")

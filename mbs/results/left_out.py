@@ -37,10 +37,7 @@ class LeftOut:
     def column(self, name: str) -> Array:
         """Values of one of the names; all are found with the first.
 
-        Raises
-        ------
-        KeyError
-            They cannot be found; the sentence says why.
+        Raises `KeyError`: they cannot be found; the sentence says why.
         """
         if self._compute is not None and self._found is None:
             self._found = self._compute(self._every)

@@ -158,13 +158,7 @@ def _rounded(heights: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, 
 
 
 def described_road(path: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
-    """The road that a TOML file describes.
-
-    Raises
-    ------
-    RoadFileError
-        With file, key, value and what would be right.
-    """
+    """The road that a TOML file describes. Raises `RoadFileError` with file, key, value and what would be right."""
     table = read_toml(path, RoadFileError)
     try:
         description = _ADAPTER.validate_python(table, strict=False)

@@ -40,12 +40,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     """A grid from a file.
 
     `path`: ``.csv`` or ``.txt``, ``.npy``, ``.npz`` or ``.png``; `picture_range`: what black and white of a picture
-    mean; `what`: "heights" or "frictions".
-
-    Raises
-    ------
-    RoadFileError
-        With the file and what is wrong with it.
+    mean; `what`: "heights" or "frictions". Raises `RoadFileError` with the file and what is wrong with it.
     """
     file = Path(path)
     kind = file.suffix.lower()

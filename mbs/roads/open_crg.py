@@ -36,17 +36,8 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
     heights go on.
 
     `path`: ``.crg``, in any of the forms of the standard; `spacing`: of the grid, m; by default that of the file where
-    the road is straight along x, else the smaller of its two.
-
-    Raises
-    ------
-    RoadFileError
-        It is no OpenCRG file, is damaged, has holes, or needs too many points.
-
-    Warns
-    -----
-    RoadWarning
-        What the reader of the format found odd.
+    the road is straight along x, else the smaller of its two. Raises `RoadFileError`: it is no OpenCRG file, is
+    damaged, has holes, or needs too many points. Warns `RoadWarning`: what the reader of the format found odd.
     """
     source = os.fspath(path)
     check_file(Path(path), _LARGEST, RoadFileError)

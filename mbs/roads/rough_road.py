@@ -30,17 +30,8 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     coherence of two tracks b apart follows from the density: (x K1(x))^2 with x = 2 pi n b and the modified Bessel
     function K1.
 
-    `spacing`: in m; `density`: gd(n0), m3; `seed`: of the phases.
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        m.
-
-    Raises
-    ------
-    RoadFileError
-        It has too many points.
+    `spacing`: in m; `density`: gd(n0), m3; `seed`: of the phases. Raises `RoadFileError`: it has too many points.
+    Returns an array of shape (nx, ny): in m.
     """
     longest = round(1.0 / (LOWEST * spacing))
     sides = [max(n, longest) for n in (nx, ny)]

@@ -55,10 +55,7 @@ def points_of_box(
 ) -> tuple[Values, Values]:
     """Coordinates x (nx,) and y (ny,) of a grid from border to border of a box, not farther apart than the spacing.
 
-    Raises
-    ------
-    RoadFileError
-        The grid has too many points, with a spacing that would do; `more` is added to the message.
+    Raises `RoadFileError`: the grid has too many points, with a spacing that would do; `more` is added to the message.
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
@@ -112,12 +109,8 @@ def tell(road: SampledRoad) -> None:
 def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:
     """Heights of the surface of a grid, as the kernel computes them.
 
-    `heights`: of the road, contiguous, shape (nx, ny); `places`: x and y, m, shape (n, 2).
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        m.
+    `heights`: of the road, contiguous, shape (nx, ny); `places`: x and y, m, shape (n, 2). Returns an array of shape
+    (n,): in m.
     """
     found = np.empty(len(places))
     grid = np.array((*road.origin, *road.spacing), np.float64)

@@ -28,10 +28,7 @@ EDGE = 1e-3  # m, along which the step of a kerb is drawn
 def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
     """A road as what draws reads it. `road`: as `mbs.roads.read_road` reads it, or of a model.
 
-    Returns
-    -------
-    dict
-        An entry of `roads` of the scene's format: flat, plane, profile or grid.
+    Returns an entry of `roads` of the scene's format: flat, plane, profile or grid.
     """
     if isinstance(road, PlaneRoad):
         return _plane(road)
@@ -61,17 +58,8 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
 def drawn_roads(roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Roads of a scene with those of files read.
 
-    `roads`: of a scene; the path of an entry of the kind "file" is one of this machine.
-
-    Returns
-    -------
-    list of dict
-        What can be drawn without the files.
-
-    Raises
-    ------
-    mbs.roads.RoadFileError
-        A file cannot be read.
+    `roads`: of a scene; the path of an entry of the kind "file" is one of this machine. Returns what can be drawn
+    without the files. Raises `mbs.roads.RoadFileError`: a file cannot be read.
     """
     return [
         scene_part(read_road(road["path"])) if road["kind"] == "file" and road.get("path") else dict(road)

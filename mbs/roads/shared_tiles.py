@@ -121,11 +121,7 @@ def _whole(values: Float) -> Float:
 def polynomial_values(c: Float) -> Float:
     """Heights of the points of a tile by its coefficients, in the order of the kernel: the same bits.
 
-    `c`: shape (rows, columns).
-
-    Returns
-    -------
-    ndarray, shape (32, 32)
+    `c`: shape (rows, columns). Returns an array of shape (32, 32).
     """
     z = np.zeros((ROAD_TILE, ROAD_TILE))
     for a in range(c.shape[0] - 1, -1, -1):
@@ -189,18 +185,13 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Numbers and values of tiles.
 
-    `file`: open; `name`: what errors call it.
+    `file`: open; `name`: what errors call it. Raises `RoadFileError`: a part is damaged.
 
     Yields
     ------
     int
         Number of the tile.
     ndarray, shape (maps, 32, 32)
-
-    Raises
-    ------
-    RoadFileError
-        A part is damaged.
     """
     file.seek(HEADER.size)
     count = head.tiles[0] * head.tiles[1]

@@ -17,12 +17,8 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     Each line of points along y that crosses a triangle is cut by its edges (scan conversion). Upright triangles are
     seen as lines and left out.
 
-    `corners`: m, shape (n, 3, 3); `x`, `y`: of the points, regular, m, shapes (nx,) and (ny,).
-
-    Returns
-    -------
-    lowest, highest : ndarray, shape (nx, ny)
-        m.
+    `corners`: m, shape (n, 3, 3); `x`, `y`: of the points, regular, m, shapes (nx,) and (ny,). Returns `lowest` and
+    `highest`, shape (nx, ny): in m.
     """
     lowest, highest = np.full((len(x), len(y)), np.inf), np.full((len(x), len(y)), -np.inf)
     steps = np.array([a[1] - a[0] if len(a) > 1 else 1.0 for a in (x, y)])

@@ -82,10 +82,8 @@ def check_resolution(t: float, h: float) -> None:
 def count_steps(t0: float, t_end: float, h: float) -> int:
     """Number of whole steps that end not after `t_end`, give or take round-off.
 
-    Raises
-    ------
-    ValueError
-        The end is before the start, the step is longer than the run, or lost in the round-off of the time.
+    Raises `ValueError`: the end is before the start, the step is longer than the run, or lost in the round-off of the
+    time.
     """
     end = check_end(t0, t_end)
     steps = math.floor((end - t0) / h + 1e-6)

@@ -114,12 +114,8 @@ class ControlledRun:
     def advance(self, steps: int) -> None:
         """At most so many accepted steps, or to the end.
 
-        Raises
-        ------
-        KernelError
-            When a step fails as short as it may be.
-        StalledError
-            When many steps err more than they may, as short as they may be.
+        Raises `KernelError` when a step fails as short as it may be. Raises `StalledError` when many steps err more
+        than they may, as short as they may be.
         """
         instance, task = self.simulation.instance, self.task
         tolerance = 1e-9 * task.span

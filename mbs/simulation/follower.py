@@ -34,12 +34,7 @@ def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
 class Follower:
     """The model with ports that follows a simulation.
 
-    `asked`: name of a sensor that it is for.
-
-    Raises
-    ------
-    KeyError
-        There is none; the sentence names the sensor.
+    `asked`: name of a sensor that it is for. Raises `KeyError`: there is none; the sentence names the sensor.
     """
 
     def __init__(self, system: System, asked: str = "") -> None:
@@ -52,10 +47,7 @@ class Follower:
     def values(self, instance: Instance) -> list[float]:
         """Of the sensors that the System leaves out, at the state of its instance, which stays.
 
-        Raises
-        ------
-        SimulationError
-            The forces at the ports cannot be found.
+        Raises `SimulationError`: the forces at the ports cannot be found.
         """
         try:
             self._instance.follow(instance)

@@ -21,12 +21,8 @@ def refusal(
     """An error of the kernel as a SimulationError.
 
     `simulation`: in the last good state; `what`: the beginning of the sentence: what was tried; `trajectory`: what was
-    recorded until then.
-
-    Returns
-    -------
-    SimulationError
-        Status, reason and remedy; of a step that did not converge also the worst row and the worst balance.
+    recorded until then. Result: status, reason and remedy; of a step that did not converge also the worst row and the
+    worst balance.
     """
     message = f"{what}: {error.message}{_remedy(simulation, error.status)}"
     report = simulation.instance.report()

@@ -98,13 +98,7 @@ class Repeats:
         return self._compared(run, twin, h, 1.0 / times)
 
     def finer(self, parts: int) -> Accuracy:
-        """By a run whose steps are shorter by so many times.
-
-        Raises
-        ------
-        SimulationError
-            It does not end.
-        """
+        """By a run whose steps are shorter by so many times. Raises `SimulationError`: it does not end."""
         again = self._again(self.h / parts, self.every * parts, float(parts))
         self._finer.append(again)
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
@@ -121,12 +115,8 @@ class Repeats:
         """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
         third, then a fourth.
 
-        Of these two the one that says more counts: behind abrupt forces they are off to both sides.
-
-        Raises
-        ------
-        SimulationError
-            One does not end.
+        Of these two the one that says more counts: behind abrupt forces they are off to both sides. Raises
+        `SimulationError`: one does not end.
         """
         for times in (1, 2):
             first, second = map(self._table, self._finer[-2:])

@@ -14,10 +14,7 @@ from mbs.system.system import System
 def restored(system: System, settings: Settings, road_paths: Mapping[int, str], state: bytes) -> SteppedSystem:
     """A System at a state of another instance of it. `state`: by `Instance.save`.
 
-    Raises
-    ------
-    SimulationError
-        The file of a road can no longer be read.
+    Raises `SimulationError`: the file of a road can no longer be read.
     """
     other = SteppedSystem(system, settings)
     try:

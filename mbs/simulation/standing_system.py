@@ -17,10 +17,7 @@ class StandingSystem:
     """A System at its start, on roads that are no files; the assembly modes of its loops, which take long to find, are
     not watched.
 
-    Raises
-    ------
-    ModelError
-        The start cannot be made consistent.
+    Raises `ModelError`: the start cannot be made consistent.
     """
 
     def __init__(self, compiled: CompiledModel) -> None:

@@ -14,12 +14,8 @@ from mbs.system.system import System
 class SteppedSystem(SystemInstance):
     """An instance of the kernel, and what runs and error messages read of it.
 
-    Attributes
-    ----------
-    step_tried : float
-        Length of the last step that was tried, s.
-    road_paths : dict of int to str
-        Files in place of roads, by the number of the road.
+    `step_tried`: length of the last step that was tried, s; `road_paths`: files in place of roads, by the number of the
+    road.
     """
 
     system: System

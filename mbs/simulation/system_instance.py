@@ -16,12 +16,7 @@ from mbs.system.compiled_model import CompiledModel
 class SystemInstance:
     """An instance of the kernel, and what is read of it wherever it stands.
 
-    Parameters
-    ----------
-    loaded : LoadedSystem
-        The System in the kernel's memory.
-    meta : dict of str to object
-        Its names, which are not changed.
+    `loaded`: the System in the kernel's memory; `meta`: its names, which are not changed.
     """
 
     def __init__(self, system: CompiledModel, loaded: LoadedSystem, meta: dict[str, Any]) -> None:

@@ -27,10 +27,7 @@ _PLAIN = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
 def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
     """Refuse what no tyre has; 0 counts as not given. `numbers`: by their keys, in SI units.
 
-    Raises
-    ------
-    TyreFileError
-        One sentence with the key, its value and its bounds.
+    Raises `TyreFileError`: one sentence with the key, its value and its bounds.
     """
     for key, value in numbers.items():
         if key not in _BOUNDS and key not in _PLAIN:

@@ -124,7 +124,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     Its nominal load is that of the tyre, or half of the largest load of the coefficients where that is less. Shifts,
     camber, moments beside the trail's and the speed's influence are left out.
 
-    `tyre`: at its nominal pressure.
+    `tyre`: at its nominal pressure. Raises `ValueError`: its pressure is not the nominal one.
 
     Returns
     -------
@@ -132,11 +132,6 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         On the road of the reference friction.
     errors : dict of str to float
         As of `magic_of_tmeasy`.
-
-    Raises
-    ------
-    ValueError
-        Its pressure is not the nominal one.
     """
     if tyre.pressure != 0.0:
         raise ValueError(f"The pressure of the tyre is {1.0 + tyre.pressure:g} times the nominal one; it must be that.")

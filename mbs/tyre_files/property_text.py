@@ -46,12 +46,8 @@ class PropertyText:
     def numbers(self, expected: Container[str] = ()) -> dict[str, float]:
         """All numbers by their keys.
 
-        `expected`: keys whose values must be numbers.
-
-        Raises
-        ------
-        TyreFileError
-            A key has two values in two sections, or a text where a number is expected.
+        `expected`: keys whose values must be numbers. Raises `TyreFileError`: a key has two values in two sections, or
+        a text where a number is expected.
         """
         found: dict[str, float] = {}
         for section, entries in self.sections.items():
@@ -71,10 +67,7 @@ class PropertyText:
 def read_properties(file: str | Path) -> PropertyText:
     """Sections of a tyre property file. `file`: text in UTF-8 or Latin-1; what counts is ASCII.
 
-    Raises
-    ------
-    TyreFileError
-        It is no such text; the message has file and line.
+    Raises `TyreFileError`: it is no such text; the message has file and line.
     """
     data = read_bytes(file, LARGEST, TyreFileError)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:

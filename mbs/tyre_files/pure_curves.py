@@ -25,12 +25,8 @@ def tmeasy_force(slope: float, most: float, most_at: float, slides: float, slide
     """Force of TMeasy over a slip, odd in it (Hirschberg, Rill and Weinfurter, 2007).
 
     `slope`, `most`, `slides`: initial slope, largest and sliding force, N; `most_at`, `slides_at`: slips where the
-    force is largest and from which on it slides; `slip`: refers to the speed of the rolling wheel.
-
-    Returns
-    -------
-    ndarray
-        N, with the sign of the slip.
+    force is largest and from which on it slides; `slip`: refers to the speed of the rolling wheel. Result: in N, with
+    the sign of the slip.
     """
     s = np.abs(np.asarray(slip, float))
     x = s / most_at

@@ -49,11 +49,8 @@ PRESSURES = ("INFLPRES", "NOMPRES")
 def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:
     """Numbers of a file in SI units. `numbers`: as the file gives them.
 
-    Raises
-    ------
-    TyreFileError
-        The file has no units of length, force and time, or one that is not known. Angles must be radians, for which the
-        coefficients of the Magic Formula hold.
+    Raises `TyreFileError`: the file has no units of length, force and time, or one that is not known. Angles must be
+    radians, for which the coefficients of the Magic Formula hold.
     """
     scales = {}
     for quantity, known in _UNITS.items():

@@ -22,12 +22,8 @@ class Follower:
 def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -> dict[str, Follower]:
     """The joints that follow others, by their names, each after those that it follows.
 
-    `given`: joints that the user places or moves.
-
-    Raises
-    ------
-    ModelError
-        One follows a joint that does not move or is not there, or itself; its multiplier is zero; it is given.
+    `given`: joints that the user places or moves. Raises `ModelError`: one follows a joint that does not move or is not
+    there, or itself; its multiplier is zero; it is given.
     """
     left: dict[str, Follower] = {}
     for name, joint in joints.items():

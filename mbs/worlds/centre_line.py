@@ -91,13 +91,7 @@ class CentreLine:
 
 
 def through(points: Float, closed: bool, name: str) -> CentreLine:
-    """A line through any points, at least two.
-
-    Raises
-    ------
-    RoadFileError
-        Points coincide.
-    """
+    """A line through any points, at least two. Raises `RoadFileError`: points coincide."""
     if closed and np.hypot(*(points[0] - points[-1])) > 1e-9:
         points = np.vstack([points, points[:1]])
     way = np.hypot(*np.diff(points, axis=0).T)
@@ -118,10 +112,7 @@ def through(points: Float, closed: bool, name: str) -> CentreLine:
 def of_segments(start: tuple[float, float, float], segments: Sequence[Segment], closed: bool, name: str) -> CentreLine:
     """A line of straights and arcs.
 
-    Raises
-    ------
-    RoadFileError
-        A segment is neither, or the ends of a closed line miss each other.
+    Raises `RoadFileError`: a segment is neither, or the ends of a closed line miss each other.
     """
     lengths, curvatures = [], []
     for k, segment in enumerate(segments):

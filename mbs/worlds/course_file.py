@@ -25,13 +25,7 @@ GAP = 25.0
 def course_layer(
     course: Course, folder: Path, bounds: tuple[float, float, float, float], ground: HeightOf
 ) -> CourseLayer:
-    """A course as it is laid on the ground.
-
-    Raises
-    ------
-    RoadFileError
-        With what is wrong with the course.
-    """
+    """A course as it is laid on the ground. Raises `RoadFileError` with what is wrong with the course."""
     given = [name for name in ("segments", "points") if getattr(course, name) is not None]
     if len(given) != 1:
         raise RoadFileError(f"The course '{course.name}' must have segments or points, one of them.")
@@ -95,12 +89,8 @@ def read_course(file: Path) -> dict[str, Float]:
     """Columns of a course file by name.
 
     `file`: CSV; its first line may name the columns x, y, z, width and bank, else they are x, y and then z, width, bank
-    as far as there are any. Lines that begin with # are left out.
-
-    Raises
-    ------
-    RoadFileError
-        With the file, the line and what is wrong.
+    as far as there are any. Lines that begin with # are left out. Raises `RoadFileError` with the file, the line and
+    what is wrong.
     """
     table = TextTable(file, RoadFileError, headed=None)
     names = [name.lower() for name in table.names] or list(COLUMNS[: table.width])

@@ -68,10 +68,7 @@ class Surface:
 def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
     """The ground, and the distance of its points where it is a height map, else infinity.
 
-    Raises
-    ------
-    RoadFileError
-        The height map cannot be read, or does not cover the world.
+    Raises `RoadFileError`: the height map cannot be read, or does not cover the world.
     """
     ground, (x0, y0, x1, y1) = world.ground, world.bounds
     if ground.heights is not None and ground.variation is not None:

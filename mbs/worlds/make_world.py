@@ -23,13 +23,7 @@ MOST_AREA = 1e8
 
 
 def read_world(file: Path) -> WorldDescription:
-    """A checked description.
-
-    Raises
-    ------
-    RoadFileError
-        With file, key, value and what would be right.
-    """
+    """A checked description. Raises `RoadFileError` with file, key, value and what would be right."""
     from pydantic import ValidationError
 
     from ali3.typed_sentences import Sentences
@@ -58,12 +52,8 @@ def make_world(
     """Write the road file of a world, and return its record.
 
     `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with what is done and its part, 0 to 1;
-    `thin`: fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off.
-
-    Raises
-    ------
-    RoadFileError
-        With what is wrong.
+    `thin`: fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off. Raises
+    `RoadFileError` with what is wrong.
     """
     if file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world":
         from mbs.worlds.road_of_world import write_world_road

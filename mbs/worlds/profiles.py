@@ -32,11 +32,7 @@ def vertical_curve(s: Float, vertices: Sequence[tuple[float, float]], roundings:
     """Heights of a line through vertices, with a parabola at each; level before the first and behind the last.
 
     `s`: stations, m; `vertices`: station, rising, and height, m; `roundings`: length of the parabola at each vertex, m.
-
-    Returns
-    -------
-    ndarray
-        m.
+    Result: in m.
     """
     at = np.array(vertices, float)
     grades = np.concatenate([[0.0], np.diff(at[:, 1]) / np.diff(at[:, 0]), [0.0]])

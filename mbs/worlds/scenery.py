@@ -53,13 +53,7 @@ def scenery_of(terrain: Terrain) -> list[dict[str, Any]]:
 
 
 def cone_places(cones: Cones) -> list[tuple[float, float]]:
-    """x and y of cones, m.
-
-    Raises
-    ------
-    RoadFileError
-        It is not said where they stand.
-    """
+    """x and y of cones, m. Raises `RoadFileError`: it is not said where they stand."""
     given = [cones.at is not None, cones.lane_change is not None, cones.slalom is not None]
     if sum(given) != 1 or (cones.at is None and cones.start is None):
         raise RoadFileError("Cones must have `at`, or `start` and one of `lane_change` and `slalom`.")

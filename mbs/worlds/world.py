@@ -27,12 +27,7 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
     """Put the files of a world into a folder; gives the exit code.
 
     `given`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers, for a
-    page.
-
-    Raises
-    ------
-    UserError
-        It is no world.
+    page. Raises `UserError`: it is no world.
     """
     from mbs.worlds.stored import add_file, key_of, world_files
 

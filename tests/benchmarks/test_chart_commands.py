@@ -13,6 +13,7 @@ from benchmarks.methods import pages
 from benchmarks.methods.arithmetic import operations
 from benchmarks.methods.honesty import VERDICTS
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
+from benchmarks.methods.stability import OUTCOMES
 from benchmarks.methods.stability_margins import margins
 from benchmarks.methods.work_precision import time_at_error
 from benchmarks.methods.work_precision_chart import KERNEL as COLOURED
@@ -61,7 +62,7 @@ def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, ca
     arguments = ["--quick", "--json", str(tmp_path / "s.json"), "--charts", str(tmp_path)]
     assert stability.main(arguments) == 0
     meta, rows = read(tmp_path / "s.json")
-    assert {r["outcome"] for r in rows} <= set(stability.OUTCOMES)
+    assert {r["outcome"] for r in rows} <= set(OUTCOMES)
     assert len({r["method"] for r in rows}) == len(KERNEL) + len(CLASSICAL)
     fixed = [r for r in rows if r["method"] == "velocity transformation"]
     assert fixed

@@ -12,7 +12,6 @@ import pytest
 
 from benchmarks.car import manoeuvres
 from benchmarks.shared.command import parser_of, pyplot, save_chart, save_rows, watched
-from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.timing import step_time
 from mbs import Settings
 
@@ -61,13 +60,15 @@ def test_the_same_chart_gives_the_same_bytes(tmp_path, capsys):
 def test_rows_are_written_where_asked_for_and_the_conditions_printed(tmp_path, capsys):
     options = parser_of("some", "Text.", chart="a line").parse_args(["--json", str(tmp_path / "rows.json")])
     assert options.chart is None
-    meta = describe("some", Settings(tolerance_r=1e-12), repeats=7, warm_up=2)
-    save_rows(options.json, meta, [{"h_s": 0.1}])
-    save_rows(None, meta, [])
-    assert json.loads(options.json.read_text(encoding="utf-8"))["rows"] == [{"h_s": 0.1}]
+    save_rows(options.json, "some", [{"h_s": 0.1}], repeats=7, warm_up=2, of="a thing")
+    save_rows(None, "some", [])
+    written = json.loads(options.json.read_text(encoding="utf-8"))
+    assert written["rows"] == [{"h_s": 0.1}]
+    assert written["meta"]["of"] == "a thing"
+    assert written["meta"]["settings"] == Settings().kernel_fields()
     assert [f.name for f in tmp_path.iterdir()] == ["rows.json"]
     printed = capsys.readouterr().out
-    assert printed.count("tolerance_r = 1e-12; 7 runs of each figure after 2 to warm up") == 2
+    assert "7 runs of each figure after 2 to warm up" in printed
+    assert "one run of each figure after 0 to warm up" in printed
     assert f"numpy {np.__version__}" in printed
-    assert f"{meta['machine']['processor']}, {os.cpu_count()} cores" in printed
-    assert "Settings: default; one run of each figure after 0 to warm up" in conditions(describe("other", Settings()))
+    assert f"{written['meta']['machine']['processor']}, {os.cpu_count()} cores" in printed

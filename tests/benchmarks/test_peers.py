@@ -20,7 +20,12 @@ from benchmarks.references.cases import CASES, SAMPLES, exact_of
         ("drake", "double_four_bar", "SAP, semi-implicit Euler", 0.01, 0.1, 1.8),
         ("drake", "spatial_chain", "RK5", 0.01, 1e-4, 25.0),
         ("exudyn", "double_four_bar", "generalised alpha", 0.01, 0.05, 3.5),
+        ("exudyn", "double_four_bar", "generalised alpha (tree)", 0.01, 2e-3, 3.5),
         ("exudyn", "bricard", "generalised alpha", 0.01, 0.05, 3.5),
+        ("exudyn", "spatial_chain", "generalised alpha", 0.01, 0.1, 3.3),
+        ("mujoco", "double_four_bar", "implicitfast", 0.004, 5e-3, 1.8),
+        ("mujoco", "bricard", "RK4", 0.004, 5e-3, 3.3),
+        ("mujoco", "spatial_chain", "RK4", 0.01, 1e-3, 8.0),
     ],
 )
 def test_it_comes_to_the_exact_motion_with_its_order(

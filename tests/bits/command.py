@@ -73,12 +73,7 @@ def make(name: str, fmus: Path, file: Path) -> int:
 def make_all(names: Sequence[str], jobs: int) -> tuple[dict[str, store.Entry], dict[str, str]]:
     """Entries of groups, and what those said that failed; FMUs are built where a group needs them.
 
-    Parameters
-    ----------
-    names : sequence of str
-        Of groups.
-    jobs : int
-        At a time.
+    `names`: of groups; `jobs`: at a time.
     """
     from tqdm import tqdm
 

@@ -8,8 +8,7 @@ from typing import Any
 
 import fmpy
 import numpy as np
-from fmpy.fmi2 import FMU2Slave
-from fmpy.fmi3 import FMU3Slave
+from fmpy.simulation import instantiate_fmu
 
 from tests.bits import doors, tables
 from tests.bits.store import Entry, entry_of
@@ -100,14 +99,7 @@ def _derivatives(description: Any, folder: Path) -> dict[str, Any]:
     variables = {v.name: v for v in description.modelVariables}
     outputs = [v for v in description.modelVariables if v.causality == "output" and v.type in ("Real", "Float64")]
     known = ("steering", "throttle")
-    kind = FMU2Slave if description.fmiVersion == "2.0" else FMU3Slave
-    slave = kind(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="bits",
-    )
-    slave.instantiate()
+    slave = instantiate_fmu(str(folder), description)
     first = description.fmiVersion == "2.0"
     write = slave.setReal if first else slave.setFloat64
     if first:

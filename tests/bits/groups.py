@@ -16,21 +16,14 @@ Entries = Iterator[tuple[str, Entry]]
 
 @dataclass(frozen=True)
 class Group:
-    """Entries whose names begin with one of some texts.
-
-    Attributes
-    ----------
-    make : callable
-        Gives the entries from the folder of FMUs and one for what is written.
-    begins : tuple of str
-        With which names begin.
-    needs : tuple of str
-        Cars whose FMUs must be there.
-    """
+    """Entries whose names begin with one of some texts."""
 
     make: Callable[[Path, Path], Entries]
+    """Gives the entries from the folder of FMUs and one for what is written."""
     begins: tuple[str, ...]
+    """With which names begin."""
     needs: tuple[str, ...] = ()
+    """Cars whose FMUs must be there."""
 
 
 CARS = ("prototype", "hatchback")

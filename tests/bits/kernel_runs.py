@@ -36,37 +36,25 @@ OTHERS: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Scene:
-    """A model and how it is run.
-
-    Attributes
-    ----------
-    make : callable
-        Gives the model.
-    h, steps : float, int
-        Of its runs, s.
-    inputs : mapping of str to callable
-        Over time, s.
-    pose : Pose, optional
-        Where it starts.
-    methods : tuple of str
-        That are tried; a method that refuses the scene is stored as refused.
-    tolerance : float
-        Of a run that chooses its steps; 0: none.
-    others : bool
-        Whether it is run with `OTHERS` and with other steps.
-    exact : bool
-        Whether bits are compared: not where eigenvectors of LAPACK are in the model.
-    """
+    """A model and how it is run."""
 
     make: Callable[[], mbs.Model]
+    """Gives the model."""
     h: float = 0.005
     steps: int = 100
+    """`h`, `steps`: of its runs, s."""
     inputs: Mapping[str, Callable[[float], float]] = field(default_factory=dict)
+    """Over time, s."""
     pose: mbs.Pose | None = None
+    """Where it starts."""
     methods: tuple[str, ...] = METHODS
+    """That are tried; a method that refuses the scene is stored as refused."""
     tolerance: float = 0.0
+    """Of a run that chooses its steps; 0: none."""
     others: bool = False
+    """Whether it is run with `OTHERS` and with other steps."""
     exact: bool = True
+    """Whether bits are compared: not where eigenvectors of LAPACK are in the model."""
 
 
 def _wave(size: float, rate: float, shift: float = 0.0) -> Callable[[float], float]:

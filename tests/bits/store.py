@@ -29,22 +29,15 @@ _NAN = struct.pack("<d", math.nan)
 
 @dataclass(frozen=True)
 class Signal:
-    """What is stored of one signal.
-
-    Attributes
-    ----------
-    digest : bytes
-        One byte of a BLAKE2 hash of the shape, five of one of the numbers.
-    projections : tuple of float
-        Sums of the numbers with random signs, over the root of their count. What is not finite counts as 0.
-    low, high : float
-        Smallest and largest finite number; NaN where there is none.
-    """
+    """What is stored of one signal."""
 
     digest: bytes
+    """One byte of a BLAKE2 hash of the shape, five of one of the numbers."""
     projections: tuple[float, float]
+    """Sums of the numbers with random signs, over the root of their count. What is not finite counts as 0."""
     low: float
     high: float
+    """`low`, `high`: smallest and largest finite number; NaN where there is none."""
 
     @classmethod
     def of(cls, values: ArrayLike) -> Signal:
@@ -93,23 +86,17 @@ Entry = tuple[bool, dict[str, Signal]]
 
 @dataclass(frozen=True)
 class Difference:
-    """One signal that is not as stored.
-
-    Attributes
-    ----------
-    entry, signal : str
-        Names; an empty signal: the whole entry.
-    kind : str
-        "differs", "missing" or "new".
-    distance, relative : float
-        Of one that differs: absolute, and over the width of its range, or over its largest value where it is constant.
-    """
+    """One signal that is not as stored."""
 
     entry: str
     signal: str
+    """`entry`, `signal`: names; an empty signal: the whole entry."""
     kind: str
+    """"differs", "missing" or "new"."""
     distance: float = math.nan
     relative: float = math.nan
+    """`distance`, `relative`: of one that differs: absolute, and over the width of its range, or over its largest value
+    where it is constant."""
 
 
 def entry_of(signals: Mapping[str, ArrayLike], exact: bool = True) -> Entry:

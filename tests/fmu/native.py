@@ -42,14 +42,8 @@ def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SO
 def compile_stress(fmu_folder: Path, program: Path, objects: Path) -> None:
     """Link `stress.c` with the FMU's own sources; with sanitizers where the system's gcc has them.
 
-    Parameters
-    ----------
-    fmu_folder : Path
-        The unpacked FMU.
-    program : Path
-        The file to write.
-    objects : Path
-        Folder of what gcc compiled, for the next FMU and the kernel of `tests.sanitize`.
+    `fmu_folder`: the unpacked FMU; `program`: the file to write; `objects`: folder of what gcc compiled, for the next
+    FMU and the kernel of `tests.sanitize`.
     """
     sources = [C_FOLDER / "stress.c", *sorted((fmu_folder / "sources").rglob("*.c"))]
     include = f"-I{fmu_folder / 'sources'}"

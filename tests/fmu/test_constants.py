@@ -9,12 +9,12 @@ from typing import Any
 import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
 import mbs
 from fmu_src.build.build import build_fmu
 from tests.fmu import scenes
+from tests.fmu.host3 import Host3
 
 HostMaker = Callable[..., Any]
 OK, WARNING, DISCARD, ERROR = range(4)
@@ -67,17 +67,8 @@ def test_they_can_be_read_and_not_set(files: dict[str, Path], host: HostMaker, k
 
 
 def test_fmi_3_reads_them_beside_time_and_outputs(files: dict[str, Path]) -> None:
-    description = fmpy.read_model_description(str(files["fmi3"]))
-    references = {v.name: v.valueReference for v in description.modelVariables}
-    slave = FMU3Slave(
-        guid=description.guid,
-        unzipDirectory=fmpy.extract(str(files["fmi3"])),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="test",
-    )
-    slave.instantiate()
-    slave.enterInitializationMode(startTime=0.0)
-    slave.exitInitializationMode()
+    driven = Host3(files["fmi3"]).start()
+    slave, references = driven.slave, driven.references
     slave.doStep(0.0, H)
     asked = [references[n] for n in ("crane.ratio", "time", "rod.x", "crane.reach", "time")]
     ratio, time, x, reach, again = slave.getFloat64(asked)

@@ -11,7 +11,7 @@ from fmpy.fmi1 import FMICallException
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
-from tests.fmu.test_fmi3 import Host3
+from tests.fmu.host3 import Host3
 
 SCENES = Path(__file__).parent / "scenes.py"
 OK, WARNING, DISCARD, ERROR = range(4)

@@ -11,47 +11,10 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave
 
 from fmu_src.variables.arrays import arrays
 from fmu_src.variables.variables import Variable
-
-STEP = 0.01
-
-
-class Host3:
-    """An instance of FMI 3.0, its variables by name."""
-
-    def __init__(self, fmu: Path) -> None:
-        self.description = fmpy.read_model_description(str(fmu))
-        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.messages: list[str] = []
-        self.slave = FMU3Slave(
-            guid=self.description.guid,
-            unzipDirectory=fmpy.extract(str(fmu)),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName="test",
-        )
-        self.slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode()))
-
-    def start(self) -> Host3:
-        self.slave.enterInitializationMode(startTime=0.0)
-        self.slave.exitInitializationMode()
-        return self
-
-    def get(self, name: str, size: int = 1) -> list[float]:
-        return list(self.slave.getFloat64([self.references[name]], size))
-
-    def set(self, name: str, value: float) -> None:
-        self.slave.setFloat64([self.references[name]], [value])
-
-    def run(self, steps: int, begin: int = 0) -> list[float]:
-        for k in range(begin, begin + steps):
-            self.slave.doStep(k * STEP, STEP)
-        return self.get(self.outputs()[0], 2 if "position" in self.outputs()[0] else 1)
-
-    def outputs(self) -> list[str]:
-        return [v.name for v in self.description.modelVariables if v.causality == "output"]
+from tests.fmu.host3 import STEP, Host3
 
 
 @pytest.fixture

@@ -14,10 +14,10 @@ from xml.etree import ElementTree
 import fmpy
 import numpy as np
 import pytest
-from fmpy.fmi3 import FMU3Slave
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from tests.fmu.host3 import Host3
 
 HostMaker = Callable[..., Any]
 OK, WARNING, DISCARD, ERROR = range(4)
@@ -25,22 +25,9 @@ H = 0.01
 SECONDS = 30.0
 
 
-def slave3(fmu: Path) -> tuple[FMU3Slave, dict[str, int]]:
-    description = fmpy.read_model_description(str(fmu))
-    slave = FMU3Slave(
-        guid=description.guid,
-        unzipDirectory=fmpy.extract(str(fmu)),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="test",
-    )
-    slave.instantiate()
-    slave.enterInitializationMode(startTime=0.0)
-    slave.exitInitializationMode()
-    return slave, {v.name: v.valueReference for v in description.modelVariables}
-
-
 def test_time_is_read_with_others_and_twice(build: Callable[..., Path]) -> None:
-    slave, references = slave3(build("crane", "fmi3"))
+    driven = Host3(build("crane", "fmi3")).start()
+    slave, references = driven.slave, driven.references
     for k in range(3):
         slave.doStep(k * H, H)
     t, x, angle = (references[n] for n in ("time", "rod.x", "rod.angle"))
@@ -52,7 +39,8 @@ def test_time_is_read_with_others_and_twice(build: Callable[..., Path]) -> None:
 
 
 def test_many_references_in_one_call(build: Callable[..., Path]) -> None:
-    slave, references = slave3(build("crane", "fmi3"))
+    driven = Host3(build("crane", "fmi3")).start()
+    slave, references = driven.slave, driven.references
     slave.doStep(0.0, H)
     x = references["rod.x"]
     assert set(slave.getFloat64([x] * 1000)) == set(slave.getFloat64([x]))

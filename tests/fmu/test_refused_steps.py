@@ -9,9 +9,9 @@ from ctypes import byref, c_bool, c_double
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import pytest
-from fmpy.fmi3 import FMU3Slave
+
+from tests.fmu.host3 import Host3
 
 HostMaker = Callable[..., Any]
 OK, WARNING, DISCARD, ERROR = range(4)
@@ -70,19 +70,8 @@ def test_what_clears_it(reach: Path, host: HostMaker, change: str) -> None:
 
 
 def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -> None:
-    fmu = build("reach", "fmi3")
-    description = fmpy.read_model_description(str(fmu))
-    references = {v.name: v.valueReference for v in description.modelVariables}
-    messages: list[str] = []
-    slave = FMU3Slave(
-        guid=description.guid,
-        unzipDirectory=fmpy.extract(str(fmu)),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="test",
-    )
-    slave.instantiate(logMessage=lambda *a: messages.append(a[-1].decode()))
-    slave.enterInitializationMode(startTime=0.0)
-    slave.exitInitializationMode()
+    driven = Host3(build("reach", "fmi3")).start()
+    slave = driven.slave
 
     def step(time: float, length: float) -> tuple[int, bool, bool, float]:
         event, end, early, last = c_bool(), c_bool(), c_bool(), c_double()
@@ -91,13 +80,13 @@ def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -
 
     for k in range(5):
         assert step(k * H, H)[0] == OK
-    slave.setFloat64([references["pull"]], [PULL])
+    driven.set("pull", PULL)
     time = BEGIN
     for expected, end in ((DISCARD, False), (DISCARD, True), (ERROR, True)):
         status, wish, early, last = step(time, LONG)
         assert (status, wish, early) == (expected, end, False)
         assert last == pytest.approx(time, abs=1e-12)
-        assert "step_size" in messages[-1]
+        assert "step_size" in driven.messages[-1]
     assert step(time, H)[:2] == (OK, False)
 
 

@@ -13,7 +13,6 @@ import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave
 
 import mbs
 from fmu_src.build.build import build_fmu
@@ -22,6 +21,7 @@ from mbs.roads import RoadFile, RoadWarning, write_road
 from mbs.roads.shipped import FOLDER
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import Fidelity
+from tests.fmu.host3 import Host3
 
 OK, ERROR = 0, 3
 H = 0.002
@@ -302,25 +302,15 @@ def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, ho
 def test_fmi_3_gives_the_same(
     built: Callable[[str], Path], host: Any, roads: Path, kind_3: str, tmp_path: Path
 ) -> None:
-    path = built(kind_3)
-    description = fmpy.read_model_description(str(path))
-    references = {v.name: v.valueReference for v in description.modelVariables}
+    third = Host3(built(kind_3))
+    slave, references = third.slave, third.references
     assert len(set(references.values())) == len(references)
-    folder = fmpy.extract(str(path), unzipdir=str(tmp_path / "unpacked"))
-    heights_of = {u.variable.name: u for u in description.initialUnknowns}["wheel_FL.travel"]
+    heights_of = {u.variable.name: u for u in third.description.initialUnknowns}["wheel_FL.travel"]
     assert heights_of.dependencies is None  # all that there are
-    said: list[str] = []
-    slave = FMU3Slave(
-        guid=description.guid,
-        unzipDirectory=folder,
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="test",
-    )
-    slave.instantiate(logMessage=lambda e, s, c, m: said.append(m.decode() if isinstance(m, bytes) else m))
     road = references["road.file"]
     with pytest.raises(Exception, match="fmi3SetString"):
         slave.setString([road], ["nothing.road"])
-    assert any("there is no such file" in m for m in said)
+    assert any("there is no such file" in m for m in third.messages)
     slave.setString([road], [str(roads / "rough.road")])
     slave.setFloat64([references["initial.speed"]], [12.0])
     slave.enterInitializationMode()

@@ -11,12 +11,12 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
-from fmpy.fmi3 import FMU3Slave
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
 import mbs
 from hosts.run.command import main
+from tests.fmu.host3 import Host3
 from tests.fmu.scenes import gearstick
 from tests.in_process import run
 
@@ -137,17 +137,8 @@ def test_a_table_between_two_positions_is_refused(stick: Path, tmp_path: Path) -
 
 
 def test_fmi3_sets_and_gets_it_as_int32(build: Callable[..., Path]) -> None:
-    fmu = build("gearstick", "fmi3")
-    wanted = reference()
-    description = fmpy.read_model_description(str(fmu))
-    references = {v.name: v.valueReference for v in description.modelVariables}
-    slave = FMU3Slave(
-        guid=description.guid,
-        unzipDirectory=fmpy.extract(str(fmu)),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="test",
-    )
-    slave.instantiate()
+    driven, wanted = Host3(build("gearstick", "fmi3")), reference()
+    slave, references = driven.slave, driven.references
     slave.enterInitializationMode(startTime=0.0)
     slave.setFloat64([references["torque"], references["step_size"]], [2.0, H])
     slave.exitInitializationMode()

@@ -36,14 +36,8 @@ def sleigh(turn: float = TURN, switch: bool | None = None, drift: float = 0.0) -
 def disc(lean: float, precession: float, spin: float, kick: float = 0.0, reduced: bool = False) -> Model:
     """A disc with a knife edge on the plane, its centre above the origin and heading along x.
 
-    Parameters
-    ----------
-    lean : float
-        rad, to the right.
-    precession, spin, kick : float
-        rad/s: rate of the plane of the disc along its steepest line, about the axle and about the heading.
-    reduced : bool
-        As a spin on an axle that does not turn about itself.
+    `lean`: in rad, to the right; `precession`, `spin`, `kick`: rad/s: rate of the plane of the disc along its steepest
+    line, about the axle and about the heading; `reduced`: as a spin on an axle that does not turn about itself.
     """
     s, n_z = np.cos(lean), np.sin(lean)
     axle, up, heading = np.array([0.0, s, n_z]), np.array([0.0, -n_z, s]), np.array([1.0, 0.0, 0.0])

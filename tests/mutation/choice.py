@@ -30,22 +30,15 @@ MOST, LIKELIEST = 24, 6
 
 @dataclass(frozen=True)
 class TestFile:
-    """A file of tests.
-
-    Attributes
-    ----------
-    name : str
-        Path from the root.
-    words : frozenset of str
-        Names in it.
-    text : str
-        Its text.
-    """
+    """A file of tests."""
 
     __test__ = False
     name: str
+    """Path from the root."""
     words: frozenset[str]
+    """Names in it."""
     text: str
+    """Its text."""
 
 
 @cache

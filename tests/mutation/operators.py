@@ -43,25 +43,17 @@ FACTORS = (2.0, 1.1, 1.01)
 
 @dataclass(frozen=True)
 class Change:
-    """One small error.
-
-    Attributes
-    ----------
-    operator : str
-        Its kind.
-    start, end : int
-        Bytes of the text that are replaced.
-    new : str
-        What replaces them.
-    function : str
-        Classes and functions around it, with points between; empty outside of all.
-    """
+    """One small error."""
 
     operator: str
+    """Its kind."""
     start: int
     end: int
+    """`start`, `end`: bytes of the text that are replaced."""
     new: str
+    """What replaces them."""
     function: str
+    """Classes and functions around it, with points between; empty outside of all."""
 
 
 def alike(suffix: str) -> set[str]:

@@ -25,32 +25,22 @@ ENOUGH = 2  # points of `Sampled.find`: a line that is short may stand elsewhere
 
 @dataclass(frozen=True)
 class Sampled:
-    """A mutant that was drawn.
-
-    Attributes
-    ----------
-    file : str
-        Path from the root, when it was drawn.
-    function : str
-        Classes and functions around it, with points between.
-    operator : str
-        Kind of the error.
-    before, after : str
-        The nearest lines that are not empty.
-    line, changed : str
-        The lines that change, and what they become.
-    killed_by : str
-        The test that failed, as pytest names it; empty if none did.
-    """
+    """A mutant that was drawn."""
 
     file: str
+    """Path from the root, when it was drawn."""
     function: str
+    """Classes and functions around it, with points between."""
     operator: str
+    """Kind of the error."""
     before: str
     line: str
     changed: str
+    """`line`, `changed`: the lines that change, and what they become."""
     after: str
+    """`before`, `after`: the nearest lines that are not empty."""
     killed_by: str = ""
+    """The test that failed, as pytest names it; empty if none did."""
 
     def __str__(self) -> str:
         line, changed = (" ".join(text.split()) for text in (self.line, self.changed))
@@ -59,10 +49,7 @@ class Sampled:
     def find(self, root: Path = ROOT) -> tuple[Path, int]:
         """The file that has the line now, and where in its text without spaces.
 
-        Raises
-        ------
-        ValueError
-            If no place, or more than one, is alike enough.
+        Raises `ValueError` if no place, or more than one, is alike enough.
         """
         home = root / self.file
         places = {(home, k): points for k, points in self._places(home, root).items()} if home.is_file() else {}
@@ -92,13 +79,7 @@ class Sampled:
         return points
 
     def apply(self, root: Path = ROOT) -> tuple[Path, str]:
-        """The file below `root` that the mutant means now, and its changed content.
-
-        Raises
-        ------
-        ValueError
-            As `find`.
-        """
+        """The file below `root` that the mutant means now, and its changed content. Raises `ValueError` as `find`."""
         path, place = self.find(root)
         text = path.read_text(encoding="utf-8")
         old, new = (re.findall(r"\s+|\w+|\W", part) for part in (self.line, self.changed))
@@ -142,12 +123,8 @@ def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
     """Mutants by chance, the same for the same seed and tree.
 
     A room is a folder. Its share grows with the root of its size, so that small rooms are drawn too; so does the share
-    of an operator in a file.
-
-    Returns
-    -------
-    list of iterators
-        One for each mutant; the next of an iterator stands in for one that does not compile.
+    of an operator in a file. Returns one for each mutant; the next of an iterator stands in for one that does not
+    compile.
     """
     _changes.cache_clear()
     rooms: dict[Path, list[Path]] = {}

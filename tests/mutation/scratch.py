@@ -44,23 +44,17 @@ class Applied(Protocol):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What tests say of a copy.
-
-    Attributes
-    ----------
-    outcome, why : str
-        One of the four words, and the reason in one line.
-    test : str
-        The test that failed, or that was running at the end; empty where all passed.
-    seconds, last : float
-        CPU time of all, and of the test that was running at the limit, with the processes that they started.
-    """
+    """What tests say of a copy."""
 
     outcome: str
     why: str
+    """`outcome`, `why`: one of the four words, and the reason in one line."""
     test: str = ""
+    """The test that failed, or that was running at the end; empty where all passed."""
     seconds: float = 0.0
     last: float = 0.0
+    """`seconds`, `last`: CPU time of all, and of the test that was running at the limit, with the processes that they
+    started."""
 
 
 class _Notes:
@@ -97,10 +91,7 @@ def _kernel_build(root: Path) -> Any:
 def compiles(root: Path, changed: Path) -> None:
     """Make what a changed file is a part of: the kernel, an object of the FMU, the page.
 
-    Raises
-    ------
-    RuntimeError
-        With the words of the compiler.
+    Raises `RuntimeError` with the words of the compiler.
     """
     build = _kernel_build(root)
     if changed.suffix == ".js":

@@ -23,22 +23,15 @@ SUFFIXES = (".c", ".h", ".js", ".py")
 
 @dataclass(frozen=True)
 class Mutant:
-    """One row of a table.
-
-    Attributes
-    ----------
-    file : str
-        End of the path of the file.
-    original, changed : str
-        The text and what replaces it.
-    tests : tuple of str
-        Test files, from the root of the project.
-    """
+    """One row of a table."""
 
     file: str
+    """End of the path of the file."""
     original: str
     changed: str
+    """`original`, `changed`: the text and what replaces it."""
     tests: tuple[str, ...]
+    """Test files, from the root of the project."""
 
     def __str__(self) -> str:
         return f"{self.file}: {self.original} -> {self.changed or '(nothing)'}"
@@ -46,10 +39,7 @@ class Mutant:
     def apply(self, root: Path = ROOT) -> tuple[Path, str]:
         """The file below `root` that the row means, and its changed content.
 
-        Raises
-        ------
-        ValueError
-            Where the text is not there exactly once.
+        Raises `ValueError` where the text is not there exactly once.
         """
         found = [(path, path.read_text(encoding="utf-8")) for path in files_named(self.file, root)]
         count = sum(content.count(self.original) for _, content in found)
@@ -77,13 +67,7 @@ def _sources(root: Path) -> dict[str, list[Path]]:
 
 
 def read_table(path: Path) -> list[Mutant]:
-    """The rows of a table.
-
-    Raises
-    ------
-    ValueError
-        With the line that cannot be read.
-    """
+    """The rows of a table. Raises `ValueError` with the line that cannot be read."""
     file, tests, original, rows = "", (), None, []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         mark, text = line[:1], line[1:].strip()

@@ -11,26 +11,18 @@ QUARTER = 1.5707963267948966
 
 
 class Link(NamedTuple):
-    """A link and the turning joint above it.
-
-    Parameters
-    ----------
-    xyz, rpy : tuple of float
-        Frame of the joint in that of the link before, m and rad.
-    axis : tuple of float
-        In that frame.
-    mass, com : float, tuple of float
-        kg, m.
-    inertia : tuple of float
-        xx, xy, xz, yy, yz, zz about the centre of mass, kg m2.
-    """
+    """A link and the turning joint above it."""
 
     xyz: tuple[float, ...]
     rpy: tuple[float, ...]
+    """`xyz`, `rpy`: frame of the joint in that of the link before, m and rad."""
     axis: tuple[float, ...]
+    """In that frame."""
     mass: float
     com: tuple[float, ...]
+    """`mass`, `com`: in kg, m."""
     inertia: tuple[float, ...]
+    """xx, xy, xz, yy, yz, zz about the centre of mass, kg m2."""
 
 
 def _round(a: float, c: float) -> tuple[float, ...]:

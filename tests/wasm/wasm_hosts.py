@@ -23,23 +23,15 @@ STATUSES = ("ok", "warning", "discard", "error", "fatal")
 
 @dataclass(frozen=True)
 class Plan:
-    """What is set before the start and in each step, and the outputs that are read.
-
-    Parameters
-    ----------
-    start : dict
-        Values by name; a road file by its name in the folder roads.
-    inputs : list of str
-    steps : list of dict
-        Each with `h`, the values of the `inputs`, and `save`, whether the state is kept.
-    outputs : list of str
-        All of them where the list is empty.
-    """
+    """What is set before the start and in each step, and the outputs that are read."""
 
     start: dict[str, float | int | str]
+    """Values by name; a road file by its name in the folder roads."""
     inputs: list[str]
     steps: list[dict[str, Any]]
+    """Each with `h`, the values of the `inputs`, and `save`, whether the state is kept."""
     outputs: list[str] = field(default_factory=list)
+    """All of them where the list is empty."""
 
 
 @dataclass

@@ -21,30 +21,20 @@ _SAMPLES = 400  # times at which the largest displacement and stress are looked 
 
 @dataclass(frozen=True)
 class FlexiblePart:
-    """A part that bends.
-
-    Parameters
-    ----------
-    solid : Solid
-        At rest.
-    targets : list of array of shape (n, 3)
-        Displacements of its positions, m.
-    weights : array of shape (times, targets)
-        By which they are multiplied.
-    colors : array of shape (n, 3) or None
-        Linear.
-    reduction_error : float
-        Largest distance of a node from where all modes put it, m.
-    peak : (time index, largest stress, stress of the last colour) or None
-        Of the colours.
-    """
+    """A part that bends."""
 
     solid: Solid
+    """At rest."""
     targets: list[Vectors]
+    """Displacements of its positions, m, shape (n, 3)."""
     weights: Vectors
+    """By which they are multiplied, shape (times, targets)."""
     colors: Vectors | None
+    """Linear, shape (n, 3)."""
     reduction_error: float
+    """Largest distance of a node from where all modes put it, m."""
     peak: tuple[int, float, float] | None
+    """Of the colours."""
 
 
 def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], deformation: float) -> FlexiblePart:

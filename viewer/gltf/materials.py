@@ -11,28 +11,19 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Look:
-    """A physically based material.
-
-    Parameters
-    ----------
-    name : str
-        Of the kind.
-    color : (float, float, float, float)
-        Linear red, green, blue, and opacity.
-    metalness, roughness : float
-        0 to 1.
-    clearcoat : (float, float) or None
-        Factor and roughness.
-    double : bool
-        Seen from both sides.
-    """
+    """A physically based material."""
 
     name: str
+    """Of the kind."""
     color: tuple[float, float, float, float]
+    """Linear red, green, blue, and opacity."""
     metalness: float
     roughness: float
+    """`metalness`, `roughness`: 0 to 1."""
     clearcoat: tuple[float, float] | None = None
+    """Factor and roughness."""
     double: bool = False
+    """Seen from both sides."""
 
 
 LOOKS: dict[str, Any] = json.loads(Path(__file__).parents[1].joinpath("looks.json").read_text(encoding="utf-8"))

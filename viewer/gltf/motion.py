@@ -16,27 +16,18 @@ _LOOKED_AT = 4000  # recorded times at which a motion is compared
 
 @dataclass
 class Motion:
-    """A node relative to its parent at all recorded times.
-
-    Parameters
-    ----------
-    position : array of shape (n, 3)
-        m.
-    quaternion : array of shape (n, 4)
-        Unit, scalar first, of continuous sign.
-    scale : array of shape (n, 3) or None
-        Factors of lengths along its axes.
-    reach : array of shape (k, 3)
-        Points of the node, as far out as its shapes, where the motion is compared.
-    angle : (axis, array of shape (n,)) or None
-        Where it turns about an axis at a fixed place, rad: the quaternion is this.
-    """
+    """A node relative to its parent at all recorded times."""
 
     position: Vectors
+    """m, shape (n, 3)."""
     quaternion: Vectors
+    """Unit, scalar first, of continuous sign, shape (n, 4)."""
     scale: Vectors | None = None
+    """Factors of lengths along its axes, shape (n, 3)."""
     reach: Vectors = field(default_factory=lambda: np.zeros((1, 3)))
+    """Points of the node, as far out as its shapes, where the motion is compared, shape (k, 3)."""
     angle: tuple[Vectors, Vectors] | None = None
+    """Where it turns about an axis at a fixed place, rad: the quaternion is this, shape (n,)."""
 
 
 @dataclass(frozen=True)

@@ -25,23 +25,16 @@ _RINGS = 6  # of the balls at the ends of tubes, of which a car has hundreds
 
 @dataclass
 class Parts:
-    """Solids of a scene.
-
-    Parameters
-    ----------
-    fixed : list of (frame, name, solids)
-        What moves with a frame.
-    free : list of (name, motion, solids)
-        What moves between frames, relative to the earth.
-    notes : list of str
-        Sentences on what differs from the scene.
-    """
+    """Solids of a scene."""
 
     poses: FramePoses
     scene: Mapping[str, Any]
     fixed: list[tuple[str, str, Meshes]] = field(default_factory=list)
+    """What moves with a frame."""
     free: list[tuple[str, Motion, Meshes]] = field(default_factory=list)
+    """What moves between frames, relative to the earth."""
     notes: list[str] = field(default_factory=list)
+    """Sentences on what differs from the scene."""
 
     def add(self, shape: Mapping[str, Any]) -> None:
         """Add a shape of the scene."""

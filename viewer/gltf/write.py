@@ -39,28 +39,19 @@ _FRAME = Look("steel", (0.27, 0.31, 0.34, 1.0), 0.85, 0.42)
 
 
 class WrittenGltf(NamedTuple):
-    """A glTF file that was written.
-
-    Parameters
-    ----------
-    size : int
-        Bytes.
-    times : int
-        Of the recording that were kept.
-    position_error : float
-        Largest distance of a drawn point between the kept times from where it was recorded, mm.
-    angle_error : float
-        The same for the orientation, degrees.
-    notes : list of str
-        Sentences: what is not drawn, or drawn in another way.
-    """
+    """A glTF file that was written."""
 
     path: Path
     size: int
+    """Bytes."""
     times: int
+    """Of the recording that were kept."""
     position_error: float
+    """Largest distance of a drawn point between the kept times from where it was recorded, mm."""
     angle_error: float
+    """The same for the orientation, degrees."""
     notes: list[str]
+    """Sentences: what is not drawn, or drawn in another way."""
 
 
 def write_gltf(

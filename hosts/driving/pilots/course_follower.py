@@ -48,12 +48,7 @@ class CourseFollower:
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the coming communication step.
 
-        `time`: in s; `senses`: `SENSES`, SI units, earth axes.
-
-        Returns
-        -------
-        dict of str to float
-            `ACTS`.
+        `time`: in s; `senses`: `SENSES`, SI units, earth axes. Result: `ACTS`.
         """
         s = self.settings
         x, y, yaw, speed = (senses[name] for name in SENSES)

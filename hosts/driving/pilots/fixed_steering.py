@@ -11,12 +11,8 @@ from hosts.driving.pilots.pilot import Pilot
 class FixedSteering:
     """From a time on the steering does not change; pedals stay with the other pilot.
 
-    `fixed_at`: s; `mean_over`: time before that, s; the steering is the mean over it.
-
-    Attributes
-    ----------
-    value : float or None
-        Of the input since it is fixed.
+    `fixed_at`: s; `mean_over`: time before that, s; the steering is the mean over it. `value`: of the input since it is
+    fixed.
     """
 
     def __init__(self, pilot: Pilot, fixed_at: float, mean_over: float, name: str = "steering") -> None:

@@ -26,12 +26,8 @@ class SteeringTable:
     """Steering over time.
 
     `time`: s, not decreasing; of two equal times the later value is taken, shape (n,); `values`: in the unit of the
-    input, linear in between, constant outside, shape (n,).
-
-    Raises
-    ------
-    HostError
-        If the lengths differ, there are no values, or time goes back.
+    input, linear in between, constant outside, shape (n,). Raises `HostError` if the lengths differ, there are no
+    values, or time goes back.
     """
 
     def __init__(self, time: ArrayLike, values: ArrayLike, name: str = "steering") -> None:

@@ -57,10 +57,7 @@ class Aliases:
     def scales(self, theirs: Sequence[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Factors and offsets of variables. `theirs`: n names.
 
-        Returns
-        -------
-        factors, offsets : ndarray of shape (n,)
-            Ours = (theirs - offset) / factor.
+        Returns `factors` and `offsets`, shape (n,): ours = (theirs - offset) / factor.
         """
         by_name = {alias.theirs: alias for alias in self.aliases}
         found = [by_name.get(name, Alias(name, name)) for name in theirs]

@@ -36,12 +36,8 @@ def is_si(variable: Variable) -> bool:
 def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     """What a value in SI is to be multiplied by.
 
-    `unit`: as it stands in the file; `variable`: that has it; its own definition of a unit of that name counts.
-
-    Raises
-    ------
-    HostError
-        Nobody knows the unit, or the FMU declares another.
+    `unit`: as it stands in the file; `variable`: that has it; its own definition of a unit of that name counts. Raises
+    `HostError`: nobody knows the unit, or the FMU declares another.
     """
     own = variable.definition if variable is not None and variable.unit == unit else None
     known = own or (known_unit(unit) if isinstance(unit, str) else None)
@@ -62,10 +58,7 @@ def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
 def check_unit(alias: Alias, variable: Variable, unit: str | None, by_constant: bool, where: str) -> None:
     """Refuse a factor that contradicts the unit that the FMU declares.
 
-    Raises
-    ------
-    HostError
-        With the unit and the factor, and what it would be.
+    Raises `HostError` with the unit and the factor, and what it would be.
     """
     ours, theirs = unit_of(alias.ours), definition(variable)
     if ours is None or theirs is None or by_constant:

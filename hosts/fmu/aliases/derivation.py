@@ -17,12 +17,8 @@ _ROWS = 3
 class Derivation:
     """Computes derived variables.
 
-    `names`: of the values that are there, ours where they have one.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Of the m variables that can be derived from these.
+    `names`: of the values that are there, ours where they have one. `names`: of the m variables that can be derived
+    from these.
     """
 
     def __init__(self, derived: Sequence[Derived], names: Sequence[str]) -> None:
@@ -39,11 +35,7 @@ class Derivation:
     def record(self, time: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
         """Of a whole run; rates are central differences.
 
-        `time`: s, shape (n,); `values`: shape (n, number of names).
-
-        Returns
-        -------
-        ndarray of shape (n, m)
+        `time`: s, shape (n,); `values`: shape (n, number of names). Returns an array of shape (n, m).
         """
         t = np.asarray(time, np.float64)
         columns: list[NDArray[np.float64]] = list(np.asarray(values, np.float64).T)
@@ -55,11 +47,8 @@ class Derivation:
     def live(self, time: float, values: ArrayLike) -> NDArray[np.float64]:
         """Of one row while a car is driven; rates are those of the last three rows, NaN in the first.
 
-        `time`: s; with an earlier one than before the past is forgotten; `values`: shape (number of names,).
-
-        Returns
-        -------
-        ndarray of shape (m,)
+        `time`: s; with an earlier one than before the past is forgotten; `values`: shape (number of names,). Returns an
+        array of shape (m,).
         """
         if self._past and time < self._past[-1][0]:
             self._past.clear()

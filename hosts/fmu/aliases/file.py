@@ -22,12 +22,7 @@ _RECORDED = ("input", "output")
 def find_aliases(name: str | Path, variables: Variables) -> Aliases:
     """Those of a file that comes with the package, by its name, or of another.
 
-    `name`: such as ``chrono``; a file of that name here comes first.
-
-    Raises
-    ------
-    HostError
-        See `read_aliases`.
+    `name`: such as ``chrono``; a file of that name here comes first. Raises `HostError`: see `read_aliases`.
     """
     try:
         path = alias_file(name)

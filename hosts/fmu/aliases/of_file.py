@@ -11,10 +11,7 @@ from hosts.fmu.variables import Variables
 def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
     """Those of a file, none where none is named. `file`: as `hosts.fmu.aliases.file.find_aliases` takes it.
 
-    Raises
-    ------
-    HostError
-        The file is not right, or is none for this FMU.
+    Raises `HostError`: the file is not right, or is none for this FMU.
     """
     if file is None:
         return Aliases()

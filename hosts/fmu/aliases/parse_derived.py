@@ -16,12 +16,8 @@ _CALL = re.compile(r"\s*(\w+)\s*\(([^()]*)\)\s*")
 def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: str) -> Derived:
     """A formula as an alias file has it.
 
-    `constants`: their names in `text` become numbers; `where`: how messages call it.
-
-    Raises
-    ------
-    HostError
-        There is no such formula, or it takes other arguments.
+    `constants`: their names in `text` become numbers; `where`: how messages call it. Raises `HostError`: there is no
+    such formula, or it takes other arguments.
     """
     call = _CALL.fullmatch(text)
     if call is None:

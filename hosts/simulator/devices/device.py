@@ -55,10 +55,7 @@ class Device:
     def remap(self, mapping: DeviceMapping) -> list[str]:
         """Another mapping; the inputs whose mapping is another sleep until they are touched.
 
-        Returns
-        -------
-        list of str
-            Inputs that the device drove and now waits to be touched for.
+        Returns inputs that the device drove and now waits to be touched for.
         """
         changed = {
             n for n in {*mapping.inputs, *self.mapping.inputs} if mapping.inputs.get(n) != self.mapping.inputs.get(n)

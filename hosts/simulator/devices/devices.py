@@ -70,12 +70,8 @@ class Devices:
     def assign(self, device: str, name: str, mapping: Mapping[str, Any] | None) -> None:
         """Another mapping of an input; it is kept in the device's file.
 
-        `device`: its `id`; `mapping`: fields of `InputMapping`; None: the device does not drive this input.
-
-        Raises
-        ------
-        HostError
-            The device is not there, or the mapping is wrong; nothing changes.
+        `device`: its `id`; `mapping`: fields of `InputMapping`; None: the device does not drive this input. Raises
+        `HostError`: the device is not there, or the mapping is wrong; nothing changes.
         """
         with self._reader.lock:
             found = self._device(device)
@@ -98,12 +94,7 @@ class Devices:
         """Begin a calibration, or end it.
 
         `device`: its `id`; `on`: true: begin; the device drives nothing until the end; `keep`: at the end, whether what
-        was found counts.
-
-        Raises
-        ------
-        HostError
-            The device is not there.
+        was found counts. Raises `HostError`: the device is not there.
         """
         with self._reader.lock:
             found = self._device(device)
@@ -136,13 +127,7 @@ class Devices:
             self._reader.remap(found, DeviceMapping(found.mapping.inputs, made))
 
     def test_force(self, device: str) -> None:
-        """A short push to the left.
-
-        Raises
-        ------
-        HostError
-            The device is not there or has no motor that works.
-        """
+        """A short push to the left. Raises `HostError`: the device is not there or has no motor that works."""
         with self._reader.lock:
             found = self._device(device)
             if found.force is None or not found.force.works:
@@ -153,12 +138,8 @@ class Devices:
         """Do what a message of the page asks for.
 
         `message`: `type` is ``assign``, ``assign by moving``, ``calibrate``, ``reset mapping``, ``device settings`` or
-        ``test force``; `device` an `id`; see the method of that name for the others.
-
-        Raises
-        ------
-        HostError
-            It cannot be done; nothing changes.
+        ``test force``; `device` an `id`; see the method of that name for the others. Raises `HostError`: it cannot be
+        done; nothing changes.
         """
         kind, device = message.get("type"), message.get("device")
         if not isinstance(device, str):

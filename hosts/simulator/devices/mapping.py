@@ -48,11 +48,8 @@ class InputMapping:
     def value(self, name: str, reading: Reading) -> float | None:
         """The input. `name`: of the input: whether it has a middle depends on it.
 
-        Returns
-        -------
-        float or None
-            From -1 to 1 with a middle, else from 0 to 1; at the ends of the axis exactly these. None: the device does
-            not say.
+        Result: from -1 to 1 with a middle, else from 0 to 1; at the ends of the axis exactly these. None: the device
+        does not say.
         """
         source = Source.read(self.source)
         at = source.position(reading)
@@ -122,10 +119,7 @@ class DeviceMapping:
 def read_input(name: str, table: object) -> InputMapping:
     """The mapping of an input from a table of its fields. `table`: what is not in it is as by default.
 
-    Raises
-    ------
-    HostError
-        A field is unknown or has a value that cannot be.
+    Raises `HostError`: a field is unknown or has a value that cannot be.
     """
     what = f"The mapping of '{name}'"
     if name not in (*CENTRED, *PEDALS, *SELECTOR):
@@ -156,10 +150,7 @@ def read_input(name: str, table: object) -> InputMapping:
 def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSettings:
     """Settings from a table; what is not in it is that of `base`.
 
-    Raises
-    ------
-    HostError
-        A field is unknown or has a value that cannot be.
+    Raises `HostError`: a field is unknown or has a value that cannot be.
     """
     what, base = "The settings of the device", base or DeviceSettings()
     fields = _fields(what, table, asdict(base))

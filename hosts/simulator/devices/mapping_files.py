@@ -53,10 +53,7 @@ class MappingFiles:
     def read(self, device: str) -> DeviceMapping | None:
         """The mapping of a device; None if it has no file.
 
-        Raises
-        ------
-        HostError
-            The file cannot be read or is damaged; the sentence names it.
+        Raises `HostError`: the file cannot be read or is damaged; the sentence names it.
         """
         file = self.file(device)
         if not file.exists():
@@ -70,10 +67,7 @@ class MappingFiles:
     def write(self, device: str, mapping: DeviceMapping, name: str, serial: str = "") -> None:
         """Write the file of a device. One that is damaged is kept beside it, with `.damaged` added to its name.
 
-        Raises
-        ------
-        FileError
-            It cannot be written.
+        Raises `FileError`: it cannot be written.
         """
         file = self.file(device)
         inputs = {k: {f: v for f, v in asdict(m).items() if v is not None} for k, m in mapping.inputs.items()}

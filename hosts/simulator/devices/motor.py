@@ -17,12 +17,8 @@ _CONDITIONS = {"damper": "SDL_HAPTIC_DAMPER", "spring": "SDL_HAPTIC_SPRING"}
 class Motor:
     """A device that can push. One thread calls this.
 
-    `joystick`: of SDL; it stays open until this is closed.
-
-    Raises
-    ------
-    HostError
-        It has no motor for a constant force, or it cannot be opened.
+    `joystick`: of SDL; it stays open until this is closed. Raises `HostError`: it has no motor for a constant force, or
+    it cannot be opened.
     """
 
     def __init__(self, sdl: Any, joystick: Any) -> None:
@@ -48,10 +44,7 @@ class Motor:
     def push(self, level: int) -> None:
         """A constant force. `level`: from -32767 to 32767, positive to the left.
 
-        Raises
-        ------
-        HostError
-            The device refuses it.
+        Raises `HostError`: the device refuses it.
         """
         if self._levels.get("constant") == level:
             return
@@ -61,12 +54,8 @@ class Motor:
     def condition(self, kind: str, share: float) -> bool:
         """A damper or a spring to the middle; False where the device has no such.
 
-        `kind`: ``damper`` or ``spring``; `share`: from 0 to 1 of the largest.
-
-        Raises
-        ------
-        HostError
-            The device refuses it.
+        `kind`: ``damper`` or ``spring``; `share`: from 0 to 1 of the largest. Raises `HostError`: the device refuses
+        it.
         """
         number = getattr(self._sdl, _CONDITIONS[kind])
         if not self._can & number:

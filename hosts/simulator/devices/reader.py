@@ -44,14 +44,8 @@ class HandsLike(Protocol):
 class Reader:
     """Reads devices while it runs.
 
-    `inputs`: that devices can drive, in the words of mappings; `torque`: as of `Devices`.
-
-    Attributes
-    ----------
-    lock : RLock
-        Held while `devices` or one of them is looked at or changed.
-    devices : dict of str to Device
-        Those that are plugged in, by `id`.
+    `inputs`: that devices can drive, in the words of mappings; `torque`: as of `Devices`. `lock`: held while `devices`
+    or one of them is looked at or changed; `devices`: those that are plugged in, by `id`.
     """
 
     def __init__(

@@ -47,13 +47,7 @@ class Source:
 
     @classmethod
     def read(cls, text: object) -> Source:
-        """From its words: ``axis 2``, ``button 7``, ``hat 0 up``.
-
-        Raises
-        ------
-        HostError
-            It is no such word.
-        """
+        """From its words: ``axis 2``, ``button 7``, ``hat 0 up``. Raises `HostError`: it is no such word."""
         found = _SOURCE.fullmatch(text) if isinstance(text, str) else None
         if found is None:
             raise HostError(f"{text!r} is no source; “axis 2”, “button 7” or “hat 0 up” would be.")

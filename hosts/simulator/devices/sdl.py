@@ -16,13 +16,7 @@ _INSTEAD = "the keyboard, and gamepads in the page, still drive"
 
 
 def load() -> Any:
-    """The module `sdl2`, not yet initialised.
-
-    Raises
-    ------
-    HostError
-        SDL is not installed or cannot be loaded.
-    """
+    """The module `sdl2`, not yet initialised. Raises `HostError`: SDL is not installed or cannot be loaded."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # PySDL2 says which library it takes
@@ -45,10 +39,7 @@ def load() -> Any:
 def start(sdl: Any) -> None:
     """Begin to look for devices, without video; to be called by the thread that reads them.
 
-    Raises
-    ------
-    HostError
-        SDL cannot look for devices.
+    Raises `HostError`: SDL cannot look for devices.
     """
     # The layer of game controllers is there for its table of triggers and sticks only; values are read from joysticks.
     if sdl.SDL_InitSubSystem(sdl.SDL_INIT_JOYSTICK | sdl.SDL_INIT_GAMECONTROLLER) != 0:

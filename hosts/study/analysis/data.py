@@ -147,12 +147,8 @@ def study_data(frame: pd.DataFrame) -> StudyData:
 def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.float64]:
     """Values of which those that lie within the round-off of the largest of them, or of the unit, are the same.
 
-    `values`: finite, shape (n,); n is at least 1; `unit`: theirs.
-
-    Returns
-    -------
-    ndarray of shape (n,)
-        Each moved by no more than the round-off: to the smallest of its neighbours, which do not reach farther.
+    `values`: finite, shape (n,); n is at least 1; `unit`: theirs. Returns an array of shape (n,): each moved by no more
+    than the round-off: to the smallest of its neighbours, which do not reach farther.
     """
     size = float(np.abs(values).max())
     width = max(_RELATIVE_ROUND_OFF * size, _round_off_of(unit))

@@ -80,12 +80,8 @@ def failed_share(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Share of failed runs in classes of a parameter.
 
-    `x`: shape (n,); `failed`: shape (n,).
-
-    Returns
-    -------
-    at, share, low, high : ndarray of shape (b,)
-        Mean of the parameter in the class, share 0 to 1 and its interval.
+    `x`: shape (n,); `failed`: shape (n,). Returns `at`, `share`, `low` and `high`, shape (b,): mean of the parameter in
+    the class, share 0 to 1 and its interval.
     """
     codes, _ = classes(x)
     groups = [np.flatnonzero(codes == k) for k in range(int(codes.max()) + 1)]

@@ -54,12 +54,8 @@ def classes(x: NDArray[np.float64]) -> tuple[NDArray[np.int64], bool]:
 def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
     """The main effect of a parameter.
 
-    `x`, `y`: parameter and measure of each run, shape (n,); n is at least 1; `seed`: of the bootstrap.
-
-    Returns
-    -------
-    MainEffect
-        With intervals of 95 %: by the bootstrap (percentiles), by the normal distribution for more than 500 runs.
+    `x`, `y`: parameter and measure of each run, shape (n,); n is at least 1; `seed`: of the bootstrap. Result: with
+    intervals of 95 %: by the bootstrap (percentiles), by the normal distribution for more than 500 runs.
     """
     codes, levels = classes(x)
     rng = np.random.default_rng(seed)

@@ -35,15 +35,8 @@ if TYPE_CHECKING:
 def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, done or half done.
 
-    Returns
-    -------
-    list of Path
-        The report, and the folder with its pictures and the table of effects.
-
-    Raises
-    ------
-    HostError
-        There is no study, or no run in it yet.
+    Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
+    study, or no run in it yet.
     """
     from hosts.study.repeat import repeater
     from hosts.study.store import read_study

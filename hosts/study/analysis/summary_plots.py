@@ -99,10 +99,8 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
 def rank_correlations(data: StudyData, responses: Sequence[Response]) -> NDArray[np.float64]:
     """Spearman's rank correlation of each measure with each parameter.
 
-    Returns
-    -------
-    ndarray of shape (responses, parameters)
-        -1 to 1; NaN where one of the two does not change, or the parameter has more than two words for values.
+    Returns an array of shape (responses, parameters): -1 to 1; NaN where one of the two does not change, or the
+    parameter has more than two words for values.
     """
     table = np.full((len(responses), len(data.parameters)), np.nan)
     for i, response in enumerate(responses):

@@ -40,10 +40,7 @@ class Expression:
     def read(text: str, name: str = "") -> Expression:
         """An expression of which the form is right; whether its signals are there, `columns` checks.
 
-        Raises
-        ------
-        HostError
-            With what cannot be read.
+        Raises `HostError` with what cannot be read.
         """
         tree = _parse(text)
         check_form(tree, text)

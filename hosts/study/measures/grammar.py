@@ -53,10 +53,7 @@ def windows(node: ast.AST) -> list[tuple[str, float]]:
 def check_form(node: Node, text: str) -> None:
     """Refuse what is no number of a run.
 
-    Raises
-    ------
-    HostError
-        With the part that cannot be read, and what would be right.
+    Raises `HostError` with the part that cannot be read, and what would be right.
     """
     if _is_series(node, text, 0):
         example = ast.unparse(node)

@@ -15,12 +15,8 @@ def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeas
     """Read a measure of a study.
 
     `text`: such as ``max(abs(chassis.ay), after=2.0)``, or ``file.py:function``; `name`: of its column; by default the
-    text, or the name of the function; `folder`: from which the file is looked for.
-
-    Raises
-    ------
-    HostError
-        It cannot be read, or the file or function is not there.
+    text, or the name of the function; `folder`: from which the file is looked for. Raises `HostError`: it cannot be
+    read, or the file or function is not there.
     """
     function = _FUNCTION.fullmatch(text.strip())
     if function is None:

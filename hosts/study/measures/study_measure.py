@@ -32,12 +32,8 @@ class StudyMeasure(Protocol):
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
         """Names and units of its numbers.
 
-        `units`: of the signals of a run; `stop_time`: of every run, s.
-
-        Raises
-        ------
-        HostError
-            No run can yield it: an unknown signal, a sum of different units, a time after the end.
+        `units`: of the signals of a run; `stop_time`: of every run, s. Raises `HostError`: no run can yield it: an
+        unknown signal, a sum of different units, a time after the end.
         """
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:

@@ -17,12 +17,8 @@ _PLAIN = re.compile(r"[^/.* ]+")
 def unit_of(node: Node, units: Mapping[str, str], text: str) -> str:
     """The unit of an expression.
 
-    `node`: of a right form; `text`: of the whole measure, for messages.
-
-    Raises
-    ------
-    HostError
-        If different units are added, or a signal has none.
+    `node`: of a right form; `text`: of the whole measure, for messages. Raises `HostError` if different units are
+    added, or a signal has none.
     """
     name = signal_name(node)
     if name is not None:

@@ -115,12 +115,7 @@ class UserFunction:
 def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
     """Read the file and load it once, so that what is wrong is said before the first run.
 
-    `name`: by default that of the function.
-
-    Raises
-    ------
-    HostError
-        No file, no function, or the file cannot be run.
+    `name`: by default that of the function. Raises `HostError`: no file, no function, or the file cannot be run.
     """
     if not function.isidentifier():
         raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")

@@ -115,10 +115,7 @@ class Instance(StandingInstance):
     def set_road(self, index: int, path: str | os.PathLike[str] | None) -> None:
         """A road file in place of a road of the System, for the next `initialise`; None: the System's own again.
 
-        Raises
-        ------
-        KernelError
-            The file is refused; the road stays as it was.
+        Raises `KernelError`: the file is refused; the road stays as it was.
         """
         message = ctypes.create_string_buffer(512)
         text = "" if path is None else os.fspath(path)
@@ -170,12 +167,8 @@ class Instance(StandingInstance):
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while all else settles; after `initialise`.
 
-        `duration`: in s, at most `LONGEST_SETTLING`; `h`: of the steps, s.
-
-        Returns
-        -------
-        float
-            The largest speed that is left beside the held motion, m/s.
+        `duration`: in s, at most `LONGEST_SETTLING`; `h`: of the steps, s. Returns the largest speed that is left
+        beside the held motion, m/s.
         """
         self._start(self._library.ali3_settle(self._handle, duration, h))
         return float(self._library.ali3_unsettled(self._handle))
@@ -356,10 +349,8 @@ class Instance(StandingInstance):
     ) -> dict[str, Any]:
         """Rows, forces and element outputs at given values; the state stays.
 
-        Returns
-        -------
-        dict
-            `phi`, `phi_t`, `gamma` (nc,), `jacobian` (nnz_rows,) of the stored rows, `force` (nq,), `outputs` (nout,).
+        Result: `phi`, `phi_t`, `gamma` (nc,), `jacobian` (nnz_rows,) of the stored rows, `force` (nq,), `outputs`
+        (nout,).
         """
         s = self.system.sizes
         counts = {"phi": s.nc, "jacobian": s.nnz_rows, "phi_t": s.nc, "gamma": s.nc, "force": s.nq, "outputs": s.nout}

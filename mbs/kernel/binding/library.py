@@ -108,15 +108,8 @@ def library_path() -> Path:
 def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
     """Load the kernel. `path`: the library; by default `library_path()`.
 
-    Returns
-    -------
-    ctypes.CDLL
-        With argument and result types set.
-
-    Raises
-    ------
-    OSError
-        If the library is not there, not for this platform, or made from other sources than this package.
+    Result: with argument and result types set. Raises `OSError` if the library is not there, not for this platform, or
+    made from other sources than this package.
     """
     key = str(Path(path) if path is not None else library_path())
     if key in _libraries:

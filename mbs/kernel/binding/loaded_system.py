@@ -13,12 +13,8 @@ from .library import load_library
 class LoadedSystem:
     """A System in the kernel's memory, immutable and shared by its instances.
 
-    Attributes
-    ----------
-    sizes : Sizes
-        Numbers of coordinates, rows, inputs, sensors and so on.
-    state_size, snapshot_size, instance_size : int
-        Bytes of a saved state and of an instance.
+    `sizes`: numbers of coordinates, rows, inputs, sensors and so on; `state_size`, `snapshot_size`, `instance_size`:
+    bytes of a saved state and of an instance.
     """
 
     def __init__(self, data: bytes) -> None:

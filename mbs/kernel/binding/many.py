@@ -67,11 +67,7 @@ class Many:
         """`n` steps of `h` seconds of each instance, as `Instance.run` makes them.
 
         `instances`: at most `width`, with the same settings; `out`, `positions`: per instance, as of `Instance.run`.
-
-        Returns
-        -------
-        list of Ended
-            Per instance; one that stopped leaves the others as they are.
+        Result: per instance; one that stopped leaves the others as they are.
         """
         sizes, lanes = self.system.sizes, (LaneFields * len(instances))()
         kept = []

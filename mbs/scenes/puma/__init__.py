@@ -94,12 +94,8 @@ def replay(
 ) -> Replay:
     """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
 
-    `system`: of `build`; `h`: s; one step, or one for each stage; `estimate_error`: as of `Simulation.run`.
-
-    Raises
-    ------
-    SimulationError
-        When a step fails.
+    `system`: of `build`; `h`: s; one step, or one for each stage; `estimate_error`: as of `Simulation.run`. Raises
+    `SimulationError` when a step fails.
     """
     jumps: list[float] = []
     runs = list(stages(Simulation(system, settings=settings), h, jumps, estimate_error))

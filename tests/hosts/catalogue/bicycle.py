@@ -38,44 +38,30 @@ def bicycle(speed: float) -> StateSpace:
 
 @dataclass(frozen=True)
 class BicycleCar(TestedCar):
-    """The car.
-
-    Parameters
-    ----------
-    path : Path
-        None is read.
-    steered_by : str
-        Its input.
-    told : mapping of str to float
-        Constants.
-    top_speed : float
-        At full throttle, m/s.
-    strongest : float
-        Lateral acceleration at which tyres slide: the angle has no more effect beyond, m/s².
-    turn_right : float
-        Factor on the angle of turns to the right.
-    refuses_after : float
-        Time at which a step is refused, s.
-    from_rest : float
-        Speed of the lateral motion, m/s, of a car that begins at rest and has no start value of it; 0: it has one.
-    factors : mapping of str to float
-        On outputs, as a wrong alias file has them.
-    shown : tuple of str
-        Its outputs.
-    """
+    """The car."""
 
     label: str = "bicycle"
     path: Path = Path("bicycle.fmu")
+    """None is read."""
     step: float | None = 0.01
     steered_by: str = "steering_wheel_angle_demand"
+    """Its input."""
     told: Mapping[str, float] = field(default_factory=dict)
+    """Constants."""
     top_speed: float = 60.0
+    """At full throttle, m/s."""
     strongest: float = math.inf
+    """Lateral acceleration at which tyres slide: the angle has no more effect beyond, m/s²."""
     turn_right: float = 1.0
+    """Factor on the angle of turns to the right."""
     refuses_after: float = math.inf
+    """Time at which a step is refused, s."""
     from_rest: float = 0.0
+    """Speed of the lateral motion, m/s, of a car that begins at rest and has no start value of it; 0: it has one."""
     factors: Mapping[str, float] = field(default_factory=dict)
+    """On outputs, as a wrong alias file has them."""
     shown: tuple[str, ...] = OUTPUTS
+    """Its outputs."""
 
     @property
     def facts(self) -> CarFacts:  # type: ignore[override]

@@ -9,7 +9,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from fmpy.fmi2 import FMU2Slave
+from fmpy.simulation import instantiate_fmu
 
 from hosts.common.errors import HostError
 from hosts.plant import Car
@@ -32,9 +32,7 @@ def by_fmpy(path: Path, start: dict[str, float], inputs: Sequence[str], given: n
     description = fmpy.read_model_description(str(path))
     reference = {v.name: v.valueReference for v in description.modelVariables}
     folder, rows = fmpy.extract(str(path)), []
-    name = description.coSimulation.modelIdentifier
-    slave = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=name, instanceName="car")
-    slave.instantiate()
+    slave = instantiate_fmu(folder, description)
     slave.setupExperiment(startTime=0.0)
     slave.setReal([reference[n] for n in start], list(start.values()))
     slave.enterInitializationMode()

@@ -22,35 +22,24 @@ FRONT, REAR, INNER = ("FL", "FR"), ("RL", "RR"), 0.001  # s
 
 @dataclass(frozen=True)
 class Controlled:
-    """A system of cars and controllers.
-
-    Parameters
-    ----------
-    cars : dict of str to str
-        Ports of the prototype by names of parts; empty: none.
-    controllers : dict of str to str
-        Names of their files by names of parts.
-    wires : dict of str to str
-        As `CoupledFmus` takes them.
-    start : dict
-        Start values, of which `switch` turns the controller on.
-    time : float
-        s.
-    measure : str
-        What is compared between communication steps at the end.
-    sources : dict of str to str
-        Drivers by schedule, stepped before the cars.
-    """
+    """A system of cars and controllers."""
 
     cars: dict[str, str]
+    """Ports of the prototype by names of parts; empty: none."""
     controllers: dict[str, str]
+    """Names of their files by names of parts."""
     wires: dict[str, str]
+    """As `CoupledFmus` takes them."""
     start: dict[str, Value]
+    """Start values, of which `switch` turns the controller on."""
     time: float
+    """s."""
     measure: str
+    """What is compared between communication steps at the end."""
     reads: tuple[str, ...]
     switch: dict[str, float] = field(default_factory=dict)
     sources: dict[str, str] = field(default_factory=dict)
+    """Drivers by schedule, stepped before the cars."""
 
 
 SLIP_WIRES = (

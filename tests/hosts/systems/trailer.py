@@ -31,13 +31,7 @@ GRAVITY = 9.81
 
 
 def add_trailer(m: Model, road: int) -> Body:
-    """Add the trailer, standing as its tyres carry it with no force at its hitch.
-
-    Parameters
-    ----------
-    road : int
-        Under its wheels.
-    """
+    """Add the trailer, standing as its tyres carry it with no force at its hitch. `road`: under its wheels."""
     deflection = 0.5 * (MASS + 2.0 * WHEEL) * GRAVITY / TYRES.stiffness
     height = TYRES.radius - deflection
     x = HITCH[0] - LENGTH

@@ -31,29 +31,20 @@ Wires = dict[str, str]
 
 @dataclass(frozen=True)
 class Case:
-    """A car, its port and the FMU in place of what the port replaces.
-
-    Parameters
-    ----------
-    car, ports, partner : str
-        Names.
-    wires : dict
-        As `CoupledFmus` takes them; the car is ``car``.
-    loads : tuple of str
-        Wheel loads, as ``part.variable``.
-    inputs : dict
-        Of the driver, held over the run; `throttle` of the closed car may follow a schedule.
-    path : (str, str)
-        What is compared at the end, as ``part.variable``.
-    """
+    """A car, its port and the FMU in place of what the port replaces."""
 
     car: str
     ports: str
     partner: str
+    """`car`, `ports`, `partner`: names."""
     wires: Wires
+    """As `CoupledFmus` takes them; the car is ``car``."""
     loads: tuple[str, ...]
+    """Wheel loads, as ``part.variable``."""
     inputs: dict[str, float]
+    """Of the driver, held over the run; `throttle` of the closed car may follow a schedule."""
     path: tuple[str, str] = ("car.chassis.x", "car.chassis.y")
+    """What is compared at the end, as ``part.variable``."""
     throttle: Callable[[float], float] | None = None
 
 

@@ -60,9 +60,7 @@ def opened(path) -> Iterator[object]:
 def drawn(road, x, y):
     """Heights as a terrain is drawn: linear between the points of its patches, by triangles of either diagonal.
 
-    Returns
-    -------
-    (low, high) : the two heights that the two diagonals of a cell give.
+    Returns (low, high).
     """
     from viewer.base64_numbers import decoded
 
