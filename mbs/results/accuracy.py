@@ -30,6 +30,7 @@ NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 UNRESOLVED = 0.5  # missed share above which a period of what changes the velocities has less than six steps
+UNRESOLVED_HIGH = 1.0  # the same for methods of order above two, which need half as many
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -149,6 +150,11 @@ def drift(report: Report) -> float:
 def missed_share(report: Report) -> float:
     """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w."""
     return report.predictor_path / report.velocity_path if report.velocity_path > 0.0 else 0.0
+
+
+def unresolved(method: str) -> float:
+    """The missed share above which steps of a method do not resolve what changes the velocities."""
+    return UNRESOLVED if METHOD_TABLE[method].order <= 2 else UNRESOLVED_HIGH
 
 
 def divisor(steps: int, halvings: int) -> int:

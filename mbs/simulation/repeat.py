@@ -114,8 +114,9 @@ class Repeats:
     @property
     def coarse(self) -> bool:
         """Whether the last finer run has less than twelve steps in a period of what changes the velocities."""
-        report = self._finer[-1][0].report
-        return report is not None and 2.0 * accuracy.missed_share(report) > accuracy.UNRESOLVED
+        report, settings = self._finer[-1][0].report, self._finer[-1][0].settings
+        assert settings is not None
+        return report is not None and 2.0 * accuracy.missed_share(report) > accuracy.unresolved(settings.method)
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
         """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
