@@ -30,7 +30,7 @@ NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 UNRESOLVED = 0.5  # missed share above which a period of what changes the velocities has less than six steps
-UNRESOLVED_HIGH = 1.0  # the same for methods of order above two, which need half as many
+UNRESOLVED_SMOOTH = 1.0  # the same for methods of higher order where nothing abrupt can happen: three are enough
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -147,14 +147,16 @@ def drift(report: Report) -> float:
     return balance * (1.0 + turned)
 
 
-def missed_share(report: Report) -> float:
-    """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w."""
-    return report.predictor_path / report.velocity_path if report.velocity_path > 0.0 else 0.0
+def missed_share(report: Report, method: str) -> float:
+    """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w.
 
-
-def unresolved(method: str) -> float:
-    """The missed share above which steps of a method do not resolve what changes the velocities."""
-    return UNRESOLVED if METHOD_TABLE[method].order <= 2 else UNRESOLVED_HIGH
+    Long steps of order above two have few of an event among many smooth ones: of their squares the event keeps its
+    share.
+    """
+    missed, all_of_them = report.predictor_path, report.velocity_path
+    if METHOD_TABLE[method].order > 2:
+        missed, all_of_them = math.sqrt(report.predictor_squares), math.sqrt(report.velocity_squares)
+    return missed / all_of_them if all_of_them > 0.0 else 0.0
 
 
 def divisor(steps: int, halvings: int) -> int:

@@ -14,6 +14,7 @@ from mbs.results import accuracy
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
+from mbs.results.smooth_laws import has_smooth_laws
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
@@ -56,6 +57,8 @@ class Repeats:
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
         Names of what is compared, by unit.
+    smooth, has_order : bool
+        Whether nothing abrupt can happen, so that a method has its order; and whether that is above two.
     """
 
     system: System
@@ -71,6 +74,10 @@ class Repeats:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
         self._finer = list[Run]()
+        settings = self.run[0].settings
+        assert settings is not None
+        self._method, self.smooth = settings.method, has_smooth_laws(self.system)
+        self.has_order = METHOD_TABLE[self._method].order > 2 and self.smooth
         if self.run[1]:
             angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
             self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
@@ -113,10 +120,12 @@ class Repeats:
 
     @property
     def coarse(self) -> bool:
-        """Whether the last finer run has less than twelve steps in a period of what changes the velocities."""
-        report, settings = self._finer[-1][0].report, self._finer[-1][0].settings
-        assert settings is not None
-        return report is not None and 2.0 * accuracy.missed_share(report) > accuracy.unresolved(settings.method)
+        """Whether the last finer run has less than twelve steps in a period of what changes the velocities, which
+        tells nothing of a run of its order.
+        """
+        report = self._finer[-1][0].report
+        assert report is not None
+        return not self.has_order and 2.0 * accuracy.missed_share(report, self._method) > accuracy.UNRESOLVED
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
         """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
@@ -212,7 +221,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, report):
+        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.smooth, report):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, h)
             if screened is not None and apart <= glance.difference:
@@ -225,7 +234,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
         least = min(least, accuracy.ABRUPT) if report.divisions else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
-        if not repeats.twin and least < (known.error or 0.0) < most:
+        if not (repeats.twin or repeats.has_order) and least < (known.error or 0.0) < most:
             known = repeats.decided(repeats.finer(2 * parts), 4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"

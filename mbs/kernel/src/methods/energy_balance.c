@@ -62,6 +62,8 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
   report->velocity_path += sqrt(change);
   report->predictor_path += sqrt(miss);
+  report->velocity_squares += change;
+  report->predictor_squares += miss;
   if (in->system->nr == 0) return;
   ali3_quick_stop(in, h);
   ali3_quick_load(in, h);
@@ -126,6 +128,8 @@ void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->speed_peak = before->speed_peak;
   report->velocity_path = before->velocity_path;
   report->predictor_path = before->predictor_path;
+  report->velocity_squares = before->velocity_squares;
+  report->predictor_squares = before->predictor_squares;
   report->event_miss = before->event_miss;
   report->event_squares = before->event_squares;
   report->event_path = before->event_path;
