@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mbs.results.accuracy import UNRESOLVED, UNRESOLVED_SMOOTH, Accuracy, missed_share
+from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
@@ -33,18 +33,17 @@ HOPELESS = 0.7  # of the range: two runs that differ by more are not compared on
 
 
 def glances(
-    settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, smooth: bool, run: Report
+    settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, unresolved: float, run: Report
 ) -> tuple[Glance, ...]:
     """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks.
 
-    `smooth`: whether nothing abrupt can happen.
+    `unresolved`: the missed share from which on steps do not.
     """
     limited = settings.method in LIMITED and not settings.step_iterations
     chosen = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
     if METHOD_TABLE[settings.method].order > 2:
         chosen = HIGH
-    most = UNRESOLVED_SMOOTH if smooth and chosen == HIGH else UNRESOLVED
-    return tuple(glance for glance in chosen if glance.times * missed_share(run, settings.method) <= most)
+    return tuple(glance for glance in chosen if glance.times * missed_share(run, settings.method) <= unresolved)
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

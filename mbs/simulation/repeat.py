@@ -14,7 +14,7 @@ from mbs.results import accuracy
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import has_smooth_laws
+from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
@@ -57,8 +57,10 @@ class Repeats:
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
         Names of what is compared, by unit.
-    smooth, has_order : bool
-        Whether nothing abrupt can happen, so that a method has its order; and whether that is above two.
+    unresolved : float
+        The missed share above which steps do not resolve what changes the velocities.
+    has_order : bool
+        Whether half the step decides where it does: the order is above two, and nothing abrupt can happen.
     """
 
     system: System
@@ -76,8 +78,8 @@ class Repeats:
         self._finer = list[Run]()
         settings = self.run[0].settings
         assert settings is not None
-        self._method, self.smooth = settings.method, has_smooth_laws(self.system)
-        self.has_order = METHOD_TABLE[self._method].order > 2 and self.smooth
+        self._method, self.unresolved = settings.method, unresolved_share(self.system, settings.method)
+        self.has_order = self.unresolved > UNRESOLVED
         if self.run[1]:
             angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
             self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
@@ -120,12 +122,10 @@ class Repeats:
 
     @property
     def coarse(self) -> bool:
-        """Whether the last finer run has less than twelve steps in a period of what changes the velocities, which
-        tells nothing of a run of its order.
-        """
+        """Whether the last finer run has more than half of the step that just resolves what changes the velocities."""
         report = self._finer[-1][0].report
         assert report is not None
-        return not self.has_order and 2.0 * accuracy.missed_share(report, self._method) > accuracy.UNRESOLVED
+        return 2.0 * accuracy.missed_share(report, self._method) > self.unresolved
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
         """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
@@ -221,7 +221,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.smooth, report):
+        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, h)
             if screened is not None and apart <= glance.difference:
