@@ -28,8 +28,8 @@ STOPS = (4, 6)  # of the numbers of a spring-damper: the stiffnesses of its stop
 def unresolved_share(system: System, method: str) -> float:
     """The missed share above which steps do not resolve what changes the velocities.
 
-    Of a method of order above two where nothing abrupt can happen three steps in a period are enough, and fewer where no
-    closed loop can come near a dead centre.
+    Of a method of order above two where nothing abrupt can happen three steps in a period are enough, and fewer where
+    no closed loop can come near a dead centre.
     """
     if METHOD_TABLE[method].order <= 2 or not _has_smooth_laws(system):
         return UNRESOLVED
@@ -42,8 +42,7 @@ def is_open_tree(system: System) -> bool:
 
 
 def _has_smooth_laws(system: System) -> bool:
-    """Whether no element has a stop, a contact, friction or a table, and all guides are single
-    polynomials of time."""
+    """Whether no element has a stop, a contact, friction or a table, and all guides are single polynomials of time."""
     a = system.arrays
     numbers = [np.asarray(a["el_real"])[i:j] for i, j in zip(a["el_real_ptr"], a["el_real_ptr"][1:], strict=False)]
     free = all(

@@ -221,7 +221,9 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report):
+        for glance in glances(
+            run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report
+        ):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, h)
             if screened is not None and apart <= glance.difference:
