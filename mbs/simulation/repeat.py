@@ -21,6 +21,7 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
+SAME = 0.9  # of the missed share of a run: with a quarter of the step an impact has less
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
@@ -122,10 +123,12 @@ class Repeats:
 
     @property
     def coarse(self) -> bool:
-        """Whether the last finer run has more than half of the step that just resolves what changes the velocities."""
-        report = self._finer[-1][0].report
-        assert report is not None
-        return 2.0 * accuracy.missed_share(report, self._method) > self.unresolved
+        """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
+
+        Where the second misses as much as the run, no step resolves it: a guide whose rate jumps.
+        """
+        missed = [self._missed(run) for run in (self.run, *self._finer)]
+        return 2.0 * missed[-1] > self.unresolved and not (len(missed) > 2 and missed[2] > SAME * missed[0])
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
         """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
@@ -168,6 +171,11 @@ class Repeats:
             self.update((before + cost * done) / whole)
 
         return self.march(h, every, update, bool(self.run[1]), iterations)
+
+    def _missed(self, run: Run) -> float:
+        report = run[0].report
+        assert report is not None
+        return accuracy.missed_share(report, self._method)
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
         """What is compared of a run, by name."""

@@ -242,7 +242,13 @@ def test_a_dead_centre_keeps_its_share_among_smooth_steps() -> None:
     system = mbs.compile(random_mechanisms.model_of(drawing))
     run, twice = (
         mbs.simulate(
-            system, drawing.span, drawing.span / n, every=n // 50, method="radau_5", estimate_error=False, progress=False
+            system,
+            drawing.span,
+            drawing.span / n,
+            every=n // 50,
+            method="radau_5",
+            estimate_error=False,
+            progress=False,
         )
         for n in (200, 100)
     )

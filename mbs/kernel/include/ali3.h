@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 8
+#define ALI3_STATE_VERSION 9
 
 typedef enum {
   ALI3_OK = 0,
