@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import PPoly
 
 import mbs
 from benchmarks.methods import random_mechanisms
@@ -271,3 +273,24 @@ def test_a_chain_in_long_steps_of_high_order_is_checked_by_half_at_most() -> Non
     off = max(float(np.abs(run[n] - exact[n]).max()) for n in names)
     assert run.accuracy.sensors
     assert off == pytest.approx(max(run.accuracy.sensors[n] for n in names), rel=0.2)
+
+
+def test_a_guide_whose_rate_jumps_ends_the_check_at_a_quarter() -> None:
+    """No step resolves it, so that a 16th was made, at 30 times the cost of the run."""
+    m = mbs.Model("cam", dimension=2, gravity=(0.0, 0.0))
+    plate, follower = (m.point_mass(n, mass=1.0, position=(x, 0.0)) for n, x in (("plate", 0.0), ("follower", 1.0)))
+    for body, x in ((plate, 0.0), (follower, 1.0)):
+        m.point_on_line(f"line of {body.name}", (body, (x, 0.0)), (m.ground, (x, 0.0)), axis=(1.0, 0.0))
+    lift = PPoly(np.array([[0.0, 0.5, 0.0, -0.5, 0.0], [0.0, 0.0, 0.1, 0.1, 0.0]]), [0.0, 0.2, 0.4, 0.6, 0.8, 2.0])
+    m.drive("cam", plate.point(None)[0], m.guide_time("lift", lift, unit="m"))
+    m.spring_damper("spring", plate, follower, stiffness=100.0, damping=2.0, free_length=1.0)
+    m.sense_position("x", follower, component="x")
+    run = mbs.simulate(mbs.compile(m), 1.0, 0.01, method="radau_5", progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeat_cost <= 6.0
+    assert not run.accuracy.message
+    exact = solve_ivp(
+        lambda t, y: [y[1], 100.0 * (lift(t) - y[0]) + 2.0 * (lift(t, 1) - y[1])],
+        (0.0, 1.0), np.zeros(2), t_eval=run.t, rtol=1e-9, atol=1e-12, max_step=1e-3,
+    ).y[0]  # fmt: skip
+    assert np.abs(run["x"] - 1.0 - exact).max() < 0.05 * np.ptp(exact)
