@@ -40,7 +40,7 @@ def glances(
     `unresolved`: the missed share from which on steps do not.
     """
     limited = settings.method in LIMITED and not settings.step_iterations
-    chosen = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
+    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
     if METHOD_TABLE[settings.method].order > 2:
         chosen = HIGH
     return tuple(glance for glance in chosen if glance.times * missed_share(run, settings.method) <= unresolved)
