@@ -11,8 +11,8 @@ import mbs
 
 @contextmanager
 def wrong_on_purpose() -> Iterator[None]:
-    """Runs whose steps or models are too coarse on purpose, held against a reference: what they say is known."""
+    """Runs whose steps or models are too coarse, or values unworkable, on purpose: what they say is known."""
     with warnings.catch_warnings():
-        for category in (mbs.AccuracyWarning, mbs.BendingWarning, mbs.BranchWarning):
+        for category in (mbs.AccuracyWarning, mbs.BendingWarning, mbs.BranchWarning, mbs.ParameterWarning):
             warnings.simplefilter("ignore", category)
         yield

@@ -15,6 +15,7 @@ from mbs.kernel.header.enumerations import GuideType, SensorType
 from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
 from mbs.results.missed_load import missed_load
 from mbs.results.run_report import Report
+from mbs.results.smooth_laws import is_open_tree
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
@@ -29,7 +30,6 @@ SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.s
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
-UNRESOLVED = 0.5  # missed share above which a period of what changes the velocities has less than six steps
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -146,9 +146,16 @@ def drift(report: Report) -> float:
     return balance * (1.0 + turned)
 
 
-def missed_share(report: Report) -> float:
-    """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w."""
-    return report.predictor_path / report.velocity_path if report.velocity_path > 0.0 else 0.0
+def missed_share(report: Report, method: str) -> float:
+    """Changes of velocity that ``v + h a`` does not see, over all: ``h w/2`` of a vibration or an impact of w.
+
+    Long steps of order above two have few of an event among many smooth ones: of their squares the event keeps its
+    share.
+    """
+    missed, all_of_them = report.predictor_path, report.velocity_path
+    if METHOD_TABLE[method].order > 2:
+        missed, all_of_them = math.sqrt(report.predictor_squares), math.sqrt(report.velocity_squares)
+    return missed / all_of_them if all_of_them > 0.0 else 0.0
 
 
 def divisor(steps: int, halvings: int) -> int:
@@ -298,8 +305,7 @@ def _higher_orders(system: System, method: str) -> list[str]:
         or (np.asarray(arrays["guide_type"]) != GuideType.OF_TIME).any()
     ):
         return []
-    open_tree = not system.report["no_tree"] and len(arrays["tree_cut_body"]) == 0
-    explicit = "semi_recursive" if open_tree else "runge_kutta_8"
+    explicit = "semi_recursive" if is_open_tree(system) else "runge_kutta_8"
     return [explicit] + (["radau_5"] if len(arrays["velocity_row"]) == 0 else [])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mbs.results.accuracy import UNRESOLVED, Accuracy, missed_share
+from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
@@ -27,16 +27,23 @@ QUICK = (Glance(8, 1, 0.15), Glance(4, 1, 0.1), Glance(2, 1, 0.03))
 """Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
 FORCES = (Glance(2, 0, 0.03),)  # errors of order one, behind abrupt events, are as large as the difference
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
+HIGH = (Glance(4, 0, 0.1), Glance(2, 0, 0.05))
+"""Of methods of higher order: errors are a third of such a difference or less, also behind abrupt forces."""
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
 
-def glances(settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, run: Report) -> tuple[Glance, ...]:
-    """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks."""
-    if METHOD_TABLE[settings.method].order > 2:
-        return TWICE
+def glances(
+    settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, unresolved: float, run: Report
+) -> tuple[Glance, ...]:
+    """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks.
+
+    `unresolved`: the missed share from which on steps do not.
+    """
     limited = settings.method in LIMITED and not settings.step_iterations
-    chosen = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
-    return tuple(glance for glance in chosen if glance.times * missed_share(run) <= UNRESOLVED)
+    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
+    if METHOD_TABLE[settings.method].order > 2:
+        chosen = HIGH
+    return tuple(glance for glance in chosen if glance.times * missed_share(run, settings.method) <= unresolved)
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

@@ -39,7 +39,9 @@ class Report:
         Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
-        steps of what the velocity is off ``v + h a`` of their start.
+        steps of what the velocity is off ``v + h a`` of their start, of methods of order four and more of either end.
+    velocity_squares, predictor_squares : float
+        Sums of the squares of what the steps add to these two, kg m^2/s^2.
     energy_floor : float
         What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
     rim_pressed, rim_time, rim_x, rim_y : float
@@ -92,6 +94,8 @@ class Report:
     speed_peak: float = 0.0
     velocity_path: float = 0.0
     predictor_path: float = 0.0
+    velocity_squares: float = 0.0
+    predictor_squares: float = 0.0
     energy_floor: float = 0.0
     rim_pressed: float = 0.0
     rim_time: float = 0.0

@@ -77,16 +77,17 @@ METHOD_TABLE = {
         smooth_miss=8.0,
         conservative_only=True,
     ),
-    "runge_kutta_8": Method(  # no smooth_miss: it is accurate far beyond what its predictor shows
+    "runge_kutta_8": Method(
         number=MethodNumber.RUNGE_KUTTA_8,
         title="Runge-Kutta, order 8",
         order=8,
+        smooth_miss=1.0,
     ),
     "semi_recursive": Method(
         number=MethodNumber.SEMI_RECURSIVE,
         title="semi-recursive, order 8",
         order=8,
-        smooth_miss=0.05,
+        smooth_miss=1.0,
         tree_only=True,
         cost=0.2,  # measured: relative coordinates save the factorization of the natural ones
     ),

@@ -14,12 +14,14 @@ from mbs.results import accuracy
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.glance import HOPELESS, Glance, difference_from, glances
 from mbs.results.simulation_error import SimulationError
+from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
+SAME = 0.9  # of the missed share of a run: with a quarter of the step an impact has less
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
@@ -56,6 +58,10 @@ class Repeats:
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
         Names of what is compared, by unit.
+    unresolved : float
+        The missed share above which steps do not resolve what changes the velocities.
+    has_order : bool
+        Whether half the step decides where it does: the order is above two, and nothing abrupt can happen.
     """
 
     system: System
@@ -71,6 +77,10 @@ class Repeats:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
         self._finer = list[Run]()
+        settings = self.run[0].settings
+        assert settings is not None
+        self._method, self.unresolved = settings.method, unresolved_share(self.system, settings.method)
+        self.has_order = self.unresolved > UNRESOLVED
         if self.run[1]:
             angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
             self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
@@ -107,9 +117,12 @@ class Repeats:
 
     @property
     def coarse(self) -> bool:
-        """Whether the last finer run has less than twelve steps in a period of what changes the velocities."""
-        report = self._finer[-1][0].report
-        return report is not None and 2.0 * accuracy.missed_share(report) > accuracy.UNRESOLVED
+        """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
+
+        Where the second misses as much as the run, no step resolves it: a guide whose rate jumps.
+        """
+        missed = [self._missed(run) for run in (self.run, *self._finer)]
+        return 2.0 * missed[-1] > self.unresolved and not (len(missed) > 2 and missed[2] > SAME * missed[0])
 
     def decided(self, known: Accuracy, parts: int) -> Accuracy:
         """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
@@ -148,6 +161,11 @@ class Repeats:
             self.update((before + cost * done) / whole)
 
         return self.march(h, every, update, bool(self.run[1]), iterations)
+
+    def _missed(self, run: Run) -> float:
+        report = run[0].report
+        assert report is not None
+        return accuracy.missed_share(report, self._method)
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
         """What is compared of a run, by name."""
@@ -201,7 +219,9 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        for glance in glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, report):
+        for glance in glances(
+            run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report
+        ):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, h)
             if screened is not None and apart <= glance.difference:
@@ -214,7 +234,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
         least = min(least, accuracy.ABRUPT) if report.divisions else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
-        if not repeats.twin and least < (known.error or 0.0) < most:
+        if not (repeats.twin or repeats.has_order) and least < (known.error or 0.0) < most:
             known = repeats.decided(repeats.finer(2 * parts), 4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"

@@ -12,6 +12,8 @@ from benchmarks.car import __main__ as car
 from benchmarks.car.accuracy import verdict
 from benchmarks.car.measures import MEASURES
 from benchmarks.car.trajectories import LOADS, load_error, load_error_in_time
+from benchmarks.paper.kerb import left_at_the_end
+from mbs.vehicle import Fidelity
 
 KEYS = {
     "manoeuvre", "h_s", "path_error_m", "path_error_rel", "wheel_load_error_rel", "iterations_mean", "iterations_max",
@@ -107,3 +109,11 @@ class Run(dict):
         since = t - late
         load = size * 4000.0 * np.clip((since - 0.4) / 0.005, 0.0, 1.0) * np.exp(-3.0 * np.clip(since - 0.4, 0.0, None))
         super().__init__(dict.fromkeys(LOADS, load))
+
+
+@pytest.mark.slow
+def test_moments_that_friction_holds_go_with_it_and_nothing_is_warned_of():
+    """The tyres hold the car sideways on the kerb; what is left without friction is 11 times less."""
+    held, free = left_at_the_end(Fidelity(2), 0.02)
+    assert 0.05 < held < 0.1
+    assert free < 0.01

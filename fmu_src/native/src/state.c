@@ -24,7 +24,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 7, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 8, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 

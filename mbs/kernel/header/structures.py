@@ -50,6 +50,8 @@ class ReportFields(Structure):
         ("speed_peak", c_double),
         ("velocity_path", c_double),
         ("predictor_path", c_double),
+        ("velocity_squares", c_double),
+        ("predictor_squares", c_double),
         ("fastest_rate", c_double),
         ("open_power", c_double),
         ("energy_floor", c_double),

@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 8
+#define ALI3_STATE_VERSION 9
 
 typedef enum {
   ALI3_OK = 0,
@@ -112,6 +112,7 @@ typedef struct {
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity (over the
    * largest: radians that the motion has turned), sum of the errors of v + h a over the steps */
   double speed_peak, velocity_path, predictor_path;
+  double velocity_squares, predictor_squares; /* sums of the squares of what the steps add to both paths */
   double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
   double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */

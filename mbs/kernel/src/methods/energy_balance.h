@@ -8,5 +8,6 @@ void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const 
 void ali3_balance_motion(ali3_instance *in, double h, double speed, double change, double miss);
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1);
 void ali3_balance_step(ali3_instance *in, double h);
+void ali3_balance_long_step(ali3_instance *in, double h);
 void ali3_balance_restore(ali3_report *report, const ali3_report *before);
 #endif

@@ -355,7 +355,7 @@ static ali3_status takes(const ali3_instance *in) {
 }
 
 const ali3_method ali3_method_radau_5 = {.step = step,
-                                         .motion = ali3_balance_step,
+                                         .motion = ali3_balance_long_step,
                                          .takes = takes,
                                          .excludes =
                                              ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",

@@ -145,7 +145,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
 static bool has_balance(const ali3_instance *in) { return in->system->n_flexible + in->system->n_tabled == 0; }
 
 const ali3_method ali3_method_runge_kutta_8 = {.step = step,
-                                               .motion = ali3_balance_step,
+                                               .motion = ali3_balance_long_step,
                                                .has_balance = has_balance,
                                                .takes = ali3_needs_no_states,
                                                .excludes = ALI3_STATES_IN_WORDS,

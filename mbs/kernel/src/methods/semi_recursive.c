@@ -227,22 +227,23 @@ static void turn_back(const ali3_system *S, ali3_tree_work *w) {
 }
 
 /* In the metric of the diagonal of the mass matrix; w->stage[0] has rates and accelerations at the start of the step,
- * w->sum the rates at its end. */
+ * w->sum and w->qdd those at its end. */
 static void balance(ali3_instance *in, double h) {
   const ali3_tree *T = in->system->tree;
   const ali3_tree_work *w = in->tree;
   const double *v0 = w->stage[0], *a = v0 + T->n, *v1 = w->sum + T->n;
-  double speed = 0.0, change = 0.0, miss = 0.0;
+  double speed = 0.0, change = 0.0, miss = 0.0, back = 0.0;
   for (int32_t j = 0; j < T->n; j++) {
     double m = 0.0;
     for (int i = 0; i < 3; i++)
       m += w->angular[i][j + 1] * w->turn[i][j + 1] + w->linear[i][j + 1] * w->shift[i][j + 1];
-    const double d = v1[j] - v0[j], e = d - h * a[j];
+    const double d = v1[j] - v0[j], e = d - h * a[j], b = d - h * w->qdd[j];
     speed += m * v1[j] * v1[j];
     change += m * d * d;
     miss += m * e * e;
+    back += m * b * b;
   }
-  ali3_balance_motion(in, h, speed, change, miss);
+  ali3_balance_motion(in, h, speed, change, fmax(miss, back));
 }
 
 /* From in->now by a step h; in->now changes only when the step is good. */

@@ -105,6 +105,7 @@ static bool load_valid(const ali3_report *r) {
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
   return branch_valid(s, r) && stop_valid(r) && load_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
          magnitude(r->speed_peak) && magnitude(r->velocity_path) && magnitude(r->predictor_path) &&
+         magnitude(r->velocity_squares) && magnitude(r->predictor_squares) &&
          r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) &&
          magnitude(r->rim_pressed) && magnitude(r->event_miss) && magnitude(r->event_squares) &&
          magnitude(r->event_path) && r->event_left - r->event_left == 0.0 && magnitude(r->coarse_event) &&
