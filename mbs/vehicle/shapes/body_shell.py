@@ -1,4 +1,6 @@
-"""Looks of a car without a frame of tubes: a hatchback's body lofted over its wheels, from length, width and axles.
+"""Looks of a car without a frame of tubes: a body lofted over its wheels, from its length, width, height and axles.
+
+It is that of a hatchback, of a van where the car is high for its length, and of both in between.
 
 The shares in the tables are those of no car: a picture, as everything here.
 """
@@ -6,7 +8,8 @@ The shares in the tables are those of no car: a picture, as everything here.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -28,37 +31,98 @@ LAMPS: tuple[Detail, ...] = (
     (0.987, 0.56, 0.335, (0.10, 0.28, 0.09), LAMP),
     (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP),
 )
-TRIM: tuple[Detail, ...] = (
-    (0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),
-    (0.660, 1.06, 0.66, (0.10, 0.16, 0.10), ACCENT),
+TRIM: tuple[Detail, ...] = ((0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),)
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A side view: places from the rear end are over the length, heights over that of the car."""
+
+    deck: NDArray[np.float64]
+    """Rows of place, height of the lower body, its half width over the largest."""
+    roof: NDArray[np.float64]
+    """Likewise of the roof, from the rear window to the lower edge of the windscreen."""
+    panel: tuple[float, float]
+    """Ends of the roof's panel."""
+    pillar: float
+    """Between the side windows."""
+    mirror: tuple[float, float]
+    """Place and height."""
+
+    def towards(self, other: Outline, share: float) -> Outline:
+        """An outline in between: at 0 this one, at 1 the other."""
+        between = [
+            (1.0 - share) * np.array(a) + share * np.array(b)
+            for a, b in zip(astuple(self), astuple(other), strict=True)
+        ]
+        deck, roof, panel, pillar, mirror = between
+        return Outline(deck, roof, tuple(panel), float(pillar), tuple(mirror))
+
+
+HATCHBACK = Outline(
+    np.array(
+        [
+            (0.000, 0.500, 0.82),
+            (0.010, 0.560, 0.88),
+            (0.035, 0.630, 0.93),
+            (0.120, 0.640, 0.97),
+            (0.300, 0.640, 1.00),
+            (0.620, 0.625, 1.00),
+            (0.730, 0.620, 0.99),
+            (0.880, 0.535, 0.96),
+            (0.960, 0.455, 0.87),
+            (0.990, 0.395, 0.76),
+            (1.000, 0.330, 0.68),
+        ]
+    ),
+    np.array(
+        [
+            (0.030, 0.620, 0.80),
+            (0.060, 0.760, 0.76),
+            (0.120, 0.925, 0.70),
+            (0.180, 0.957, 0.68),
+            (0.430, 1.000, 0.68),
+            (0.550, 0.975, 0.69),
+            (0.640, 0.830, 0.75),
+            (0.735, 0.612, 0.84),
+        ]
+    ),
+    (0.115, 0.565),
+    0.36,
+    (0.660, 0.66),
 )
-# place from the rear end over the length; height of the deck over that of the car, half width over the largest
-DECK = (
-    (0.000, 0.500, 0.82),
-    (0.010, 0.560, 0.88),
-    (0.035, 0.630, 0.93),
-    (0.120, 0.640, 0.97),
-    (0.300, 0.640, 1.00),
-    (0.620, 0.625, 1.00),
-    (0.730, 0.620, 0.99),
-    (0.880, 0.535, 0.96),
-    (0.960, 0.455, 0.87),
-    (0.990, 0.395, 0.76),
-    (1.000, 0.330, 0.68),
+VAN = Outline(
+    np.array(
+        [
+            (0.000, 0.460, 0.90),
+            (0.006, 0.500, 0.94),
+            (0.015, 0.515, 0.97),
+            (0.100, 0.525, 1.00),
+            (0.300, 0.525, 1.00),
+            (0.700, 0.520, 1.00),
+            (0.870, 0.515, 0.98),
+            (0.940, 0.490, 0.95),
+            (0.975, 0.430, 0.91),
+            (0.993, 0.360, 0.86),
+            (1.000, 0.300, 0.82),
+        ]
+    ),
+    np.array(
+        [
+            (0.010, 0.515, 0.93),
+            (0.020, 0.560, 0.92),
+            (0.036, 0.880, 0.85),
+            (0.060, 0.965, 0.84),
+            (0.400, 1.000, 0.84),
+            (0.750, 0.975, 0.84),
+            (0.850, 0.800, 0.86),
+            (0.945, 0.485, 0.91),
+        ]
+    ),
+    (0.045, 0.765),
+    0.40,
+    (0.885, 0.57),
 )
-# likewise: height of the roof, half width of the roof over the largest
-ROOF = (
-    (0.030, 0.620, 0.80),
-    (0.060, 0.760, 0.76),
-    (0.120, 0.925, 0.70),
-    (0.180, 0.957, 0.68),
-    (0.430, 1.000, 0.68),
-    (0.550, 0.975, 0.69),
-    (0.640, 0.830, 0.75),
-    (0.735, 0.612, 0.84),
-)
-PANEL = 0.115, 0.565  # ends of the roof's panel
-PILLAR = 0.36  # between the side windows
 ARCH = 0.055  # m between tyre and arch
 GAP = 0.02  # m between an arch and what the cabin opens
 DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
@@ -66,6 +130,8 @@ RIM = 4  # cross-sections of the lower body: its points from here on are over th
 FRONT_OVERHANG = 0.53  # share of both overhangs
 SLIM = 0.36  # height over length, and at most
 TALL = 4.4  # height over the radius of a front tyre, where nothing tells it
+MASS = 0.39  # height of the centre of mass over that of the car, where that is more
+LOW, HIGH = 0.385, 0.42  # height over length: up to here a hatchback, from here on a van
 
 
 @dataclass(frozen=True)
@@ -76,14 +142,26 @@ class BodyShell:
 
     @property
     def height(self) -> float:
-        """Of the roof, m: of the highest point that may touch the ground if up there, else by length and wheels."""
+        """Of the roof, m: of the highest point that may touch the ground if up there, else by its other numbers."""
         contact = self.car.chassis.ground_contact
         points = (
             [p[2] + contact.radius for p in contact.points if not isinstance(p, str)] if contact is not None else []
         )
         highest = max(points, default=0.0)
         guess = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
+        guess = max(guess, self.car.vehicle.reference_point[2] / MASS)
         return highest if highest > 0.25 * self.car.vehicle.length else guess
+
+    @cached_property
+    def outline(self) -> Outline:
+        """By its height over its length."""
+        slender = self.height / self.car.vehicle.length
+        return HATCHBACK.towards(VAN, float(np.clip((slender - LOW) / (HIGH - LOW), 0.0, 1.0)))
+
+    @property
+    def windscreen(self) -> float:
+        """Place of its lower edge over the length."""
+        return float(self.outline.roof[-1, 0])
 
     @property
     def rear_end(self) -> float:
@@ -102,12 +180,12 @@ class BodyShell:
 
     def deck(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the lower body, m."""
-        height, width = interpolated(DECK, self.share(x)).T
+        height, width = interpolated(self.outline.deck, self.share(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def roof(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the roof, m."""
-        height, width = interpolated(ROOF, self.share(x)).T
+        height, width = interpolated(self.outline.roof, self.share(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def lower_edge(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -135,7 +213,7 @@ class BodyShell:
     def cabin(self) -> tuple[float, float]:
         """x of the ends of what is open to those within: from the arch of the rear wheels to the windscreen, m."""
         rear = self.car.rear
-        return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(ROOF[-1][0])) - GAP
+        return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(self.windscreen)) - GAP
 
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel."""
@@ -168,7 +246,7 @@ class BodyShell:
 
     def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Middle and size of a box from a place ahead of the steering wheel to the windscreen, m."""
-        front = float(self.place(ROOF[-1][0]))
+        front = float(self.place(self.windscreen))
         top, half = (float(value.min()) for value in self.deck(np.array([ahead, front])))
         return (0.5 * (ahead + front), 0.0, top + 0.012 - 0.5 * DASHBOARD[1]), (
             front - ahead,
@@ -188,12 +266,12 @@ class BodyShell:
 
     def windows(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Everything between deck and roof."""
-        share = np.linspace(ROOF[0][0], ROOF[-1][0], 25)
+        share = np.linspace(self.outline.roof[0, 0], self.windscreen, 25)
         return loft(self._above(share, 0.0))
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """The roof."""
-        return loft([section[1:] for section in self._above(np.linspace(*PANEL, 15), 0.006)])
+        return loft([section[1:] for section in self._above(np.linspace(*self.outline.panel, 15), 0.006)])
 
     def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
         lower, upper = self.edge(share)
@@ -219,16 +297,24 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
     dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
     m.shape(chassis, "box", at=dash, size=size, **GREY)
+    panel = shell.outline.panel
     lower, upper = shell.edge(
-        np.concatenate([np.linspace(PANEL[1], ROOF[-1][0], 7), [PILLAR], np.linspace(0.04, PANEL[0], 7)])
+        np.concatenate(
+            [
+                np.linspace(panel[1], shell.windscreen, 7),
+                [shell.outline.pillar],
+                np.linspace(shell.outline.roof[0, 0] + 0.01, panel[0], 7),
+            ]
+        )
     )
-    rail = shell.edge(np.linspace(*PANEL, 9))[1]
+    rail = shell.edge(np.linspace(*panel, 9))[1]
     for side in (1.0, -1.0):
         mirror = np.array([1.0, side, 1.0])
         lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
         for line in lines:
             looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
-        _details(looks, shell, side, (*LAMPS, *TRIM))
+        place, height = shell.outline.mirror
+        _details(looks, shell, side, (*LAMPS, *TRIM, (place, 1.06, height, (0.10, 0.16, 0.10), ACCENT)))
 
 
 def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
