@@ -133,7 +133,7 @@ def test_an_edge_whose_plane_turns_about_what_touches_it_is_no_jump(host, sledge
 
 @pytest.mark.parametrize(
     ("lead", "radius", "last", "new"),
-    [(0.0, 400.0, 0.11, 0.0), (0.0, 550.0, 0.0, 0.0), (1.0, 125.0, 0.0, 0.0), (1.0, 100.0, 0.0, 0.45)],
+    [(0.0, 400.0, 0.11, 0.0), (0.0, 550.0, 0.0, 0.0), (1.0, 9.0, 0.0, 0.0), (1.0, 6.0, 0.0, 1.87)],
 )
 def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, lead, radius, last, new) -> None:
     """Circles of radius R under a way of w a step: an answer for its start is off by w^2/2R at its end."""

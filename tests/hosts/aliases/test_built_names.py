@@ -91,14 +91,15 @@ def test_all_outputs_of_a_car_with_ports_are_the_same_under_other_names(names: s
     one, theirs = ported(ported_fmu(made_once, None), None), ported_fmu(made_once, names)
     two = ported(theirs, names)
     assert two.failed_steps == one.failed_steps == 0
-    missing = [name for name in one.names if name not in two]
-    print("MISSING", names, missing, len(one.names))
+    assert set(one.names) <= set(two.names)
     moved = 0
-    for name in set(one.names) - set(missing):
+    for name in one.names:
+        if name.startswith("solver."):  # round-off itself, or near it
+            continue
         scale = np.max(np.abs(one[name]))
         moved += np.ptp(one[name]) > 1e-3 * scale
         assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * scale), name
-    assert moved > 100
+    assert moved > 150
 
 
 @pytest.mark.slow
