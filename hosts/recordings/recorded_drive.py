@@ -114,10 +114,9 @@ class RecordedDrive:
             within = np.flatnonzero((ways > 0) & (np.diff(epochs) == 0))
             found = np.diff(times)[within] / ways[within]
             for k in np.flatnonzero(~(np.abs(found - self.step) <= _NEAR * np.abs(found))):
-                first, second = counts[within[k] : within[k] + 2]
                 raise HostError(
-                    f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; the rows of the steps {first} and "
-                    f"{second} are {found[k]:g} s a step apart. It must be that of its table."
+                    f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; after step {counts[within[k]]} it is "
+                    f"{found[k]:g} s in the rows. It must be that of its table."
                 )
             last = float(times[-1]), int(counts[-1]), int(epochs[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))

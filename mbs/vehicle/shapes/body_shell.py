@@ -8,9 +8,9 @@ The shares in the tables are those of no car: a picture, as everything here.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,94 +34,51 @@ LAMPS: tuple[Detail, ...] = (
 TRIM: tuple[Detail, ...] = ((0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),)
 
 
-@dataclass(frozen=True)
-class Outline:
-    """A side view: places from the rear end are over the length, heights over that of the car."""
+class Outline(NamedTuple):
+    """A side view: places from the rear end are over the length, heights over that of the car, half widths over the
+    largest."""
 
-    deck: NDArray[np.float64]
-    """Rows of place, height of the lower body, its half width over the largest."""
-    roof: NDArray[np.float64]
-    """Likewise of the roof, from the rear window to the lower edge of the windscreen."""
-    panel: tuple[float, float]
-    """Ends of the roof's panel."""
-    pillar: float
-    """Between the side windows."""
-    mirror: tuple[float, float]
-    """Place and height."""
-
-    def towards(self, other: Outline, share: float) -> Outline:
-        """An outline in between: at 0 this one, at 1 the other."""
-        between = [
-            (1.0 - share) * np.array(a) + share * np.array(b)
-            for a, b in zip(astuple(self), astuple(other), strict=True)
-        ]
-        deck, roof, panel, pillar, mirror = between
-        return Outline(deck, roof, tuple(panel), float(pillar), tuple(mirror))
+    deck: NDArray[np.float64]  # rows of place, height, half width of the lower body
+    roof: NDArray[np.float64]  # likewise, from the rear window to the lower edge of the windscreen
+    panel: NDArray[np.float64]  # ends of the roof's panel
+    details: NDArray[np.float64]  # the pillar between the side windows; place and height of the mirrors
 
 
 HATCHBACK = Outline(
     np.array(
         [
-            (0.000, 0.500, 0.82),
-            (0.010, 0.560, 0.88),
-            (0.035, 0.630, 0.93),
-            (0.120, 0.640, 0.97),
-            (0.300, 0.640, 1.00),
-            (0.620, 0.625, 1.00),
-            (0.730, 0.620, 0.99),
-            (0.880, 0.535, 0.96),
-            (0.960, 0.455, 0.87),
-            (0.990, 0.395, 0.76),
-            (1.000, 0.330, 0.68),
+            [0.0, 0.01, 0.035, 0.12, 0.3, 0.62, 0.73, 0.88, 0.96, 0.99, 1.0],
+            [0.5, 0.56, 0.63, 0.64, 0.64, 0.625, 0.62, 0.535, 0.455, 0.395, 0.33],
+            [0.82, 0.88, 0.93, 0.97, 1.0, 1.0, 0.99, 0.96, 0.87, 0.76, 0.68],
         ]
-    ),
+    ).T,
     np.array(
         [
-            (0.030, 0.620, 0.80),
-            (0.060, 0.760, 0.76),
-            (0.120, 0.925, 0.70),
-            (0.180, 0.957, 0.68),
-            (0.430, 1.000, 0.68),
-            (0.550, 0.975, 0.69),
-            (0.640, 0.830, 0.75),
-            (0.735, 0.612, 0.84),
+            [0.03, 0.06, 0.12, 0.18, 0.43, 0.55, 0.64, 0.735],
+            [0.62, 0.76, 0.925, 0.957, 1.0, 0.975, 0.83, 0.612],
+            [0.8, 0.76, 0.7, 0.68, 0.68, 0.69, 0.75, 0.84],
         ]
-    ),
-    (0.115, 0.565),
-    0.36,
-    (0.660, 0.66),
+    ).T,
+    np.array([0.115, 0.565]),
+    np.array([0.36, 0.660, 0.66]),
 )
 VAN = Outline(
     np.array(
         [
-            (0.000, 0.460, 0.90),
-            (0.006, 0.500, 0.94),
-            (0.015, 0.515, 0.97),
-            (0.100, 0.525, 1.00),
-            (0.300, 0.525, 1.00),
-            (0.700, 0.520, 1.00),
-            (0.870, 0.515, 0.98),
-            (0.940, 0.490, 0.95),
-            (0.975, 0.430, 0.91),
-            (0.993, 0.360, 0.86),
-            (1.000, 0.300, 0.82),
+            [0.0, 0.006, 0.015, 0.1, 0.3, 0.7, 0.87, 0.94, 0.975, 0.993, 1.0],
+            [0.46, 0.5, 0.515, 0.525, 0.525, 0.52, 0.515, 0.49, 0.43, 0.36, 0.3],
+            [0.9, 0.94, 0.97, 1.0, 1.0, 1.0, 0.98, 0.95, 0.91, 0.86, 0.82],
         ]
-    ),
+    ).T,
     np.array(
         [
-            (0.010, 0.515, 0.93),
-            (0.020, 0.560, 0.92),
-            (0.036, 0.880, 0.85),
-            (0.060, 0.965, 0.84),
-            (0.400, 1.000, 0.84),
-            (0.750, 0.975, 0.84),
-            (0.850, 0.800, 0.86),
-            (0.945, 0.485, 0.91),
+            [0.01, 0.02, 0.036, 0.06, 0.4, 0.75, 0.85, 0.945],
+            [0.515, 0.56, 0.88, 0.965, 1.0, 0.975, 0.8, 0.485],
+            [0.93, 0.92, 0.85, 0.84, 0.84, 0.84, 0.86, 0.91],
         ]
-    ),
-    (0.045, 0.765),
-    0.40,
-    (0.885, 0.57),
+    ).T,
+    np.array([0.045, 0.765]),
+    np.array([0.40, 0.885, 0.57]),
 )
 ARCH = 0.055  # m between tyre and arch
 GAP = 0.02  # m between an arch and what the cabin opens
@@ -156,7 +113,8 @@ class BodyShell:
     def outline(self) -> Outline:
         """By its height over its length."""
         slender = self.height / self.car.vehicle.length
-        return HATCHBACK.towards(VAN, float(np.clip((slender - LOW) / (HIGH - LOW), 0.0, 1.0)))
+        share = min(max((slender - LOW) / (HIGH - LOW), 0.0), 1.0)
+        return Outline(*((1.0 - share) * low + share * high for low, high in zip(HATCHBACK, VAN, strict=True)))
 
     @property
     def windscreen(self) -> float:
@@ -271,7 +229,12 @@ class BodyShell:
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """The roof."""
-        return loft([section[1:] for section in self._above(np.linspace(*self.outline.panel, 15), 0.006)])
+        return loft(
+            [
+                section[1:]
+                for section in self._above(np.linspace(self.outline.panel[0], self.outline.panel[1], 15), 0.006)
+            ]
+        )
 
     def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
         lower, upper = self.edge(share)
@@ -297,23 +260,17 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
     dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
     m.shape(chassis, "box", at=dash, size=size, **GREY)
-    panel = shell.outline.panel
+    pillar, place, height = shell.outline.details.tolist()
+    panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])
     lower, upper = shell.edge(
-        np.concatenate(
-            [
-                np.linspace(panel[1], shell.windscreen, 7),
-                [shell.outline.pillar],
-                np.linspace(shell.outline.roof[0, 0] + 0.01, panel[0], 7),
-            ]
-        )
+        np.concatenate([np.linspace(panel[1], shell.windscreen, 7), [pillar], np.linspace(rear + 0.01, panel[0], 7)])
     )
-    rail = shell.edge(np.linspace(*panel, 9))[1]
+    rail = shell.edge(np.linspace(panel[0], panel[1], 9))[1]
     for side in (1.0, -1.0):
         mirror = np.array([1.0, side, 1.0])
         lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
         for line in lines:
             looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
-        place, height = shell.outline.mirror
         _details(looks, shell, side, (*LAMPS, *TRIM, (place, 1.06, height, (0.10, 0.16, 0.10), ACCENT)))
 
 

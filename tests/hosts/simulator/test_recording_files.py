@@ -164,9 +164,7 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
     assert "does not say by 'every' how many steps lie between two values" in refused(every=[0, 1])
     assert "does not say by 'every' and 'left_out' what of the columns is recorded" in refused(every=[1])
     for wrong in (0.02, 0.0, -0.01, float("nan"), float("inf")):
-        assert f"says a step of {wrong:g} s; the rows of the steps 0 and 1 are 0.01 s a step apart" in refused(
-            step=wrong
-        )
+        assert f"says a step of {wrong:g} s; after step 0 it is 0.01 s in the rows" in refused(step=wrong)
     assert "is of another recording: it has " in refused(columns=["steering"], every=[1])
     assert "was recorded from gone.fmu, which is not there any more; name the FMU" in refused(fmu="gone.fmu")
     assert "lacks variables of the recording" in refused(columns=["x", *meta["columns"][1:]])
