@@ -40,8 +40,9 @@ def main(folder: str, road: str, steps: str) -> None:
     car = instantiate_fmu(folder, description)
     car.setupExperiment(startTime=0.0)
     car.setReal([reference["initial.speed"]], [SPEED])
-    asked = [reference[f"wheel_{w}.contact_{c}"] for w in WHEELS for c in "xy"]
     inputs, ported = [reference["steering"], reference["throttle"]], "road.file" not in reference
+    place = "road_ahead" if ported else "contact"
+    asked = [reference[f"wheel_{w}.{place}_{c}"] for w in WHEELS for c in "xy"]
     if ported:
         inputs += [reference[f"wheel_{w}.road_{name}"] for w in WHEELS for name in ANSWER]
     else:

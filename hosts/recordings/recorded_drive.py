@@ -17,6 +17,7 @@ from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION
 from hosts.recordings.tables import TABLE, Rows, blocks_of, joined, recorded
 
+_NEAR = 1e-3  # share: what rounding leaves of a difference of times
 _KEYS = {"fmu": str, "guid": str, "inputs": int, "step": (int, float), "start": dict, "columns": list, "units": dict}
 
 
@@ -101,13 +102,21 @@ class RecordedDrive:
         return read_bytes(file, LARGEST_STATE, HostError) if file.is_file() else None
 
     def blocks(self) -> Iterator[Rows]:
-        """All rows, some thousands at a time; their counts never fall."""
-        count, file = -1, next(self.folder.glob(f"{TABLE}.*"), self.folder)
+        """All rows, some thousands at a time; their counts never fall, and their times are those of the step."""
+        last, file = (0.0, -1, -1), next(self.folder.glob(f"{TABLE}.*"), self.folder)
         for rows in blocks_of(self.folder, self.names):
-            counts = np.r_[count, rows.steps]
-            for k in np.flatnonzero(np.diff(counts) < 0):
+            times, counts, epochs = (np.r_[a, b] for a, b in zip(last, rows[:3], strict=True))
+            ways = np.diff(counts)
+            for k in np.flatnonzero(ways < 0):
                 raise HostError(f"{file}: step {counts[k + 1]} stands after {counts[k]}: its parts are out of order.")
-            count = int(counts[-1])
+            within = np.flatnonzero((ways > 0) & (np.diff(epochs) == 0))
+            found = np.diff(times)[within] / ways[within]
+            for k in np.flatnonzero(~(np.abs(found - self.step) <= _NEAR * np.abs(found))):
+                raise HostError(
+                    f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; after step {counts[within[k]]} it is "
+                    f"{found[k]:g} s in the rows. It must be that of its table."
+                )
+            last = float(times[-1]), int(counts[-1]), int(epochs[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
             if len(missing):
                 row, place = missing[0]

@@ -116,9 +116,6 @@ def part_of_world(road: Path) -> dict[str, Any] | None:
 
 def _of_road(file: Path, name: str, target: Path) -> dict[str, Any]:
     """A world that is a road alone."""
-    import numpy as np
-
-    from mbs.elements.road import GridRoad
     from mbs.roads.read_road import read_road
     from mbs.roads.scene_part import read_thinned, scene_part
     from mbs.roads.write_road import write_road
@@ -129,8 +126,8 @@ def _of_road(file: Path, name: str, target: Path) -> dict[str, Any]:
         shutil.copyfile(file, target)
     else:
         write_road(road, target)
-    bounds = (-PLAIN, -PLAIN, PLAIN, PLAIN)
-    if isinstance(road, GridRoad):
-        ends = np.array(road.origin) + np.array(road.spacing) * (np.array(np.shape(road.heights)) - 1)
-        bounds = (float(road.origin[0]), float(road.origin[1]), float(ends[0]), float(ends[1]))
-    return record_of(name, bounds, [], [scene_part(road)], []) | {"checksum": checksum_of(target)}
+    bounds, drawn = (-PLAIN, -PLAIN, PLAIN, PLAIN), scene_part(road)
+    if drawn["kind"] == "grid":  # which goes on beside a level strip of frictions
+        (x, y), (dx, dy), (nx, ny) = drawn["origin"], drawn["spacing"], drawn["shape"]
+        bounds = (x, y, x + dx * (nx - 1), y + dy * (ny - 1))
+    return record_of(name, bounds, [], [drawn], []) | {"checksum": checksum_of(target)}

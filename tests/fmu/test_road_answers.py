@@ -131,11 +131,7 @@ def test_an_edge_whose_plane_turns_about_what_touches_it_is_no_jump(host, sledge
         assert sum("the plane of the last one" in text for text in h.messages) == k
 
 
-@pytest.mark.parametrize(
-    ("lead", "radius", "last", "new"),
-    [(0.0, 400.0, 0.11, 0.0), (0.0, 550.0, 0.0, 0.0), (1.0, 125.0, 0.0, 0.0), (1.0, 100.0, 0.0, 0.45)],
-)
-def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, lead, radius, last, new) -> None:
+def told_on_a_circle(host, sledge, lead: float, radius: float) -> list[str]:
     """Circles of radius R under a way of w a step: an answer for its start is off by w^2/2R at its end."""
     h = host(sledge).start({"initial.speed": 100.0, "ports.road_lead": lead, "step_size": 0.003} | LEVEL)
     begin = h.get("x")
@@ -145,13 +141,39 @@ def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, l
         for name, value in zip(ANSWER, answer, strict=False):
             h.set(name, value)
         assert h.step(0.003 * k, 0.003) == OK
-    told = [text for text in h.messages if "tells that the last one was off" in text]
-    assert len(told) == (last + new > 0.1)
+    return [text for text in h.messages if "tells that the last one was off" in text]
+
+
+@pytest.mark.parametrize(("radius", "last"), [(400.0, 0.11), (550.0, 0.0)])
+def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, radius, last) -> None:
+    told = told_on_a_circle(host, sledge, 0.0, radius)
+    assert len(told) == (last > 0.1)
     for text in told:
-        assert f"holds for {lead:.1f} steps ahead of its wheel" in text
-        assert f"ports.road_lead is {lead:g} now" in text
+        assert "holds for 0.0 steps ahead of its wheel" in text
+        assert "ports.road_lead is 0 now" in text
         found = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
-        assert found == pytest.approx([last, new], abs=0.015)
+        assert found == pytest.approx([last, 0.0], abs=0.015)
+
+
+@pytest.mark.parametrize(("radius", "told"), [(40.0, 0), (5.0, 1)])
+def test_a_road_that_is_reached_along_the_step_may_bend_more(host, sledge, radius, told) -> None:
+    """Off by a quarter in the middle of the step, told from 0.4 mm on."""
+    assert len(told_on_a_circle(host, sledge, 1.0, radius)) == told
+
+
+def test_an_answer_ahead_is_reached_along_the_step_and_one_at_the_wheel_holds(host, sledge) -> None:
+    """A road that rises along the step has lifted less at its end than one that rose at its start."""
+    heights = []
+    for ahead in (0.0, 0.2):
+        h = host(sledge).start({"initial.speed": 10.0} | LEVEL)
+        h.step(0.0, 0.01)
+        for name, value in (("road_x", h.get("x") + ahead), ("road_height", 0.004)):
+            h.set(name, value)
+        h.step(0.01, 0.01)
+        heights.append(h.get("z"))
+        h.step(0.02, 0.01)
+        assert not [text for text in h.messages if "plane of the last one" in text]
+    assert heights[1] < heights[0]
 
 
 @pytest.mark.parametrize(("turn", "told"), [(0.28, 0), (0.32, 1)])

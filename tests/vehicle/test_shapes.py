@@ -67,7 +67,21 @@ def test_a_long_car_is_no_higher_than_its_wheels_let_it_be() -> None:
     long = car.changed({"vehicle.length": 5.5})
     heights = [BodyShell(made).height for made in (car, long)]
     assert heights[0] == heights[1] == pytest.approx(1.51, abs=0.05)
-    assert BodyShell(car.changed({"vehicle.length": 3.5})).height == pytest.approx(1.26)
+    assert BodyShell(car.changed({"vehicle.length": 3.5})).height == pytest.approx(0.5823 / 0.39)
+
+
+@pytest.mark.parametrize(("name", "height"), [("commonroad_vanagon", 1.93), ("commonroad_escort", 1.54)])
+def test_a_car_whose_mass_lies_high_is_high_and_has_the_outline_of_a_van(name: str, height: float) -> None:
+    """Flat roof up to a steep windscreen at the front; the lower a car for its length, the more it is a hatchback."""
+    shell = BodyShell(load(name))
+    (top, _), (deck, _) = (of(shell.place(np.linspace(0.1, 0.7, 13))) for of in (shell.roof, shell.deck))
+    assert shell.height == pytest.approx(height, abs=0.01)
+    van = name == "commonroad_vanagon"
+    assert (shell.windscreen > 0.9) == van
+    assert (top.min() > 0.95 * height) == van
+    assert (deck.max() < 0.54 * height) == van
+    between = BodyShell(load("commonroad_vanagon").changed({"vehicle.length": 4.8}))
+    assert 0.75 < between.windscreen < 0.93
 
 
 @pytest.mark.parametrize("car", [name for name in car_names() if load(name).linked])

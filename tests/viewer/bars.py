@@ -36,7 +36,7 @@ def check_bar(page: Any, bar: str, width: int) -> None:
     width : int
         Of the window, pixels.
     """
-    page.set_viewport_size({"width": width, "height": 500})
+    page.set_viewport_size({"width": width, "height": 600})
     found = page.evaluate(_MEASURED, bar)
     assert found["width"] == width
     assert found["count"] > 3

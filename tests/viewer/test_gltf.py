@@ -19,7 +19,7 @@ from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
 from viewer.gltf.flexible import stress_colors
 from viewer.gltf.materials import linear
-from viewer.gltf.roads import road_solid
+from viewer.gltf.roads import road_solid, surfaces_of
 from viewer.recording import Recording
 from viewer.solids import box
 
@@ -288,6 +288,23 @@ def test_roads_face_up_and_have_their_heights(up, kind):
     assert np.abs(far.positions).max() < 21.0
     if kind == "profile":
         assert set(heights[np.isclose(at, 2.0)].round(9)) == {0.5, 0.3}
+
+
+def test_frictions_of_a_grid_are_asphalt_wet_and_ice():
+    """By the friction of each triangle; together they are the road."""
+    frictions = np.repeat([[1.0, 1.0, 0.5, 0.5, 0.15, 0.15]], 3, axis=0)
+    road = {"kind": "grid", "origin": [0, 0], "spacing": [2.0, 1.0], "shape": [3, 6]}
+    road |= {"heights": floats(np.zeros(18)), "frictions": floats(frictions)}
+    solid, _ = road_solid(road, np.array([0.0, 0.0, 1.0]), np.zeros(3), 20.0)
+    found = surfaces_of(road, solid)
+    assert sum(len(part.triangles) for part in found.values()) == len(solid.triangles)
+    ends = {name: (np.ptp(part.positions[:, 0]), set(part.positions[:, 1])) for name, part in found.items()}
+    assert ends["asphalt"][1] >= {0.0, 1.0}
+    assert ends["wet"][1] >= {2.0, 3.0}
+    assert ends["ice"][1] >= {4.0, 5.0}
+    assert not ends["ice"][1] & {0.0, 1.0, 2.0}
+    assert {long for long, _ in ends.values()} == {4.0}
+    assert list(surfaces_of(road | {"frictions": None}, solid)) == ["asphalt"]
 
 
 def test_a_mesh_that_is_inside_out_is_turned(tmp_path):

@@ -133,7 +133,7 @@ def test_pages_are_dark_where_everything_is(shown: Any, kind: str) -> None:
 
 @pytest.mark.slow
 def test_the_bar_is_one_line(shown: Any, kind: str) -> None:
-    for width in (800, 901, 1000, 1280):
+    for width in (800, 901, 1000, 1061, 1280):
         check_bar(shown, BARS[kind], width)
 
 

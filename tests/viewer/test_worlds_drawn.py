@@ -94,6 +94,31 @@ def test_between_two_surfaces_of_one_channel_there_is_no_third(drawn, eye):
     assert near.min() > 0.75 * np.median(near)
 
 
+def edge(drawn: Any, quality: str, left: str, right: str) -> tuple[float, float]:
+    """Where a mean colour has gone half of its way to that of a surface at the right, and from 20 to 80 % of it, m."""
+    ground = level(0.0)
+    classes = np.repeat([NAMES.index(right), NAMES.index(left)], 40)[None].repeat(80, axis=0)
+    surface = {"origin": [-19.75, -19.75], "spacing": [0.5, 0.5], "shape": [80, 80], "classes": octets(classes)}
+    made = world(roads=[ground | {"surface": ground["surface"] | surface}], extent=2.0)
+    drawn.show(made, at(0, 0, 0), camera="top", quality=quality)
+    (u, v), (_, next_v) = (drawn.project((0.0, y, 0.0)) for y in (0.0, 1.0))
+    across = drawn.picture()[:, : int(u) - 10].mean(axis=(1, 2))
+    y = (np.arange(len(across)) + 0.5 - v) / (next_v - v)
+    ends = [across[(side * y > 0.4) & (side * y < 0.8)].mean() for side in (-1.0, 1.0)]
+    shares = (across[::-1] - ends[0]) / (ends[1] - ends[0])
+    low, half, high = (y[::-1][np.argmax(shares > share)] for share in (0.2, 0.5, 0.8))
+    return float(half), float(high - low)
+
+
+@pytest.mark.parametrize("quality", ["draft", "low"])
+def test_an_edge_between_two_surfaces_of_one_channel_is_as_soft_as_others_and_where_they_are(drawn, quality):
+    """Ice and wet share one, ice and asphalt do not."""
+    (own, soft), (other, wanted) = (edge(drawn, quality, "ice", name) for name in ("wet", "asphalt"))
+    assert wanted > 0.05
+    assert own == pytest.approx(other, abs=0.05)
+    assert 0.6 * wanted < soft < 1.6 * wanted
+
+
 def test_the_ground_is_as_high_as_its_points(drawn):
     """Of a ball whose middle lies on the ground the upper half is seen, of one below the ground nothing."""
     drawn.show(world(shapes=[ball(radius=0.5)], extent=12.0), camera="side")

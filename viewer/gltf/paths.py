@@ -14,7 +14,7 @@ from viewer.solids import Solid
 
 PATHS = LOOKS["paths"]
 _MOST = 4000  # points
-_LIFT = 0.02  # m
+_LIFT = 0.05  # m: tyres are not as round as they are taken to be, but pressed in
 
 
 def path_solids(scene: Mapping[str, Any], poses: FramePoses, up: Vectors) -> list[tuple[str, Solid, Look]]:

@@ -6,12 +6,15 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viewer.base64_numbers import decoded
 from viewer.poses import Vectors
 from viewer.solids import Solid
 
 _MOST = 200  # points of a grid in each direction
+_KINDS = ("ice", "wet", "asphalt")
+_SLIPPERY = (0.35, 0.725)  # friction up to which a road is ice, and wet: half of the way between them, as pages have it
 
 
 def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float) -> tuple[Solid, int] | None:
@@ -30,6 +33,25 @@ def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: floa
     if kind == "profile":
         return _profile(road, up, centre, half), 1
     return _grid(road, up) if kind == "grid" else None
+
+
+def surfaces_of(road: Mapping[str, Any], solid: Solid) -> dict[str, Solid]:
+    """The triangles of a grid by what its frictions make of them; of other roads all are asphalt."""
+    if road["kind"] != "grid" or road.get("frictions") is None:
+        return {"asphalt": solid}
+    frictions = decoded(road["frictions"], "f").reshape(road["shape"])[np.ix_(*_kept(*road["shape"])[1])].ravel()
+    kinds = np.digitize(frictions[solid.triangles].mean(axis=1), _SLIPPERY)
+    made = {}
+    for kind in np.unique(kinds):
+        used, numbers = np.unique(solid.triangles[kinds == kind], return_inverse=True)
+        made[_KINDS[kind]] = Solid(solid.positions[used], None, numbers.reshape(-1, 3))
+    return made
+
+
+def _kept(nx: int, ny: int) -> tuple[int, list[NDArray[np.int64]]]:
+    """Every how many points of a grid one is drawn, and which, along x and y."""
+    every = max(1, -(-max(nx, ny) // _MOST))
+    return every, [np.unique([*range(0, n, every), n - 1]) for n in (nx, ny)]
 
 
 def _square(point: Vectors, normal: Vectors, centre: Vectors, half: float) -> Solid:
@@ -64,8 +86,7 @@ def _profile(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: float)
 def _grid(road: Mapping[str, Any], up: Vectors) -> tuple[Solid, int]:
     nx, ny = road["shape"]
     heights = decoded(road["heights"], "f").reshape(nx, ny).astype(float)
-    every = max(1, -(-max(nx, ny) // _MOST))
-    i, j = (np.unique([*range(0, n, every), n - 1]) for n in (nx, ny))
+    every, (i, j) = _kept(nx, ny)
     x = road["origin"][0] + road["spacing"][0] * i
     y = road["origin"][1] + road["spacing"][1] * j
     axes = np.array(

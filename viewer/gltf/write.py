@@ -19,9 +19,9 @@ from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
 from viewer.gltf.parts import Parts
 from viewer.gltf.paths import path_solids
-from viewer.gltf.roads import road_solid
+from viewer.gltf.roads import road_solid, surfaces_of
 from viewer.gltf.scenery import scenery_solids
-from viewer.gltf.terrain import earth_axes, terrain_solids
+from viewer.gltf.terrain import earth_axes, surface_look, terrain_solids
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
 from viewer.recording import Recording
 
@@ -188,7 +188,9 @@ class _Writer:
             if made is None:
                 self.parts.notes.append("The road of a file is not drawn.")
                 continue
-            self.parts.fixed.append((GROUND, "road", [(made[0], _ROAD)]))
+            looks = {name: surface_look(name) for name in ("wet", "ice")} | {"asphalt": _ROAD}
+            meshes = [(solid, looks[name]) for name, solid in surfaces_of(road, made[0]).items()]
+            self.parts.fixed.append((GROUND, "road", meshes))
             if made[1] > 1:
                 self.parts.notes.append(f"Of the grid of the road every {made[1]}th point is drawn in each direction.")
         kinds, left_out = scenery_solids(self._scene.get("scenery") or [], axes, near, far)

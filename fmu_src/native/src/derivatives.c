@@ -25,7 +25,7 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
                        t->variable[reference[i]].name, value[i]);
   }
   for (size_t i = 0; i < n; i++) {
-    double *slope = &s->slope[reference[i] * SLAVE_MOST_ORDERS + (uint32_t)order[i] - 1];
+    double *slope = &s->slope[reference[i] * SLAVE_TERMS + (uint32_t)order[i]];
     const bool finite = fabs(value[i]) < HUGE_VAL;
     if (!finite && !(s->said[reference[i]] & SLAVE_HELD_FLAT)) {
       s->said[reference[i]] |= SLAVE_HELD_FLAT;

@@ -8,7 +8,7 @@
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
-  const size_t numbers = t->n_variables + 2 * t->n_known * SLAVE_MOST_ORDERS + (size_t)z.ns + (size_t)z.nu;
+  const size_t numbers = t->n_variables + 2 * t->n_known * SLAVE_TERMS + (size_t)z.ns + (size_t)z.nu;
   const size_t rhythms = t->n_known * sizeof *s->rhythm;
   const size_t texts = t->n_texts * sizeof *s->text;
   double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythms + 2 * t->n_known + (size_t)z.ns + texts + 1);
@@ -18,8 +18,8 @@ static bool take_arrays(slave *s) {
   }
   s->value = pool;
   s->slope = s->value + t->n_variables;
-  s->made_slope = s->slope + t->n_known * SLAVE_MOST_ORDERS;
-  s->sensors = s->made_slope + t->n_known * SLAVE_MOST_ORDERS;
+  s->made_slope = s->slope + t->n_known * SLAVE_TERMS;
+  s->sensors = s->made_slope + t->n_known * SLAVE_TERMS;
   s->direction = s->sensors + z.ns;
   s->rhythm = (slave_rhythm *)(s->direction + z.nu);
   s->pending = (unsigned char *)(s->rhythm + t->n_known);
@@ -65,7 +65,7 @@ static void start_values(slave *s) {
   memset(s->pending, 0, t->n_known);
   memset(s->said, 0, t->n_known);
   memset(s->rhythm, 0, t->n_known * sizeof *s->rhythm);
-  memset(s->slope, 0, 2 * t->n_known * SLAVE_MOST_ORDERS * sizeof(double)); /* and made_slope */
+  memset(s->slope, 0, 2 * t->n_known * SLAVE_TERMS * sizeof(double)); /* and made_slope */
   for (size_t i = 0; i < t->n_variables; i++) {
     s->value[i] = t->variable[i].start;
     if (t->variable[i].source == SLAVE_STEP_SIZE) s->step_reference = i;

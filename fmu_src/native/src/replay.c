@@ -77,7 +77,9 @@ static ali3_status begin(slave *s, const replay *r, double part) {
   ali3_snapshot_restore(kernel, s->fidelity.start);
   for (int32_t i = 0; i < z.nu; i++) r->set[i] = r->held[i] + part * r->unit[i];
   const ali3_status status = ali3_set_settings(kernel, &exact);
-  return status == ALI3_OK ? slave_set_step(s, r->parameter, r->set) : status;
+  memcpy(r->row, r->set, (size_t)z.nu * sizeof(double));
+  if (s->made.sloped) slave_add_slopes(s->made_slope, 0.0, r->row);
+  return status == ALI3_OK ? slave_set_step(s, r->parameter, r->row) : status;
 }
 
 /* To its end; *contact: one with a road was made or lost on the way. */

@@ -84,7 +84,8 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
+/* SLAVE_TERMS: of an input along its derivatives, from order 0 on, see slopes.c */
+enum { SLAVE_MOST_ORDERS = 3, SLAVE_TERMS = 4, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
 typedef char slave_text_value[SLAVE_MOST_TEXT]; /* with zeros behind its end */
 
 typedef struct slave slave;
@@ -250,6 +251,12 @@ slave_status slave_step(slave *s, double time, double step);
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input);
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
+
+/* road_ramps.c: answers on the road for the end of a step go there from the last ones */
+double slave_reached(const slave *s, size_t i);
+bool slave_is_ramp(const slave *s, size_t i);
+void slave_begin_ramps(slave *s, double step);
+void slave_end_ramps(slave *s);
 
 /* half_steps.c */
 slave_status slave_halve_steps(slave *s);

@@ -1,12 +1,13 @@
-/* Inputs along their derivatives within a communication step. */
+/* Inputs along their derivatives within a communication step. The term of order 0, which no host sets, is what an answer
+ * on the road begins with beside its value, see road_ramps.c. */
 #include "slave.h"
 
 /* What derivatives change in the input of a variable at `elapsed` after the communication point. */
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input) {
   double power = 1.0;
-  for (int k = 0; k < SLAVE_MOST_ORDERS; k++) {
+  for (int k = 0; k < SLAVE_TERMS; k++) {
+    *input += slope[variable * SLAVE_TERMS + (size_t)k] * power / slave_the_table.variable[variable].scale;
     power *= elapsed / (k + 1);
-    *input += slope[variable * SLAVE_MOST_ORDERS + (size_t)k] * power / slave_the_table.variable[variable].scale;
   }
 }
 

@@ -32,8 +32,7 @@ static size_t texts_size(void) { return slave_the_table.n_texts * sizeof(slave_t
 
 static size_t own_size(void) {
   const size_t n = slave_the_table.n_known;
-  return sizeof(header) + n * (1 + 2 * SLAVE_MOST_ORDERS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) +
-         texts_size();
+  return sizeof(header) + n * (1 + 2 * SLAVE_TERMS) * sizeof(double) + n * (sizeof(slave_rhythm) + 2) + texts_size();
 }
 
 static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
@@ -71,8 +70,8 @@ static void save(const slave *s, unsigned char *bytes) {
   memcpy(head.identity, slave_the_table.identity, sizeof head.identity);
   put(&p, &head, sizeof head);
   put(&p, s->value, n * sizeof(double));
-  put(&p, s->slope, n * SLAVE_MOST_ORDERS * sizeof(double));
-  put(&p, s->made_slope, n * SLAVE_MOST_ORDERS * sizeof(double));
+  put(&p, s->slope, n * SLAVE_TERMS * sizeof(double));
+  put(&p, s->made_slope, n * SLAVE_TERMS * sizeof(double));
   put(&p, s->rhythm, n * sizeof *s->rhythm);
   put(&p, s->pending, n);
   put(&p, s->said, n);
@@ -110,7 +109,7 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
 static const char *bad_value(const unsigned char *p) {
   const slave_table *t = &slave_the_table;
   double v;
-  const size_t numbers = t->n_known * (1 + 2 * SLAVE_MOST_ORDERS);
+  const size_t numbers = t->n_known * (1 + 2 * SLAVE_TERMS);
   for (size_t i = 0; i < numbers; i++) {
     memcpy(&v, p + i * sizeof v, sizeof v);
     if (!(fabs(v) < HUGE_VAL)) return "a number in them is not finite";
@@ -189,8 +188,8 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   s->calls.start_time = head.start_time;
   s->calls.stop_time = head.stop_time;
   get(s->value, &p, n * sizeof(double));
-  get(s->slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
-  get(s->made_slope, &p, n * SLAVE_MOST_ORDERS * sizeof(double));
+  get(s->slope, &p, n * SLAVE_TERMS * sizeof(double));
+  get(s->made_slope, &p, n * SLAVE_TERMS * sizeof(double));
   get(s->rhythm, &p, n * sizeof *s->rhythm);
   get(s->pending, &p, n);
   get(s->said, &p, n);

@@ -42,7 +42,7 @@ static int64_t division(slave *s, double time, double end, double *h) {
 }
 
 static bool any_slope(const slave *s) {
-  for (size_t i = 0; i < slave_the_table.n_known * SLAVE_MOST_ORDERS; i++)
+  for (size_t i = 0; i < slave_the_table.n_known * SLAVE_TERMS; i++)
     if (s->slope[i] != 0.0) return true;
   return false;
 }
@@ -53,10 +53,13 @@ static ali3_status apply_pending(slave *s) {
   for (size_t i = 0; i < t->n_known && status == ALI3_OK; i++) {
     const slave_variable *v = &t->variable[i];
     if (!s->pending[i]) continue;
-    if (v->source == SLAVE_INPUT)
-      status = ali3_set_input(s->fidelity.kernel, v->index, s->value[i] / v->scale);
-    else
+    if (v->source == SLAVE_INPUT) {
+      double begin = s->value[i] / v->scale;
+      if (s->slope[i * SLAVE_TERMS] != 0.0) slave_add_slope(s->slope, i, 0.0, &begin);
+      status = ali3_set_input(s->fidelity.kernel, v->index, begin);
+    } else {
       status = ali3_set_parameter(s->fidelity.kernel, v->index, s->value[i]);
+    }
   }
   return status;
 }
@@ -89,14 +92,14 @@ static void keep_start(slave *s, int64_t n, double h) {
   s->made.n = n;
   s->made.h = h;
   s->made.sloped = any_slope(s);
-  if (s->made.sloped) memcpy(s->made_slope, s->slope, slave_the_table.n_known * SLAVE_MOST_ORDERS * sizeof(double));
+  if (s->made.sloped) memcpy(s->made_slope, s->slope, slave_the_table.n_known * SLAVE_TERMS * sizeof(double));
 }
 
 /* After a step with slopes the inputs are again what the host set them to. */
 static void forget_slopes(slave *s) {
   const slave_table *t = &slave_the_table;
   if (!s->made.sloped) return;
-  memset(s->slope, 0, t->n_known * SLAVE_MOST_ORDERS * sizeof(double));
+  memset(s->slope, 0, t->n_known * SLAVE_TERMS * sizeof(double));
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT)
       ali3_set_input(s->fidelity.kernel, t->variable[i].index, s->value[i] / t->variable[i].scale);
@@ -134,6 +137,7 @@ static slave_status try_step(slave *s, double time, double step) {
   double h, left;
   if (!possible(s, time, step, now)) return SLAVE_ERROR;
   slave_hold_normals(s);
+  slave_begin_ramps(s, step);
   const slave_variable *const jumped = slave_watch_jumps(s);
   const int64_t n = division(s, now, time + step, &h);
   ali3_snapshot_take(s->fidelity.kernel,
@@ -150,6 +154,7 @@ static slave_status try_step(slave *s, double time, double step) {
       snprintf(worst, sizeof worst, " Here %s.", words);
     }
     ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
+    slave_end_ramps(s);
     return slave_refuse_step(s, status, now, step, worst, jumped);
   }
   keep_start(s, n, h);

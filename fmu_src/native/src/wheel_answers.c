@@ -27,7 +27,7 @@ void slave_hold_normals(slave *s) {
     s->said[i] |= SLAVE_HELD_NORMAL;
     for (size_t k = 0; k < 3; k++) {
       n[k] = held[k];
-      for (size_t order = 0; order < SLAVE_MOST_ORDERS; order++) s->slope[(i + k) * SLAVE_MOST_ORDERS + order] = 0.0;
+      for (size_t order = 0; order < SLAVE_TERMS; order++) s->slope[(i + k) * SLAVE_TERMS + order] = 0.0;
     }
   }
 }
@@ -67,8 +67,8 @@ static void watch_answer(slave *s, size_t i) {
 
 /* Whether a derivative of the force or moment on a hub was set for the step that was made. */
 static bool follows(const slave *s, size_t hub) {
-  const double *slope = &s->made_slope[hub * SLAVE_MOST_ORDERS];
-  for (size_t k = 0; s->made.sloped && k < HUB * SLAVE_MOST_ORDERS; k++)
+  const double *slope = &s->made_slope[hub * SLAVE_TERMS];
+  for (size_t k = 0; s->made.sloped && k < HUB * SLAVE_TERMS; k++)
     if (slope[k] != 0.0) return true;
   return false;
 }

@@ -1,4 +1,6 @@
-"""Looks of a car without a frame of tubes: a hatchback's body lofted over its wheels, from length, width and axles.
+"""Looks of a car without a frame of tubes: a body lofted over its wheels, from its length, width, height and axles.
+
+It is that of a hatchback, of a van where the car is high for its length, and of both in between.
 
 The shares in the tables are those of no car: a picture, as everything here.
 """
@@ -7,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from functools import cached_property
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,37 +31,55 @@ LAMPS: tuple[Detail, ...] = (
     (0.987, 0.56, 0.335, (0.10, 0.28, 0.09), LAMP),
     (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP),
 )
-TRIM: tuple[Detail, ...] = (
-    (0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),
-    (0.660, 1.06, 0.66, (0.10, 0.16, 0.10), ACCENT),
+TRIM: tuple[Detail, ...] = ((0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),)
+
+
+class Outline(NamedTuple):
+    """A side view: places from the rear end are over the length, heights over that of the car, half widths over the
+    largest."""
+
+    deck: NDArray[np.float64]  # rows of place, height, half width of the lower body
+    roof: NDArray[np.float64]  # likewise, from the rear window to the lower edge of the windscreen
+    panel: NDArray[np.float64]  # ends of the roof's panel
+    details: NDArray[np.float64]  # the pillar between the side windows; place and height of the mirrors
+
+
+HATCHBACK = Outline(
+    np.array(
+        [
+            [0.0, 0.01, 0.035, 0.12, 0.3, 0.62, 0.73, 0.88, 0.96, 0.99, 1.0],
+            [0.5, 0.56, 0.63, 0.64, 0.64, 0.625, 0.62, 0.535, 0.455, 0.395, 0.33],
+            [0.82, 0.88, 0.93, 0.97, 1.0, 1.0, 0.99, 0.96, 0.87, 0.76, 0.68],
+        ]
+    ).T,
+    np.array(
+        [
+            [0.03, 0.06, 0.12, 0.18, 0.43, 0.55, 0.64, 0.735],
+            [0.62, 0.76, 0.925, 0.957, 1.0, 0.975, 0.83, 0.612],
+            [0.8, 0.76, 0.7, 0.68, 0.68, 0.69, 0.75, 0.84],
+        ]
+    ).T,
+    np.array([0.115, 0.565]),
+    np.array([0.36, 0.660, 0.66]),
 )
-# place from the rear end over the length; height of the deck over that of the car, half width over the largest
-DECK = (
-    (0.000, 0.500, 0.82),
-    (0.010, 0.560, 0.88),
-    (0.035, 0.630, 0.93),
-    (0.120, 0.640, 0.97),
-    (0.300, 0.640, 1.00),
-    (0.620, 0.625, 1.00),
-    (0.730, 0.620, 0.99),
-    (0.880, 0.535, 0.96),
-    (0.960, 0.455, 0.87),
-    (0.990, 0.395, 0.76),
-    (1.000, 0.330, 0.68),
+VAN = Outline(
+    np.array(
+        [
+            [0.0, 0.006, 0.015, 0.1, 0.3, 0.7, 0.87, 0.94, 0.975, 0.993, 1.0],
+            [0.46, 0.5, 0.515, 0.525, 0.525, 0.52, 0.515, 0.49, 0.43, 0.36, 0.3],
+            [0.9, 0.94, 0.97, 1.0, 1.0, 1.0, 0.98, 0.95, 0.91, 0.86, 0.82],
+        ]
+    ).T,
+    np.array(
+        [
+            [0.01, 0.02, 0.036, 0.06, 0.4, 0.75, 0.85, 0.945],
+            [0.515, 0.56, 0.88, 0.965, 1.0, 0.975, 0.8, 0.485],
+            [0.93, 0.92, 0.85, 0.84, 0.84, 0.84, 0.86, 0.91],
+        ]
+    ).T,
+    np.array([0.045, 0.765]),
+    np.array([0.40, 0.885, 0.57]),
 )
-# likewise: height of the roof, half width of the roof over the largest
-ROOF = (
-    (0.030, 0.620, 0.80),
-    (0.060, 0.760, 0.76),
-    (0.120, 0.925, 0.70),
-    (0.180, 0.957, 0.68),
-    (0.430, 1.000, 0.68),
-    (0.550, 0.975, 0.69),
-    (0.640, 0.830, 0.75),
-    (0.735, 0.612, 0.84),
-)
-PANEL = 0.115, 0.565  # ends of the roof's panel
-PILLAR = 0.36  # between the side windows
 ARCH = 0.055  # m between tyre and arch
 GAP = 0.02  # m between an arch and what the cabin opens
 DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
@@ -66,6 +87,8 @@ RIM = 4  # cross-sections of the lower body: its points from here on are over th
 FRONT_OVERHANG = 0.53  # share of both overhangs
 SLIM = 0.36  # height over length, and at most
 TALL = 4.4  # height over the radius of a front tyre, where nothing tells it
+MASS = 0.39  # height of the centre of mass over that of the car, where that is more
+LOW, HIGH = 0.385, 0.42  # height over length: up to here a hatchback, from here on a van
 
 
 @dataclass(frozen=True)
@@ -76,14 +99,27 @@ class BodyShell:
 
     @property
     def height(self) -> float:
-        """Of the roof, m: of the highest point that may touch the ground if up there, else by length and wheels."""
+        """Of the roof, m: of the highest point that may touch the ground if up there, else by its other numbers."""
         contact = self.car.chassis.ground_contact
         points = (
             [p[2] + contact.radius for p in contact.points if not isinstance(p, str)] if contact is not None else []
         )
         highest = max(points, default=0.0)
         guess = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
+        guess = max(guess, self.car.vehicle.reference_point[2] / MASS)
         return highest if highest > 0.25 * self.car.vehicle.length else guess
+
+    @cached_property
+    def outline(self) -> Outline:
+        """By its height over its length."""
+        slender = self.height / self.car.vehicle.length
+        share = min(max((slender - LOW) / (HIGH - LOW), 0.0), 1.0)
+        return Outline(*((1.0 - share) * low + share * high for low, high in zip(HATCHBACK, VAN, strict=True)))
+
+    @property
+    def windscreen(self) -> float:
+        """Place of its lower edge over the length."""
+        return float(self.outline.roof[-1, 0])
 
     @property
     def rear_end(self) -> float:
@@ -102,12 +138,12 @@ class BodyShell:
 
     def deck(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the lower body, m."""
-        height, width = interpolated(DECK, self.share(x)).T
+        height, width = interpolated(self.outline.deck, self.share(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def roof(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Height and half width of the roof, m."""
-        height, width = interpolated(ROOF, self.share(x)).T
+        height, width = interpolated(self.outline.roof, self.share(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
     def lower_edge(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -135,7 +171,7 @@ class BodyShell:
     def cabin(self) -> tuple[float, float]:
         """x of the ends of what is open to those within: from the arch of the rear wheels to the windscreen, m."""
         rear = self.car.rear
-        return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(ROOF[-1][0])) - GAP
+        return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(self.windscreen)) - GAP
 
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel."""
@@ -168,7 +204,7 @@ class BodyShell:
 
     def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Middle and size of a box from a place ahead of the steering wheel to the windscreen, m."""
-        front = float(self.place(ROOF[-1][0]))
+        front = float(self.place(self.windscreen))
         top, half = (float(value.min()) for value in self.deck(np.array([ahead, front])))
         return (0.5 * (ahead + front), 0.0, top + 0.012 - 0.5 * DASHBOARD[1]), (
             front - ahead,
@@ -188,12 +224,17 @@ class BodyShell:
 
     def windows(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Everything between deck and roof."""
-        share = np.linspace(ROOF[0][0], ROOF[-1][0], 25)
+        share = np.linspace(self.outline.roof[0, 0], self.windscreen, 25)
         return loft(self._above(share, 0.0))
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """The roof."""
-        return loft([section[1:] for section in self._above(np.linspace(*PANEL, 15), 0.006)])
+        return loft(
+            [
+                section[1:]
+                for section in self._above(np.linspace(self.outline.panel[0], self.outline.panel[1], 15), 0.006)
+            ]
+        )
 
     def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
         lower, upper = self.edge(share)
@@ -219,16 +260,18 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
     dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
     m.shape(chassis, "box", at=dash, size=size, **GREY)
+    pillar, place, height = shell.outline.details.tolist()
+    panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])
     lower, upper = shell.edge(
-        np.concatenate([np.linspace(PANEL[1], ROOF[-1][0], 7), [PILLAR], np.linspace(0.04, PANEL[0], 7)])
+        np.concatenate([np.linspace(panel[1], shell.windscreen, 7), [pillar], np.linspace(rear + 0.01, panel[0], 7)])
     )
-    rail = shell.edge(np.linspace(*PANEL, 9))[1]
+    rail = shell.edge(np.linspace(panel[0], panel[1], 9))[1]
     for side in (1.0, -1.0):
         mirror = np.array([1.0, side, 1.0])
         lines = [upper[:7] * mirror, np.array([lower[7], upper[7]]) * mirror, upper[8:] * mirror, rail * mirror]
         for line in lines:
             looks.tube(*((chassis, point) for point in line), radius=0.019 / looks.scale, **ACCENT)
-        _details(looks, shell, side, (*LAMPS, *TRIM))
+        _details(looks, shell, side, (*LAMPS, *TRIM, (place, 1.06, height, (0.10, 0.16, 0.10), ACCENT)))
 
 
 def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:

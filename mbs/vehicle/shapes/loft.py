@@ -43,12 +43,11 @@ def loft(sections: Sequence[Positions], *, ends: bool = False) -> tuple[Position
     return np.vstack(positions), np.array(triangles)
 
 
-def interpolated(table: Sequence[tuple[float, ...]], at: NDArray[np.float64]) -> NDArray[np.float64]:
+def interpolated(table: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
     """Columns of a table at values of its first one, by cubics without overshoot, shape (n, columns - 1).
 
     `table`: rows, the first number rising; `at`: values of the first column, shape (n,).
     """
     from scipy.interpolate import PchipInterpolator
 
-    rows = np.array(table, float)
-    return np.asarray(PchipInterpolator(rows[:, 0], rows[:, 1:], axis=0)(np.clip(at, rows[0, 0], rows[-1, 0])))
+    return np.asarray(PchipInterpolator(table[:, 0], table[:, 1:], axis=0)(np.clip(at, table[0, 0], table[-1, 0])))

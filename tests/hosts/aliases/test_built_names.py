@@ -13,14 +13,17 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.task import Task, do
 from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
+from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 from hosts.run.command import main as run
 from hosts.view.recorded import read_table
 from hosts.view.view_sources import RunWishes, recordings_of
+from tests.hosts.plant.conftest import Made
 
 NAMES = (
     *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
@@ -58,6 +61,45 @@ def test_a_car_under_other_names_is_driven_through_its_alias_file(
     assert np.ptp(one["chassis.yaw"]) > 0.3
     for name in NAMES:
         assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * np.max(np.abs(one[name]))), name
+
+
+def ported_fmu(made_once: Made, names: str | None) -> Path:
+    """The rigid prototype with ports, under the names of another program or ours."""
+    options = ("--car", "prototype", "--fidelity", "0", "--ports", "torque,brakes,road,forces")
+    options += () if names is None else ("--names", names)
+    return next(made_once(f"ported_{names}", lambda folder: build_fmu("a car", options, folder)).glob("*.fmu"))
+
+
+def ported(fmu: Path, names: str | None) -> Result:
+    """Every port takes part."""
+    aliases = Aliases() if names is None else find_aliases(names, Variables(described(fmu)))
+    time = np.linspace(0.0, 2.0, 201)
+    inputs = {"steering": 0.2 * np.sin(2.0 * time), "point_reference.Fy": 400.0 * np.sin(5.0 * time)}
+    for k, w in enumerate(("FL", "FR", "RL", "RR")):
+        inputs |= {
+            f"wheel_{w}.drive_torque": 80.0 * np.sin(3.0 * time + k),
+            f"wheel_{w}.brake_torque_demand": 100.0 * np.maximum(time - 1.5, 0.0),
+            f"wheel_{w}.road_height": 0.01 * (1.0 - np.cos(4.0 * time + k)),
+        }
+    turn = Manoeuvre("turn", time=time, inputs=inputs, start={"initial.speed": 12.0}, stop_time=2.0)
+    return TestedCar("a car", fmu, aliases, step=0.01).drive(turn)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("names", ["carmaker", "chrono"])
+def test_all_outputs_of_a_car_with_ports_are_the_same_under_other_names(names: str, made_once: Made) -> None:
+    one, theirs = ported(ported_fmu(made_once, None), None), ported_fmu(made_once, names)
+    two = ported(theirs, names)
+    assert two.failed_steps == one.failed_steps == 0
+    assert set(one.names) <= set(two.names)
+    moved = 0
+    for name in one.names:
+        if name.startswith("solver."):  # round-off itself, or near it
+            continue
+        scale = np.max(np.abs(one[name]))
+        moved += np.ptp(one[name]) > 1e-3 * scale
+        assert two[name] == pytest.approx(one[name], rel=1e-7, abs=1e-9 * scale), name
+    assert moved > 150
 
 
 @pytest.mark.slow

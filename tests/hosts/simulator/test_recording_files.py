@@ -86,7 +86,7 @@ def test_what_is_held_is_written_after_two_seconds(tmp_path: Path, monkeypatch: 
 
 def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
     values = [[0.1, -0.0, np.nan], [5e-324, np.inf, 1.0 / 3.0], [1e300, -1e-17, 2.0**53 + 2.0]]
-    meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
+    meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.1, "start": {}}
     for table in ("parquet", "csv"):
         with Recorder(tmp_path / table, ["u", "a", "b"], {"a": "m"}, meta, table) as recorder:
             for k, row in enumerate(values):
@@ -163,6 +163,8 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
     assert "does not say the columns" in refused(columns=None)
     assert "does not say by 'every' how many steps lie between two values" in refused(every=[0, 1])
     assert "does not say by 'every' and 'left_out' what of the columns is recorded" in refused(every=[1])
+    for wrong in (0.02, 0.0, -0.01, float("nan"), float("inf")):
+        assert f"says a step of {wrong:g} s; after step 0 it is 0.01 s in the rows" in refused(step=wrong)
     assert "is of another recording: it has " in refused(columns=["steering"], every=[1])
     assert "was recorded from gone.fmu, which is not there any more; name the FMU" in refused(fmu="gone.fmu")
     assert "lacks variables of the recording" in refused(columns=["x", *meta["columns"][1:]])

@@ -264,6 +264,8 @@ def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
     record = json.loads((tmp_path / "out" / f"{name}.json").read_text(encoding="utf-8"))
     assert record["roads"][0]["kind"] in ("flat", "profile", "grid")
     assert record["places"][0]["x"] == 0.0
+    if name == "split":  # a level strip of frictions, whose border goes on: no driver is outside of what is drawn
+        assert record["bounds"] == pytest.approx([-50.0, -10.05, 950.0, 10.05])
 
 
 def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):

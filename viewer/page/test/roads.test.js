@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { roadHeight } from "../src/looks/road_height.js";
-import { kept, strip, surfaces, wetness } from "../src/looks/roads.js";
+import { between, divided, kept, strip, surfaces, wetness } from "../src/looks/roads.js";
 
 const KERB = { stations: [-0.5, 0.5], heights: [0, 0.1] };
 
@@ -54,4 +54,11 @@ test("lines of a grid between two equal neighbours are left out, its ends and ev
   const values = [1, 1, 1, 1, 2, 3, 3, 3, 1];
   assert.deepEqual(kept(values.length, (k) => values[k] === values[k + 1]), [0, 3, 4, 5, 7, 8]); // prettier-ignore
   assert.deepEqual(kept(2, () => true), [0, 1]); // prettier-ignore
+});
+
+test("cells of a grid are at most 20 m long, and lines between those of the grid lie straight between them", () => {
+  assert.deepEqual(divided([0, 1, 3], 25), [0, 0.5, 1, 1 + 2 / 3, 1 + 4 / 3, 3]);
+  assert.deepEqual(divided([0, 40, 41], 0.5), [0, 40, 41]);
+  const values = Float32Array.from([0, 10, 4, 18]); // prettier-ignore
+  assert.deepEqual([[0, 1], [0.5, 0], [0, 0.25], [0.5, 0.5], [1, 1]].map(([i, j]) => between(values, 2, i, j)), [10, 2, 2.5, 8, 18]); // prettier-ignore
 });

@@ -8,8 +8,8 @@ const LAST = SURFACES.length - 1;
 
 /**
  * Shares of the surfaces. Two have one channel, 128 + 127 for all of the one and half as much below 128 for all of the
- * other: the first and the last of SURFACES, the second and the last but one, ... Such two seldom lie side by side; there
- * the edge is hard. Halves of both, as mipmaps have them, are then not the 128 of neither.
+ * other: the first and the last of SURFACES, the second and the last but one, ... Such two seldom lie side by side; halves
+ * of both, as mipmaps have them, are then not the 128 of neither.
  * @param {import("./heights.js").SurfaceRaster} raster
  * @param {number} [most] points a side
  * @returns {{width: number, height: number, factor: number, pixels: Uint8Array}} rows along x; factor: averaged points

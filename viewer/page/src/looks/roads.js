@@ -13,6 +13,8 @@ const EDGES = [-ENDLESS, -320, -80, -20, 20, 80, 320, ENDLESS];
 const STEP = 10;
 /** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
 const PIECE = 64;
+/** Metres that a cell of a grid is long at most: the depth of longer needles is off, and they lie over cars. */
+const LONGEST = 20;
 
 /**
  * @param {Data} scene
@@ -190,6 +192,24 @@ export function kept(n, same) {
   return [...Array(n).keys()].filter((k) => k === 0 || k === n - 1 || !(equal[k - 1] && equal[k]));
 }
 
+/** Lines that are no farther apart than `LONGEST`: some lie between those of the grid. @param {number[]} lines @param {number} spacing m */
+export const divided = (lines, spacing) =>
+  lines.flatMap((k, at) => {
+    const way = (lines[at + 1] ?? k) - k;
+    const parts = Math.max(1, Math.ceil((way * spacing) / LONGEST));
+    return Array.from({ length: parts }, (_, part) => k + (way * part) / parts);
+  });
+
+/** A value on lines of a grid, or straight between two along x or y. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
+export function between(values, ny, i, j) {
+  const [a, b] = [Math.floor(i), Math.floor(j)];
+  const along = (/** @type {number} */ column) => {
+    const low = values[a * ny + column];
+    return i === a ? low : low + (i - a) * (values[(a + 1) * ny + column] - low);
+  };
+  return j === b ? along(b) : along(b) + (j - b) * (along(b + 1) - along(b));
+}
+
 /** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */
 function grid(road, { up, road: material, grass }) {
   const [nx, ny] = road.shape;
@@ -200,17 +220,17 @@ function grid(road, { up, road: material, grass }) {
   const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
   const pieces = [];
   const same = (/** @type {number} */ a, /** @type {number} */ b) => heights[a] === heights[b] && frictions?.[a] === frictions?.[b];
-  const along = kept(nx, (k) => within(ny, (j) => same(k * ny + j, (k + 1) * ny + j)));
-  const aside = kept(ny, (k) => within(nx, (i) => same(i * ny + k, i * ny + k + 1)));
+  const along = divided(kept(nx, (k) => within(ny, (j) => same(k * ny + j, (k + 1) * ny + j))), dx);
+  const aside = divided(kept(ny, (k) => within(nx, (i) => same(i * ny + k, i * ny + k + 1))), dy);
   for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
     for (let j0 = 0; j0 < aside.length - 1; j0 += PIECE) {
       const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, aside.length - 1)];
       const [positions, wets, triangles] = [[], [], []];
       for (let i = i0; i <= i1; i++) {
         for (let j = j0; j <= j1; j++) {
-          const at = along[i] * ny + aside[j];
-          positions.push(...world((along[i] - along[i0]) * dx, (aside[j] - aside[j0]) * dy, heights[at]));
-          wets.push(frictions === null ? 0 : wetness(frictions[at]));
+          const value = (/** @type {Float32Array} */ values) => between(values, ny, along[i], aside[j]);
+          positions.push(...world((along[i] - along[i0]) * dx, (aside[j] - aside[j0]) * dy, value(heights)));
+          wets.push(frictions === null ? 0 : wetness(value(frictions)));
         }
       }
       const row = j1 - j0 + 1;

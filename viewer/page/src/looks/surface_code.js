@@ -39,11 +39,13 @@ float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * ove
 `;
 
 /**
- * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them.
+ * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them:
+ * two that share a channel are halves at a quarter, and there the one goes over into the other as channels do.
  * Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
  * @param {string} at @param {string} sharper
  */
 const sharesAt = (at, sharper) => `vec4 code = (texture2D(aShares, ${at}, ${sharper}) * 255.0 - 128.0) / 127.0;
+vec4 upper = smoothstep(0.1, 0.4, code);
 code = min(code, 2.0 * code);`;
 
 /** Place in the picture of the shares. */
@@ -63,19 +65,15 @@ ${sharesAt("at", "-2.0")}
 #else
 ${sharesAt("at", "-0.5")}
 #endif
-vec4 first = max(vec4(code.yzw, -code.w), 0.0);
-vec3 second = max(-code.zyx, 0.0);
-float rest = max(code.x, 0.0);
 float ragged = 0.7 * some.g + 0.3 * near.r - 0.5;
-first.x *= 1.0 + 0.9 * ragged;
-first.z *= 1.0 - 0.9 * ragged;
-first *= first; first *= first; first *= first;
-second.z *= 1.0 + 0.7 * ragged;
-second *= second; second *= second; second *= second;
-rest *= rest; rest *= rest; rest *= rest;
-rest += 1e-30;
-float total = rest + dot(first, vec4(1.0)) + dot(second, vec3(1.0));
-first /= total; second /= total; rest /= total;
+code *= 1.0 + ragged * mix(vec4(0.7, 0.0, 0.0, 0.0), vec4(0.0, 0.9, 0.0, -0.9), upper);
+code *= code; code *= code; code *= code;
+code.x += 1e-30;
+code /= dot(code, vec4(1.0));
+vec4 lower = code - code * upper;
+vec4 first = vec4((code - lower).yzw, lower.w);
+vec3 second = lower.zyx;
+float rest = code.x - lower.x;
 `;
 
 /** Linear colours of all surfaces, mixed by their shares. */
@@ -128,7 +126,7 @@ ${sharesAt("vShares", "-2.0")}
 vec4 both = code * code;
 both *= both; both *= both;
 both.x += 1e-30;
-vec4 ones = both * step(0.0, code);
+vec4 ones = both * upper;
 vec4 others = both - ones;
 #ifdef A_PAINTED
 diffuseColor.rgb *= 0.72 + 0.3 * grain;

@@ -58,8 +58,12 @@ export class WorldPlan {
 
   /** What does not change. @param {CanvasRenderingContext2D} context - Whose units are metres, x to the right, y up. @param {number} pixel - m. */
   drawGround(context, pixel) {
+    const [x0, y0, x1, y1] = this.bounds;
     for (const { image, box } of this.pictures) {
       context.save();
+      context.beginPath();
+      context.rect(x0, y0, x1 - x0, y1 - y0); // not the halves of cells beyond the outer points
+      context.clip();
       context.translate(box[0], box[3]);
       context.scale((box[2] - box[0]) / image.width, -(box[3] - box[1]) / image.height);
       context.drawImage(image, 0, 0);
@@ -74,7 +78,6 @@ export class WorldPlan {
     }
     context.strokeStyle = "#e8eef4";
     context.lineWidth = 1.5 * pixel;
-    const [x0, y0, x1, y1] = this.bounds;
     context.strokeRect(x0, y0, x1 - x0, y1 - y0);
   }
 

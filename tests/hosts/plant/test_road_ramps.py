@@ -1,0 +1,34 @@
+"""Answers on the road for the end of a step: within the step the FMU goes there from the last ones (decision 240)."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.vehicle.road_leads import loads_of_fmu
+from tests.vehicle.test_road_port import Waves
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("waves", "speed"),
+    [
+        (Waves("hatchback", 2.0, 0.015), 40.0),
+        (Waves("hatchback", 2.0, 0.015), 25.0),
+        (Waves("prototype", 5.0, 0.04), 40.0),
+        (Waves("prototype", 1.0, 0.004), 10.0),
+    ],
+)
+def test_loads_are_those_of_the_closed_car_to_a_fifth_of_a_per_cent_up_to_40_m_s(waves: Waves, speed: float) -> None:
+    """The first was 1.5 % off where each answer held over its step."""
+    load, told = loads_of_fmu(waves, speed)
+    assert load < 2.1e-3
+    assert not told
+
+
+@pytest.mark.slow
+def test_answers_for_the_wheel_hold_over_their_step_and_are_told() -> None:
+    """They come from no place ahead: from the last one to them would be late by a step, 5.4 % off."""
+    load, told = loads_of_fmu(Waves("hatchback", 2.0, 0.015), 40.0, lead=0.0)
+    assert 0.03 < load < 0.045
+    assert all("holds for 0.0 steps ahead of its wheel" in text for text in told)
+    assert len(told) == 4
