@@ -100,6 +100,7 @@ typedef struct {
 typedef struct {
   ali3_term term;
   int32_t row, guide, power;
+  int32_t pairs; /* terms from this one on of its row and guide with power 1 and two coordinates each */
 } ali3_guide_term;
 
 typedef struct { /* of an element, outputs that are forces of a contact or a stop */

@@ -106,7 +106,7 @@ ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int3
   ali3_rows_transposed(S, in->J_tangent, mu, in->w);
   ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(balance) + c * ALI3_AT(w)))
   ali3_solve(in, in->F, x);
-  if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
+  if (!ali3_finite_inlined(x, nq)) return ALI3_NOT_FINITE;
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, true);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->J_tangent, x, in->gamma);

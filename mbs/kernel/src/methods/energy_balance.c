@@ -70,8 +70,8 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
 }
 
 /* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
-ALI3_INLINED void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a, const double *v1,
-                            double out[3]) {
+ALI3_INLINED void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a,
+                                  const double *v1, double out[3]) {
   const double *m = in->mass_floor;
   const int32_t nq = in->system->size.nq;
   ali3_four speed = {0}, change = {0}, miss = {0};

@@ -54,7 +54,8 @@ ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h) 
 ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, int32_t n, double h), (in, n, h))
 
 /* Sum of the n vectors of a length with these weights. */
-ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight, int32_t n) {
+ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,
+                               int32_t n) {
   const real w = weight[0];
   ALI3_EACH(0, length, ALI3_AT(to) = w * ALI3_AT(from))
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(to, from + k * length, weight[k], length);
@@ -70,5 +71,5 @@ ALI3_INLINED void extrapolate(const ali3_instance *in, double when, int32_t n, r
   weighted_sum(lam, v->past_lam, nc, weight, n);
 }
 
-ALI3_BY_PROCESSOR(in->system, void, extrapolate,
-                  (const ali3_instance *in, double when, int32_t n, real *a, real *lam), (in, when, n, a, lam))
+ALI3_BY_PROCESSOR(in->system, void, extrapolate, (const ali3_instance *in, double when, int32_t n, real *a, real *lam),
+                  (in, when, n, a, lam))

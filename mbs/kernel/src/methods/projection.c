@@ -9,7 +9,7 @@
 /* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v, or below `known`;
  * their sum, of the size *violation, stays in in->mu. */
 ALI3_INLINED truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
-                         real *violation) {
+                               real *violation) {
   const ali3_system *S = in->system;
   ali3_add(in->mu, b, S->size.nc);
   *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);

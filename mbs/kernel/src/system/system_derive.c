@@ -115,6 +115,12 @@ static void derive_rows(ali3_system *s) {
                                .power = s->gterm_power[t]};
     s->gterm[t] = g;
   }
+  for (int64_t t = s->n_gterm_row - 1; t >= 0; t--) {
+    ali3_guide_term *g = s->gterm + t;
+    if (g->power != 1 || g->term.b < 0) continue;
+    const bool follows = t + 1 < s->n_gterm_row && g[1].row == g->row && g[1].guide == g->guide;
+    g->pairs = follows ? g[1].pairs + 1 : 1;
+  }
   for (int32_t k = 0; k < s->size.nc; k++) {
     bool driven = false;
     for (int64_t t = 0; t < s->n_gterm_row; t++) driven |= s->gterm_row[t] == k;
