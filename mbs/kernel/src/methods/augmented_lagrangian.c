@@ -165,7 +165,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
 ALI3_BY_PROCESSOR(in->system, ali3_status, newton, (ali3_instance * in, double h, double alpha), (in, h, alpha))
 
 /* Trapezoidal rule (17), (18). */
-static void trapezoidal(ali3_instance *in, double h) {
+ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
   in->rule = rule;
   const double *qd = in->now.qd, *qdd = in->now.qdd;
@@ -174,7 +174,7 @@ static void trapezoidal(ali3_instance *in, double h) {
 }
 
 /* Also of generalised-alpha. */
-static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
+ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
@@ -241,9 +241,11 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   return ali3_accept(in);
 }
 
+ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, double t, double h), (in, t, h))
+
 static bool projects(const ali3_instance *in) { return in->settings.project; }
 
-const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
+const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
                                        .has_guides_work = projects,
@@ -251,7 +253,7 @@ const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
 
-const ali3_method ali3_method_generalised_alpha = {.step = augmented_lagrangian,
+const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagrangian,
                                                    .motion = ali3_balance_step,
                                                    .has_balance = projects,
                                                    .has_guides_work = projects,
