@@ -328,19 +328,20 @@ ALI3_INLINED void add_four(real *restrict target, const real *restrict a, const 
     target[i] = (((target[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
 }
 
-/* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
- * entry is in hand. */
-ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block,
+/* Weight J' J of four rows with the same stretch: in columns of the stretch one after the other while an entry is in
+ * hand. */
+ALI3_INLINED void square_of_four(const ali3_system *S, const int32_t *rows, const real *J, double weight, real *block,
                                  int64_t n) {
-  const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, length = ptr[k + 1] - first[k];
-  for (int32_t row = k; row < k + 4; row++)
-    for (int32_t j = ptr[row]; j < first[row]; j++) {
+  const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, k = rows[0];
+  const int32_t length = ptr[k + 1] - first[k];
+  for (const int32_t *at = rows; at < rows + 4; at++)
+    for (int32_t row = *at, j = ptr[row]; j < first[row]; j++) {
       real *restrict column = block + (int64_t)loc[j] * n;
       const real factor = weight * J[j];
       for (int32_t i = j; i < first[row]; i++) column[loc[i]] += factor * J[i];
       ali3_add_multiple(column + loc[first[row]], J + first[row], factor, length);
     }
-  const real *a = J + first[k], *b = J + first[k + 1], *c = J + first[k + 2], *d = J + first[k + 3];
+  const real *a = J + first[k], *b = J + first[rows[1]], *c = J + first[rows[2]], *d = J + first[rows[3]];
   for (int64_t j = 0; j < length; j++) {
     const real factor[4] = {weight * a[j], weight * b[j], weight * c[j], weight * d[j]};
     int64_t from = j < 3 ? j : ali3_by_fours_below(j, length);
@@ -350,18 +351,19 @@ ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J,
   }
 }
 
-/* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
+/* F += weight * J' J, front by front and row by row; a wide row is spread over its front so that columns are
  * contiguous. */
 ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *loc = S->row_loc;
   real *restrict spread = in->local;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
+  for (int32_t at = 0; at < S->size.nc; at++) {
+    const int32_t k = S->front_row[at], f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f],
+                  end = ptr[k + 1];
     real *block = F + S->front_off[f];
-    if (S->row_alike[k] >= 4) {
-      square_of_four(S, k, J, weight, block, n);
-      k += 3;
+    if (S->row_alike[at] >= 4) {
+      square_of_four(S, S->front_row + at, J, weight, block, n);
+      at += 3;
       continue;
     }
     if (S->row_triples[k]) {
