@@ -30,105 +30,77 @@ static inline real guide_second_rate(const ali3_guide_term *g, const ali3_vector
   return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
 }
 
-/* Terms of one guide and row with two coordinates each, from g on; these four return the last of them. */
-static inline const ali3_guide_term *pairs_values(const ali3_guide_term *g, const real *q, const real *s, real *Phi,
-                                                  real *J) {
-  const ali3_guide_term *const last = g + g->pairs - 1;
-  const real v = s[g->guide];
-  real value = Phi[g->row];
-  ALI3_SHORT
-  for (; g <= last; g++) {
-    const real qa = q[g->term.a], qb = q[g->term.b], w = g->term.h * v;
-    value += w * qa * qb;
-    J[g->term.ja] += w * qb;
-    J[g->term.jb] += w * qa;
-  }
-  Phi[last->row] = value;
-  return last;
+/* What a term adds to gamma, with w and its two rates. */
+static inline real guide_bend(real qa, real qb, real va, real vb, real w, real wd, real wdd) {
+  return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
 }
 
-static inline const ali3_guide_term *pairs_rate(const ali3_guide_term *g, const real *q, const real *sd, real *Phit) {
-  const ali3_guide_term *const last = g + g->pairs - 1;
-  const real vd = sd[g->guide];
-  real value = Phit[g->row];
-  ALI3_SHORT
-  for (; g <= last; g++) value += g->term.h * vd * q[g->term.a] * q[g->term.b];
-  Phit[last->row] = value;
-  return last;
-}
-
-static inline const ali3_guide_term *pairs_gamma(const ali3_guide_term *g, const real *q, const real *qd,
-                                                 const ali3_vectors *x, real *gamma) {
-  const ali3_guide_term *const last = g + g->pairs - 1;
-  const real v = x->s[g->guide], vd = x->sd[g->guide], vdd = x->sdd[g->guide];
-  real value = gamma[g->row];
-  ALI3_SHORT
-  for (; g <= last; g++) {
-    const real qa = q[g->term.a], qb = q[g->term.b], va = qd[g->term.a], vb = qd[g->term.b];
-    const real w = g->term.h * v, wd = g->term.h * vd, wdd = g->term.h * vdd;
-    value += wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
-  }
-  gamma[last->row] = value;
-  return last;
-}
-
-/* factor: of the second derivatives */
-static inline const ali3_guide_term *pairs_geometric(const ali3_guide_term *g, real factor, const real *s, real *F) {
-  const ali3_guide_term *const last = g + g->pairs - 1;
-  const real v = s[g->guide];
-  ALI3_SHORT
-  for (; g <= last; g++) F[g->term.pos] += factor * (g->term.h * v) * (g->term.a == g->term.b ? 2.0 : 1.0);
-  return last;
-}
-
-/* Phi += w q_a q_b, and Phi_q. */
+/* Phi += w q_a q_b, and Phi_q. Here and below terms with two coordinates each, of one guide and row, are a loop. */
 static inline void guide_values(const ali3_system *S, const real *q, const real *s, real *Phi, real *J) {
-  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
-    if (g->pairs > 0) {
-      g = pairs_values(g, q, s, Phi, J);
-      continue;
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
+    const ali3_guide_term *const end = g + g->pairs;
+    const int32_t row = g->row;
+    const real v = s[g->guide];
+    real value = Phi[row];
+    if (g == end) {
+      const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b), w = guide_factor(g, s);
+      value += w * qa * qb;
+      if (g->term.a >= 0) J[g->term.ja] += w * qb;
+      if (g->term.b >= 0) J[g->term.jb] += w * qa;
+      g++;
     }
-    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
-    const real w = guide_factor(g, s);
-    Phi[g->row] += w * qa * qb;
-    if (g->term.a >= 0) J[g->term.ja] += w * qb;
-    if (g->term.b >= 0) J[g->term.jb] += w * qa;
+    ALI3_SHORT
+    for (; g < end; g++) {
+      const real qa = q[g->term.a], qb = q[g->term.b], w = g->term.h * v;
+      value += w * qa * qb;
+      J[g->term.ja] += w * qb;
+      J[g->term.jb] += w * qa;
+    }
+    Phi[row] = value;
   }
 }
 
 /* Phit += w' q_a q_b */
 static inline void guide_rates(const ali3_system *S, const real *q, const ali3_vectors *guides, real *Phit) {
-  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
-    if (g->pairs > 0) {
-      g = pairs_rate(g, q, guides->sd, Phit);
-      continue;
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
+    const ali3_guide_term *const end = g + g->pairs;
+    const int32_t row = g->row;
+    const real vd = guides->sd[g->guide];
+    real value = Phit[row];
+    if (g == end) {
+      value += guide_rate(g, guides) * value_of(q, g->term.a) * value_of(q, g->term.b);
+      g++;
     }
-    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
-    Phit[g->row] += guide_rate(g, guides) * qa * qb;
+    ALI3_SHORT
+    for (; g < end; g++) value += g->term.h * vd * q[g->term.a] * q[g->term.b];
+    Phit[row] = value;
   }
 }
 
 static inline void guide_gamma(const ali3_system *S, const real *q, const real *qd, const ali3_vectors *guides,
                                real *gamma) {
-  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
-    if (g->pairs > 0) {
-      g = pairs_gamma(g, q, qd, guides, gamma);
-      continue;
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
+    const ali3_guide_term *const end = g + g->pairs;
+    const int32_t row = g->row;
+    const real v = guides->s[g->guide], vd = guides->sd[g->guide], vdd = guides->sdd[g->guide];
+    real value = gamma[row];
+    if (g == end) {
+      value +=
+          guide_bend(value_of(q, g->term.a), value_of(q, g->term.b), rate_of(qd, g->term.a), rate_of(qd, g->term.b),
+                     guide_factor(g, guides->s), guide_rate(g, guides), guide_second_rate(g, guides));
+      g++;
     }
-    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
-    const real va = rate_of(qd, g->term.a), vb = rate_of(qd, g->term.b);
-    const real w = guide_factor(g, guides->s), wd = guide_rate(g, guides), wdd = guide_second_rate(g, guides);
-    gamma[g->row] += wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
+    ALI3_SHORT
+    for (; g < end; g++)
+      value += guide_bend(q[g->term.a], q[g->term.b], qd[g->term.a], qd[g->term.b], g->term.h * v, g->term.h * vd,
+                          g->term.h * vdd);
+    gamma[row] = value;
   }
 }
 
 /* F += weight * lam w of each, twice where a and b are the same. */
 static inline void guide_geometric(const ali3_system *S, const real *s, const real *lam, double weight, real *F) {
   for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
-    if (g->pairs > 0) {
-      g = pairs_geometric(g, weight * lam[g->row], s, F);
-      continue;
-    }
     if (g->term.pos < 0) continue;
     F[g->term.pos] += weight * lam[g->row] * guide_factor(g, s) * (g->term.a == g->term.b ? 2.0 : 1.0);
   }
