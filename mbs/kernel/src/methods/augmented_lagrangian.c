@@ -199,7 +199,6 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
     status = ali3_newton(in, h, alpha);
   }
   if (status != ALI3_OK) return status;
-  ali3_forces_watch(in);
   const double *D = in->D, *d0 = in->d0;
   double *qdd = to->qdd;
   ALI3_EACH(0, nq, ALI3_AT(qdd) = (ALI3_AT(D) - ALI3_AT(d0)) / c)
