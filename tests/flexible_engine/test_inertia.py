@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from mbs import compile
 from mbs.model import Model
+from mbs.simulation.evaluator import Evaluator
 from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import cloud
 
@@ -200,3 +201,29 @@ def test_tangent_carries_stiffness_damping_and_weight(body: Literal) -> None:
     expected[3:12, 12:] += hang
     expected[12:, 3:12] += hang.T
     assert np.max(np.abs(dense - expected)) < ROUND_OFF * np.max(np.abs(expected))
+
+
+def test_rows_with_the_same_modes_are_squared_whole() -> None:
+    """c alpha J' J of rods that hang at two points each; rows of a front do not follow each other."""
+    m = Model("net")
+    cloudy = m.flexible_body("cloud", cloud(9, 12))
+    points = cloudy.node_positions
+    rods = [
+        m.body(f"rod {k}", mass=1.0, com=0.5 * (points[k] + points[k + 4]), inertia=np.diag((0.1, 0.12, 0.05)))
+        for k in range(1, 5)
+    ]
+    for first in (1, 5):
+        for k, rod in enumerate(rods):
+            m.spherical(f"ball {first + k}", cloudy, rod, point=points[first + k])
+    system = compile(m)
+    rows, front = system.arrays["row_ptr"], np.array(system.arrays["row_front"])
+    wide = front[np.diff(rows) > 12].tolist()
+    assert wide[:3] == wide[12:15] != wide[3:6]
+    simulation, n, h = Simulation(system), system.nq, 1e-2
+    instance, J = simulation.instance, Evaluator(simulation).jacobian(simulation.state.q)
+    tangents = []
+    for alpha in (1e11, 3e11):
+        instance.set_settings(alpha=alpha)
+        tangents.append(np.reshape(instance.tangent(h), (n, n)))
+    found = (tangents[1] - tangents[0]) / (0.25 * h * h * 2e11)
+    np.testing.assert_allclose(found, J.T @ J, atol=1e-12 * np.max(np.abs(J.T @ J)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 
 from benchmarks.methods.honesty_scenes import printed_model
@@ -11,7 +12,7 @@ from benchmarks.references.cases import system_of
 from mbs import Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import FARTHEST, KernelError, LoadedSystem, Status, open_row
 from mbs.kernel.binding.instance import Instance
-from mbs.scenes import cart_pole, prototype_car
+from mbs.scenes import cart_pole, prototype_car, spatial_chain
 
 DAMPING = 5000.0  # 1/s, of 1 kg
 
@@ -103,6 +104,19 @@ def test_a_start_beyond_the_digits_is_refused_as_that(pose):
 
 def test_a_start_just_within_them_is_not():
     Simulation(compile(prototype_car.build()), pose=Pose(x=0.9 * FARTHEST))
+
+
+def test_of_many_rows_the_one_that_is_open_most_is_told():
+    system = compile(spatial_chain.build())
+    simulation = Simulation(system)
+    found = set()
+    for _ in range(5):
+        simulation.step(0.01)
+        state, report = simulation.state, simulation.instance.report()
+        rows = np.abs(simulation.instance.evaluate(state.q, state.qd)["phi"]) * system.arrays["row_measure"]
+        assert (report["worst_row"], report["violation"]) == (np.argmax(rows), np.max(rows))
+        found.add(report["worst_row"])
+    assert len(found) > 1
 
 
 def test_a_closed_row_is_not_the_reason():

@@ -54,6 +54,7 @@ struct ali3_instance {
   ali3_report report_before; /* of the step that branch_watch.c may repeat */
   double t_base, h_last; /* time = t_base + count * h_last */
   bool may_divide; /* the present step is halved where a force changes abruptly in it */
+  double changed; /* largest change of a judged force in the step, of ali3_divides; below 0: not known */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count, iterations_before; /* of steps of h_last, and report.iterations where the present step began */
   int64_t iterations_end; /* report.iterations where the present part must end, with a limit of the step's */

@@ -100,6 +100,7 @@ typedef struct {
 typedef struct {
   ali3_term term;
   int32_t row, guide, power;
+  int32_t pairs; /* terms from this one on of its row and guide with power 1 and two coordinates each */
 } ali3_guide_term;
 
 typedef struct { /* of an element, outputs that are forces of a contact or a stop */
@@ -160,7 +161,8 @@ struct ali3_system {
   double *single_val; /* as row_col: its factor, or 0 */
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
                         side; else the end of its terms */
-  int32_t *row_alike; /* nc: rows from this one on with the same stretch in the same front; 0: no stretch */
+  int32_t *front_row; /* nc: rows front by front */
+  int32_t *row_alike; /* as front_row: rows from this one on with the same stretch in the same front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_pos; /* as quad: its place in front storage */
   double *quad_second; /* as quad: the second derivative of the term, h or, of a square, 2 h */

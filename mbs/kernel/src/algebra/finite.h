@@ -4,16 +4,24 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Of products with 0, which are 0 for finite numbers and NaN else, eight sums, so that additions need not wait for each
- * other. */
+#include "stretch.h"
+
+/* Products that begin with 0 stay 0 with finite numbers and become NaN with others; four, so that they need not wait for
+ * each other. */
 static inline __attribute__((always_inline)) bool ali3_finite_inlined(const double *v, int64_t n) {
-  double sum[8] = {0.0};
+  ali3_four a = {0}, b = {0}, c = {0}, d = {0};
   int64_t i = 0;
-  for (; i + 8 <= n; i += 8)
-    for (int k = 0; k < 8; k++) sum[k] += 0.0 * v[i + k];
-  for (; i < n; i++) sum[0] += 0.0 * v[i];
-  for (int k = 1; k < 8; k++) sum[0] += sum[k];
-  return sum[0] == 0.0;
+  ALI3_SHORT
+  for (; i + 16 <= n; i += 16) {
+    const ali3_four *x = (const ali3_four *)(v + i);
+    a *= x[0], b *= x[1], c *= x[2], d *= x[3];
+  }
+  a += (b + c) + d;
+  ALI3_SHORT
+  for (; i + 4 <= n; i += 4) a *= *(const ali3_four *)(v + i);
+  double rest = (a[0] + a[1]) + (a[2] + a[3]);
+  for (; i < n; i++) rest *= v[i];
+  return rest == 0.0;
 }
 
 bool ali3_finite(const double *v, int64_t n);

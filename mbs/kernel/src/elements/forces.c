@@ -67,8 +67,8 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
   return evaluate(in, call, e, u, ud, f, tangent, &a);
 }
 
-/* Power and forces on their signals of the elements whose work a sensor asks for, at the last ali3_forces. */
-void ali3_forces_watch(ali3_instance *in) {
+/* Power and forces on their signals of the elements whose work a sensor asks for. */
+static void watch(ali3_instance *in) {
   const ali3_system *S = in->system;
   double *restrict force = in->watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
@@ -128,7 +128,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
     ali3_add_forces(in, in->element_force, Q);
   }
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
-  if (!call->iterate) ali3_forces_watch(in);
+  if (!call->iterate) watch(in);
 }
 
 /* The same with flexible and tabled bodies, their changing mass too. */

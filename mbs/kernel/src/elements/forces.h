@@ -7,11 +7,10 @@ typedef struct {
   const double *q, *qd, *y_old;
   double h, wC, wK, reach;
   bool tangent;
-  bool iterate; /* one of several: who goes on from the last of them calls ali3_forces_watch */
+  bool iterate; /* one of several: in->watched stays, the forces of the last are in in->element_force */
   double *Q, *y_new, *out, *potential;
 } ali3_force_call;
 void ali3_forces(ali3_instance *in, const ali3_force_call *call);
-void ali3_forces_watch(ali3_instance *in);
 void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call);
 void ali3_forces_tangent(ali3_instance *in, double *F);
 bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud,

@@ -72,7 +72,6 @@ static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   g->SB = items(g, pool, ali3_signal_work(S));
   g->element_force = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
   g->ways = items(g, pool, (size_t)S->n_work_force);
-  g->power = items(g, pool, (size_t)S->n_work);
   g->idle = items(g, pool, (size_t)z->ne);
 }
 
@@ -310,11 +309,10 @@ void ali3_group_to(const ali3_lane_group *g) {
     TAKE(g, in, in->next.potential + e, g->potential + e * g->width, end - e);
   }
   TAKE(g, in, in->next.step_way, g->ways, S->n_work_force);
-  TAKE(g, in, in->watched, g->power, S->n_work);
   for (int32_t k = 0, end; k < S->n_work; k = end) {
-    const int32_t first = S->el_sig_ptr[S->work_element[k]], way = S->n_work + S->work_ptr[k];
+    const int32_t first = S->el_sig_ptr[S->work_element[k]];
     for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1;) end++;
-    TAKE(g, in, in->watched + way, g->element_force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
+    TAKE(g, in, in->element_force + first, g->element_force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
   }
   for (int32_t l = 0; l < g->used; l++)
     if (g->good[l]) counts(g, l);

@@ -63,7 +63,7 @@ typedef struct ali3_lane_group {
   ali3_tabled_parameter_work *tabled_parameter;
   real *tabled_square, *extended[3], *extended_force;
   real *element_force;
-  real *ways, *power; /* of elements whose work is watched, see ../state/work.c */
+  real *ways; /* of elements whose work is watched, see ../state/work.c */
   real *flex, *flex_work, *flex_P, *flex_c; /* of flexible bodies; numbers of the System, the same in all lanes */
   real *stage, *S_tangent, *u_at; /* of defect_correction.c */
   ali3_mask *idle;

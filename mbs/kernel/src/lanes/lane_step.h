@@ -269,18 +269,6 @@ static void predict(ali3_lane_group *in) {
     in->D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->x[i], in->now.qdd[i]);
 }
 
-/* What sensors of work ask for, from the last forces of the elements. */
-static void watch(ali3_lane_group *in) {
-  const ali3_system *S = in->system;
-  ali3_work_ways(in, in->ways);
-  for (int32_t k = 0; k < S->n_work; k++) {
-    const int32_t e = S->work_element[k];
-    in->power[k] = ali3_same(0.0);
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++)
-      in->power[k] += in->element_force[i] * in->ud[S->el_sig[i]];
-  }
-}
-
 /* What balance_squares of methods/energy_balance.c sums, in its order. */
 static void speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
                           real out[3]) {
@@ -341,7 +329,7 @@ static void step(ali3_lane_group *in) {
   *in->weight = *in->gravity_const;
   for (int32_t i = 0; i < nq; i++) *in->weight -= in->gravity_force[i] * in->next.q[i];
   speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
-  watch(in);
+  ali3_work_ways(in, in->ways);
 }
 #endif
 #endif

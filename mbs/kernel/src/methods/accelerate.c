@@ -2,6 +2,7 @@
  * unsymmetric part (friction depends on the load), which costs a factor per iteration and mostly along one
  * direction. The last two corrections show that direction. Where Newton converges quadratically the corrections
  * shrink faster than SLOW and nothing is mixed. */
+#include "../algebra/processor.h"
 #include "../algebra/real.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
@@ -12,7 +13,7 @@ static const double LEAST = -100.0, MOST = 0.5; /* bounds of a mixing factor; -6
 
 /* in->x and in->lam hold the correction of D and of the multipliers; they become the step to take. `mixes`: where the
  * correction before this one tells of it. */
-void ali3_accelerate(ali3_instance *in, truth mixes) {
+ALI3_INLINED void accelerate(ali3_instance *in, truth mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   real present = {0}, last = {0}, change = {0}, along = {0}, theta = {0};
@@ -51,3 +52,5 @@ void ali3_accelerate(ali3_instance *in, truth mixes) {
     in->step_lam[k] = in->lam[k];
   }
 }
+
+ALI3_BY_PROCESSOR(in->system, void, accelerate, (ali3_instance * in, truth mixes), (in, mixes))

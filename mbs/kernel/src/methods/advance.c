@@ -36,6 +36,7 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   if (in->report.iterations - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
   in->halves_left = depth > 0 && depth < in->settings.max_halvings && !limited;
   in->may_divide = ali3_may_divide(in, depth);
+  in->changed = -1.0;
   in->iterations_end = iterations_end;
   const int64_t divisions = in->report.divisions;
   const ali3_status status = ali3_divides_ahead(in, h) ? ALI3_UNRESOLVED : by_method(in, t, h);

@@ -5,6 +5,7 @@
 
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../elements/forces.h"
 #include "../flexible/mass.h"
@@ -46,7 +47,7 @@ static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
 }
 
 /* Positions, rates, rows, forces and residual r = M (D - d0) + c (Phi_q' lam - Q) of (20) for the present D and lam. */
-static void evaluate(ali3_instance *in, double h, bool tangent) {
+ALI3_INLINED void evaluate(ali3_instance *in, double h, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const double c = in->rule.c, rate = in->rule.rate, *from = in->now.q, *D = in->D, *d0 = in->d0, *hat = in->hat;
@@ -63,7 +64,7 @@ static void evaluate(ali3_instance *in, double h, bool tangent) {
 }
 
 /* Judges the residual with the multipliers. */
-static bool judge(ali3_instance *in) {
+ALI3_INLINED bool judge(ali3_instance *in) {
   const double c = in->rule.c, *r = in->r;
   double *x = in->x;
   ali3_rows_transposed(in->system, in->J, in->next.lam, x);
@@ -92,7 +93,7 @@ static ali3_status tangent(ali3_instance *in, double alpha) {
 /* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->x then has
  * the judged residual. `mixes`: the correction before it tells of it. The Phi_q that the penalty multiplies is always
  * that of the tangent: the penalty would amplify what a later one has outside its range. */
-static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept, bool mixes) {
+ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept, bool mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
@@ -105,7 +106,7 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, int32_t it
   ali3_rows_transposed(S, in->J_tangent, mu, in->w);
   ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(balance) + c * ALI3_AT(w)))
   ali3_solve(in, in->F, x);
-  if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
+  if (!ali3_finite_inlined(x, nq)) return ALI3_NOT_FINITE;
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, true);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
     ali3_rows_times(S, in->J_tangent, x, in->gamma);
@@ -127,7 +128,7 @@ static ali3_status capped(ali3_instance *in) {
 }
 
 /* With a limit of a whole step the iterations go up to its part's share of them. */
-static ali3_status newton(ali3_instance *in, double h, double alpha) {
+ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
   const int64_t most = limited ? in->iterations_end - in->report.iterations : settings->max_iterations;
@@ -161,8 +162,10 @@ static ali3_status newton(ali3_instance *in, double h, double alpha) {
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
 
+ALI3_BY_PROCESSOR(in->system, ali3_status, newton, (ali3_instance * in, double h, double alpha), (in, h, alpha))
+
 /* Trapezoidal rule (17), (18). */
-static void trapezoidal(ali3_instance *in, double h) {
+ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
   in->rule = rule;
   const double *qd = in->now.qd, *qdd = in->now.qdd;
@@ -171,7 +174,7 @@ static void trapezoidal(ali3_instance *in, double h) {
 }
 
 /* Also of generalised-alpha. */
-static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
+ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
@@ -190,13 +193,12 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
-  status = newton(in, h, alpha);
+  status = ali3_newton(in, h, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
     ali3_predict(in, h, false);
-    status = newton(in, h, alpha);
+    status = ali3_newton(in, h, alpha);
   }
   if (status != ALI3_OK) return status;
-  ali3_forces_watch(in);
   const double *D = in->D, *d0 = in->d0;
   double *qdd = to->qdd;
   ALI3_EACH(0, nq, ALI3_AT(qdd) = (ALI3_AT(D) - ALI3_AT(d0)) / c)
@@ -238,9 +240,11 @@ static ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
   return ali3_accept(in);
 }
 
+ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, double t, double h), (in, t, h))
+
 static bool projects(const ali3_instance *in) { return in->settings.project; }
 
-const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
+const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
                                        .has_guides_work = projects,
@@ -248,7 +252,7 @@ const ali3_method ali3_method_ali3p = {.step = augmented_lagrangian,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
 
-const ali3_method ali3_method_generalised_alpha = {.step = augmented_lagrangian,
+const ali3_method ali3_method_generalised_alpha = {.step = ali3_augmented_lagrangian,
                                                    .motion = ali3_balance_step,
                                                    .has_balance = projects,
                                                    .has_guides_work = projects,

@@ -9,6 +9,7 @@
  * and together they cancel. Guides that follow an input begin to move within a step: the mean of Phi_t at both ends
  * would be wrong by half. Where one moves, lam0 is that before a jump of its acceleration, for which Newton's loop makes
  * up: there the force is the mean of lam0 and lam1 with what (24) adds, and the work of drives is that of this force. */
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
@@ -40,7 +41,7 @@ static truth follows(const ali3_instance *in) {
 /* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. The part
  * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. Leaves Phi_q v of the rates
  * in in->mu, with which (24) begins. */
-real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
+ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guides) {
   const ali3_system *S = in->system;
   real work = {0}, first = {0}, newton = {0};
   if (S->n_driven > 0) {
@@ -62,11 +63,13 @@ real ali3_constraint_work(ali3_instance *in, double h, real *guides) {
   return work - newton;
 }
 
+ALI3_BY_PROCESSOR(in->system, real, constraint_work, (ali3_instance * in, double h, real *guides), (in, h, guides))
+
 /* After the projections: the kinetic energy that (24) gave to the velocity rate D + hat, which is work of drives where
  * filtered guides move, less what the multipliers after (25) give to the work of drives. *kinetic is the kinetic energy
  * of the mean of the velocities before and after (24), *end that after it but for the square of what (24) changed, *open
  * the power of the forces that (25) leaves without balance now. */
-real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides) {
+ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides) {
   const ali3_vectors *v = &in->next;
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -93,9 +96,13 @@ real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *ope
   return ali3_where(filtered, -drive, given - drive);
 }
 
+ALI3_BY_PROCESSOR(in->system, real, projection_work,
+                  (ali3_instance * in, real *kinetic, real *end, real *open, real *guides),
+                  (in, kinetic, end, open, guides))
+
 /* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and
  * what the tolerance of the residual leaves open. */
-real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
+ALI3_INLINED real energy_size(const ali3_instance *in, double h, real kinetic) {
   const double left = 2.0 * in->settings.tolerance_r / h;
   const double rest = left * left, square = h * h;
   const real *Q = in->Q, *inverse = in->mass_floor_inverse, *m = in->mass_floor;
@@ -108,3 +115,5 @@ real ali3_energy_size(const ali3_instance *in, double h, real kinetic) {
   if (i < in->system->size.nq) even += square * Q[i] * Q[i] * inverse[i] + rest * m[i];
   return kinetic + 0.5 * (even + odd);
 }
+
+ALI3_BY_PROCESSOR(in->system, real, energy_size, (const ali3_instance *in, double h, real kinetic), (in, h, kinetic))

@@ -2,6 +2,7 @@
  * the simplest prediction. They do not influence the steps. */
 #include <math.h>
 
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
@@ -71,8 +72,8 @@ void ali3_balance_motion(ali3_instance *in, double h, double speed, double chang
 }
 
 /* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
-static void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a, const double *v1,
-                            double out[3]) {
+ALI3_INLINED void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a,
+                                  const double *v1, double out[3]) {
   const double *m = in->mass_floor;
   const int32_t nq = in->system->size.nq;
   ali3_four speed = {0}, change = {0}, miss = {0};
@@ -97,10 +98,15 @@ static void balance_squares(const ali3_instance *in, double h, const double *v0,
   }
 }
 
+ALI3_BY_PROCESSOR(in->system, void, balance_squares,
+                  (const ali3_instance *in, double h, const double *v0, const double *a, const double *v1,
+                   double out[3]),
+                  (in, h, v0, a, v1, out))
+
 /* After a step of natural coordinates from velocities v0 and accelerations a to velocities v1. */
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   double square[3];
-  balance_squares(in, h, v0, a, v1, square);
+  ali3_balance_squares(in, h, v0, a, v1, square);
   ali3_balance_motion(in, h, square[0], square[1], square[2]);
 }
 

@@ -296,7 +296,6 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   in->report.iterations += iterations;
   ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
-  ali3_forces_watch(in);
   const double twice = 2.0 / h, square = h * h, *D = in->D, *before = from->own;
   double *own = to->own, *d0 = in->d0;
   ALI3_EACH(0, nq, ALI3_AT(own) = twice * ALI3_AT(D) - ALI3_AT(before);

@@ -1,6 +1,7 @@
 /* Past steps go on: Lagrange's polynomial through what they were. */
 #include "extrapolation.h"
 
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
@@ -21,7 +22,7 @@ void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
 }
 
 /* in->w: the last mean acceleration without what the n steps before, with these weights, would have predicted. */
-void ali3_history_miss(const ali3_instance *in, int32_t n, const real *weight) {
+ALI3_INLINED void history_miss(const ali3_instance *in, int32_t n, const real *weight) {
   const int32_t nq = in->system->size.nq;
   const real *a = in->now.past_a, *before = a + nq, first = weight[0];
   real *miss = in->w;
@@ -29,8 +30,11 @@ void ali3_history_miss(const ali3_instance *in, int32_t n, const real *weight) {
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
 }
 
+ALI3_BY_PROCESSOR(in->system, void, history_miss, (const ali3_instance *in, int32_t n, const real *weight),
+                  (in, n, weight))
+
 /* Whether the n steps before the last would have predicted the last much better than assuming no change. */
-truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
+ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h) {
   const int32_t nq = in->system->size.nq;
   const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->w;
   real weight[ALI3_PAST], error = {0}, change = {0};
@@ -38,7 +42,7 @@ truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
       (history[ALI3_HISTORY_COUNT] > (double)n) & ((in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
-  ali3_history_miss(in, n, weight);
+  history_miss(in, n, weight);
   for (int32_t i = 0; i < nq; i++) {
     const real m = in->mass_floor[i], one = a[i] - a[nq + i];
     error += m * miss[i] * miss[i];
@@ -47,15 +51,18 @@ truth ali3_history_smooth(const ali3_instance *in, int32_t n, double h) {
   return near & (error < SMOOTH * SMOOTH * change);
 }
 
+ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, int32_t n, double h), (in, n, h))
+
 /* Sum of the n vectors of a length with these weights. */
-static void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight, int32_t n) {
+ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,
+                               int32_t n) {
   const real w = weight[0];
   ALI3_EACH(0, length, ALI3_AT(to) = w * ALI3_AT(from))
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(to, from + k * length, weight[k], length);
 }
 
 /* Acceleration a (nq) and multipliers (nc) at `when` from now, extrapolated from n > 0 past ones. */
-void ali3_extrapolate(const ali3_instance *in, double when, int32_t n, real *a, real *lam) {
+ALI3_INLINED void extrapolate(const ali3_instance *in, double when, int32_t n, real *a, real *lam) {
   const ali3_vectors *v = &in->now;
   const int32_t nq = in->system->size.nq, nc = in->system->size.nc;
   real weight[ALI3_PAST];
@@ -63,3 +70,6 @@ void ali3_extrapolate(const ali3_instance *in, double when, int32_t n, real *a, 
   weighted_sum(a, v->past_a, nq, weight, n);
   weighted_sum(lam, v->past_lam, nc, weight, n);
 }
+
+ALI3_BY_PROCESSOR(in->system, void, extrapolate, (const ali3_instance *in, double when, int32_t n, real *a, real *lam),
+                  (in, when, n, a, lam))

@@ -19,15 +19,7 @@ double ali3_penalty(const ali3_instance *in, double h) {
 /* The balance r (nq) and the rows in in->Phi go into the report. Returns false when something is not finite. */
 bool ali3_judge(ali3_instance *in, const double *r) {
   const ali3_system *S = in->system;
-  double largest = 0.0;
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    const double size = fabs(r[i]) * in->mass_floor_inverse[i];
-    if (!(size <= largest) && largest == largest) { /* a NaN stays */
-      largest = size;
-      in->report.worst_coordinate = i;
-    }
-  }
-  in->report.residual = largest;
+  in->report.residual = ali3_worst_size(S, r, in->mass_floor_inverse, S->size.nq, &in->report.worst_coordinate);
   in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
   return in->report.residual < 1e300 && in->report.violation < 1e300;
 }

@@ -5,6 +5,7 @@
  * rates of the last two steps go on. */
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
 #include "extrapolation.h"
@@ -12,7 +13,7 @@
 #include "predict.h"
 
 /* Returns whether past steps were used; `from_past` false ignores them. */
-bool ali3_predict(ali3_instance *in, double h, bool from_past) {
+ALI3_INLINED bool predict(ali3_instance *in, double h, bool from_past) {
   const ali3_system *S = in->system;
   const ali3_vectors *from = &in->now;
   double *lam = in->next.lam;
@@ -31,6 +32,8 @@ bool ali3_predict(ali3_instance *in, double h, bool from_past) {
   ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
   return goes_on;
 }
+
+ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, double h, bool from_past), (in, h, from_past))
 
 /* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {

@@ -1,33 +1,38 @@
 /* Projections (24), (25) of velocities and accelerations with the factorised tangent. */
 #include "projection.h"
 #include "../algebra/fronts.h"
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 
 /* Whether Phi_q v, which is in in->mu, and b together are below the tolerance times the largest of v, or below `known`;
  * their sum, of the size *violation, stays in in->mu. */
-static truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
-                         real *violation) {
+ALI3_INLINED truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
+                               real *violation) {
   const ali3_system *S = in->system;
   ali3_add(in->mu, b, S->size.nc);
   *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);
   return (*violation <= known) | (*violation <= tolerance * ali3_largest(v, S->size.nq));
 }
 
-truth ali3_rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
-                        real *violation) {
+ALI3_INLINED truth rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
+                                real *violation) {
   ali3_rows_times(in->system, in->J, v, in->mu);
   return rates_below(in, b, v, tolerance, known, violation);
 }
+
+ALI3_BY_PROCESSOR(in->system, truth, rates_closed,
+                  (ali3_instance * in, const real *b, const real *v, double tolerance, double known, real *violation),
+                  (in, b, v, tolerance, known, violation))
 
 /* v -= T^-1 factor Phi_q' (Phi_q v + b) until the violation is round-off: (24), (25) in correction form. The Phi_q'
  * that spreads the correction is that of the tangent: the penalty would amplify what a later one has outside its
  * range. The violation is judged at the converged position, where positions tell rates of rows to `known`. Returns it.
  * With accelerations in v, lam (or NULL) takes the multipliers along: T x = Phi_q' mu is
  * (T - factor Phi_q' Phi_q) x = Phi_q' (mu - factor Phi_q x). `begun`: in->mu has Phi_q v. */
-real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance, double known,
-                  int32_t sweeps, bool begun) {
+ALI3_INLINED real project(ali3_instance *in, double factor, const real *b, real *v, real *lam, double tolerance,
+                          double known, int32_t sweeps, bool begun) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   real violation = {0}, *mu = in->mu, *x = in->x, *along = in->lam;
@@ -45,7 +50,12 @@ real ali3_project(ali3_instance *in, double factor, const real *b, real *v, real
                 ALI3_AT(lam) =
                     ALI3_OF_LANES(open, ALI3_AT(lam) + (ALI3_AT(mu) - factor * ALI3_AT(along)), ALI3_AT(lam)))
     }
-    open &= ali3_not(ali3_rates_closed(in, b, v, tolerance, known, &violation));
+    open &= ali3_not(rates_closed(in, b, v, tolerance, known, &violation));
   }
   return violation;
 }
+
+ALI3_BY_PROCESSOR(in->system, real, project,
+                  (ali3_instance * in, double factor, const real *b, real *v, real *lam, double tolerance, double known,
+                   int32_t sweeps, bool begun),
+                  (in, factor, b, v, lam, tolerance, known, sweeps, begun))

@@ -96,40 +96,45 @@ bool ali3_divides(ali3_instance *in, double h) {
     double *most = contact->tyre ? &load : &force, *largest = contact->tyre ? &largest_load : &largest_force;
     *most = more(*most, change_of(contact, in->now.out, in->next.out, largest));
   }
+  in->changed = fmax(load, force);
   largest_force = fmax(largest_force, largest_load);
   const double change = fmax(load > 0.0 ? load / largest_load : 0.0, force > 0.0 ? force / largest_force : 0.0);
   in->report.change_rate = change / h;
   return divided(in, change > ABRUPT, in->report.last_iterations);
 }
 
-/* Largest change of a judged force of a contact in the step. */
-static double look_at(ali3_instance *in, double h, const ali3_contact_forces_of *contact) {
+/* Forces of a contact after the step, and a hit of its rebound stop. */
+static void look_at(ali3_instance *in, double h, const ali3_contact_forces_of *contact) {
   const ali3_system *S = in->system;
   ali3_report *r = &in->report;
-  double largest = 0.0;
-  const double most = change_of(contact, in->next.out, in->now.out, &largest);
   r->largest_force = larger(contact, in->now.out, r->largest_force);
   const int32_t e = contact->element;
-  if (S->el_kind[e]->rebound == NULL) return most;
+  if (S->el_kind[e]->rebound == NULL) return;
   const double *from = in->next.out + S->el_out_ptr[e], *to = in->now.out + S->el_out_ptr[e];
   const ali3_element_size *size = S->el_size + e;
   const double change = S->el_kind[e]->rebound(in->el_real + size->real, size->nreal, from[0], to[0]);
-  if (!(change > fmax(limit(r, h), r->hit_change))) return most;
+  if (!(change > fmax(limit(r, h), r->hit_change))) return;
   if (r->hit_change == 0.0) {
     r->hit_time = ali3_time(in);
     r->hit_left = SPAN;
   }
   r->hit_change = change;
   r->hit_h = h;
+}
+
+/* Largest change of a judged force in the step. */
+static double changed(const ali3_instance *in) {
+  double most = 0.0, largest = 0.0;
+  for (int32_t c = 0; c < in->system->n_contact; c++)
+    most = more(most, change_of(in->system->contact + c, in->next.out, in->now.out, &largest));
   return most;
 }
 
 /* After a step of size h from in->next to in->now. */
 void ali3_quick_stop(ali3_instance *in, double h) {
   ali3_report *r = &in->report;
-  double most = 0.0;
-  for (int32_t c = 0; c < in->system->n_contact; c++) most = more(most, look_at(in, h, in->system->contact + c));
-  if (most > ABRUPT * r->largest_force) r->abrupt_steps++;
+  for (int32_t c = 0; c < in->system->n_contact; c++) look_at(in, h, in->system->contact + c);
+  if ((in->changed < 0.0 ? changed(in) : in->changed) > ABRUPT * r->largest_force) r->abrupt_steps++;
   r->hit_left -= h;
   if (r->hit_change > 0.0 && r->hit_left < 0.5 * h) judge(r);
 }

@@ -7,6 +7,7 @@
 #include "../algebra/stretch.h"
 #include "../instance.h"
 #include "constraints.h"
+#include "guide_terms.h"
 #include "switch_rows.h"
 #include "velocity_rows.h"
 
@@ -26,15 +27,6 @@ static const real *near_origin(ali3_instance *in, const real *q) {
     from = in->shifted;
   }
   return from;
-}
-
-/* 1 where there is no coordinate. */
-static inline real value_of(const real *q, int32_t coordinate) {
-  return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
-}
-
-static inline real rate_of(const real *qd, int32_t coordinate) {
-  return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
 }
 
 /* Adds the terms t to end - 1 of three neighbouring entries of Phi_q to them, of points: with three neighbours each.
@@ -99,22 +91,6 @@ static inline real stretch_gamma(const ali3_system *S, int32_t i, int32_t n, con
   return sum;
 }
 
-/* w = h s^power and its two rates. */
-static real guide_factor(const ali3_guide_term *g, const real *s) {
-  const real v = s[g->guide];
-  return g->power == 1 ? g->term.h * v : g->term.h * v * v;
-}
-
-static real guide_rate(const ali3_guide_term *g, const ali3_vectors *x) {
-  const real vd = x->sd[g->guide];
-  return g->power == 1 ? g->term.h * vd : 2.0 * g->term.h * x->s[g->guide] * vd;
-}
-
-static real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
-  const real vd = x->sd[g->guide], vdd = x->sdd[g->guide];
-  return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
-}
-
 /* `singles`: rows may have entries of a term each at most. */
 ALI3_INLINED void all_rows(ali3_instance *in, const real *q, const real *s, real *Phi, real *J, bool singles) {
   const ali3_system *S = in->system;
@@ -163,14 +139,7 @@ ALI3_INLINED void all_rows(ali3_instance *in, const real *q, const real *s, real
     if (i > first) value += ali3_sum_product_from_far(J + first, row_lin + first, q + col[first], i - first);
     Phi[k] = S->row_const[k] + 0.5 * value;
   }
-  for (int64_t t = 0; t < S->n_gterm_row; t++) {
-    const ali3_guide_term *g = &S->gterm[t];
-    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
-    const real w = guide_factor(g, s);
-    Phi[g->row] += w * qa * qb;
-    if (g->term.a >= 0) J[g->term.ja] += w * qb;
-    if (g->term.b >= 0) J[g->term.jb] += w * qa;
-  }
+  guide_values(S, q, s, Phi, J);
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const real theta = q[S->angle_theta_col[i]], cosine = ali3_cos(theta), sine = ali3_sin(theta);
     real along = {0}, across = {0}; /* C and S */
@@ -214,11 +183,7 @@ void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *
   memset(Phit, 0, (size_t)S->size.nc * sizeof *Phit);
   if (S->n_gterm_row == 0) return;
   if (S->size.has_pose) q = near_origin(in, q);
-  for (int64_t t = 0; t < S->n_gterm_row; t++) {
-    const ali3_guide_term *g = &S->gterm[t];
-    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
-    Phit[g->row] += guide_rate(g, guides) * qa * qb;
-  }
+  guide_rates(S, q, guides, Phit);
   if (S->size.n_switch > 0) ali3_switch_values(in, Phit);
 }
 
@@ -250,13 +215,7 @@ ALI3_INLINED void all_gamma(ali3_instance *in, const real *q, const real *qd, co
     if (i < ptr[k + 1]) value += stretch_gamma(S, i, ptr[k + 1] - i, qd);
     gamma[k] = value;
   }
-  for (int64_t t = 0; t < S->n_gterm_row; t++) {
-    const ali3_guide_term *g = &S->gterm[t];
-    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b);
-    const real va = rate_of(qd, g->term.a), vb = rate_of(qd, g->term.b);
-    const real w = guide_factor(g, guides->s), wd = guide_rate(g, guides), wdd = guide_second_rate(g, guides);
-    gamma[g->row] += wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
-  }
+  guide_gamma(S, q, qd, guides, gamma);
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const real theta = q[S->angle_theta_col[i]], rate = qd[S->angle_theta_col[i]], cosine = ali3_cos(theta),
                sine = ali3_sin(theta);
@@ -320,11 +279,7 @@ ALI3_INLINED void geometric(ali3_instance *in, const real *q, const real *s, con
     if (S->quad_end[k] < ptr[k + 1]) stretch_geometric(S, k, factor, F);
     for (int32_t t = ptr[k]; t < S->quad_end[k]; t++) F[pos[t]] += factor * second[t];
   }
-  for (int64_t t = 0; t < S->n_gterm_row; t++) {
-    const ali3_guide_term *g = &S->gterm[t];
-    if (g->term.pos < 0) continue;
-    F[g->term.pos] += weight * lam[g->row] * guide_factor(g, s) * (g->term.a == g->term.b ? 2.0 : 1.0);
-  }
+  guide_geometric(S, s, lam, weight, F);
   for (int64_t i = 0; i < S->n_angle_row; i++) {
     const real theta = q[S->angle_theta_col[i]], factor = weight * lam[S->angle_row[i]];
     const real cosine = factor * ali3_cos(theta), sine = factor * ali3_sin(theta);
@@ -373,19 +328,20 @@ ALI3_INLINED void add_four(real *restrict target, const real *restrict a, const 
     target[i] = (((target[i] + f[0] * a[i]) + f[1] * b[i]) + f[2] * c[i]) + f[3] * d[i];
 }
 
-/* Weight J' J of four rows with the same stretch, from row k on: in columns of the stretch one after the other while an
- * entry is in hand. */
-ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J, double weight, real *block,
+/* Weight J' J of four rows with the same stretch: in columns of the stretch one after the other while an entry is in
+ * hand. */
+ALI3_INLINED void square_of_four(const ali3_system *S, const int32_t *rows, const real *J, double weight, real *block,
                                  int64_t n) {
-  const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, length = ptr[k + 1] - first[k];
-  for (int32_t row = k; row < k + 4; row++)
-    for (int32_t j = ptr[row]; j < first[row]; j++) {
+  const int32_t *ptr = S->row_ptr, *first = S->row_stretch, *loc = S->row_loc, k = rows[0];
+  const int32_t length = ptr[k + 1] - first[k];
+  for (const int32_t *at = rows; at < rows + 4; at++)
+    for (int32_t row = *at, j = ptr[row]; j < first[row]; j++) {
       real *restrict column = block + (int64_t)loc[j] * n;
       const real factor = weight * J[j];
       for (int32_t i = j; i < first[row]; i++) column[loc[i]] += factor * J[i];
       ali3_add_multiple(column + loc[first[row]], J + first[row], factor, length);
     }
-  const real *a = J + first[k], *b = J + first[k + 1], *c = J + first[k + 2], *d = J + first[k + 3];
+  const real *a = J + first[k], *b = J + first[rows[1]], *c = J + first[rows[2]], *d = J + first[rows[3]];
   for (int64_t j = 0; j < length; j++) {
     const real factor[4] = {weight * a[j], weight * b[j], weight * c[j], weight * d[j]};
     int64_t from = j < 3 ? j : ali3_by_fours_below(j, length);
@@ -395,18 +351,19 @@ ALI3_INLINED void square_of_four(const ali3_system *S, int32_t k, const real *J,
   }
 }
 
-/* F += weight * J' J, row by row into the front of the row; a wide row is spread over its front so that columns are
+/* F += weight * J' J, front by front and row by row; a wide row is spread over its front so that columns are
  * contiguous. */
 ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *loc = S->row_loc;
   real *restrict spread = in->local;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const int32_t f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f], end = ptr[k + 1];
+  for (int32_t at = 0; at < S->size.nc; at++) {
+    const int32_t k = S->front_row[at], f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f],
+                  end = ptr[k + 1];
     real *block = F + S->front_off[f];
-    if (S->row_alike[k] >= 4) {
-      square_of_four(S, k, J, weight, block, n);
-      k += 3;
+    if (S->row_alike[at] >= 4) {
+      square_of_four(S, S->front_row + at, J, weight, block, n);
+      at += 3;
       continue;
     }
     if (S->row_triples[k]) {

@@ -8,6 +8,7 @@
  * (../methods/constraint_work.c), by other methods as the mean of the powers at both ends of a step. */
 #include <string.h>
 
+#include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../elements/forces.h"
 #include "../instance.h"
@@ -76,17 +77,22 @@ void ali3_work_step(ali3_instance *in, double share) {
   ali3_work_along(in, share);
 }
 
-void ali3_work_along(ali3_instance *in, double share) {
+/* Powers are those of the start: a method that reads them has stored its own, or reopens. */
+ALI3_INLINED void work_along(ali3_instance *in, double share) {
   const ali3_system *S = in->system;
-  const double *force = in->watched + S->n_work, *before = in->now.watched + S->n_work, *way = in->next.step_way;
-  double *restrict mean = in->next.step_force;
-  for (int32_t i = 0; i < S->n_work_force; i++) mean[i] = share * force[i] + (1.0 - share) * before[i];
+  const double *before = in->now.watched + S->n_work, *way = in->next.step_way;
+  double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
-    const int32_t first = S->work_ptr[k];
-    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean + first, way + first, S->work_ptr[k + 1] - first);
+    const double *force = in->element_force + S->el_sig_ptr[S->work_element[k]];
+    const int32_t n = S->work_ptr[k + 1] - S->work_ptr[k];
+    ALI3_EACH(0, n, ALI3_AT(after) = ALI3_AT(force);
+              ALI3_AT(mean) = share * ALI3_AT(force) + (1.0 - share) * ALI3_AT(before))
+    in->next.work[k] = in->now.work[k] + ali3_product_from_far(mean, way, n);
+    before += n, way += n, mean += n, after += n;
   }
-  ali3_work_store(in, &in->next);
 }
+
+ALI3_BY_PROCESSOR(in->system, void, work_along, (ali3_instance * in, double share), (in, share))
 
 /* sum (n_work) gets the share of a stage, `weight` in s. */
 void ali3_work_stage(const ali3_instance *in, double weight, const double *power, double *sum) {

@@ -34,6 +34,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->single_col = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->single_val = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(double));
   s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->front_row = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->stretch_pos = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
@@ -114,6 +115,12 @@ static void derive_rows(ali3_system *s) {
                                .guide = s->gterm_guide[t],
                                .power = s->gterm_power[t]};
     s->gterm[t] = g;
+  }
+  for (int64_t t = s->n_gterm_row - 1; t >= 0; t--) {
+    ali3_guide_term *g = s->gterm + t;
+    if (g->power != 1 || g->term.b < 0) continue;
+    const bool follows = t + 1 < s->n_gterm_row && g[1].row == g->row && g[1].guide == g->guide;
+    g->pairs = follows ? g[1].pairs + 1 : 1;
   }
   for (int32_t k = 0; k < s->size.nc; k++) {
     bool driven = false;
@@ -255,14 +262,24 @@ static void derive_hessian(ali3_system *s) {
   }
 }
 
-/* Rows from k on with the same stretch; row k + 1 is known. */
-static int32_t rows_alike(const ali3_system *s, int32_t k) {
-  const int32_t first = s->row_stretch[k], n = s->row_ptr[k + 1] - first;
-  if (n == 0) return 0;
-  const int32_t other = k + 1 < s->size.nc ? s->row_stretch[k + 1] : -1;
-  const bool alike = other >= 0 && s->row_front[k + 1] == s->row_front[k] && s->row_ptr[k + 2] - other == n &&
-                     s->row_loc[first] == s->row_loc[other];
-  return alike ? s->row_alike[k + 1] + 1 : 1;
+/* Rows of a front, whose number at is known behind it, have the same stretch. */
+static bool alike(const ali3_system *s, int32_t k, int32_t next) {
+  const int32_t first = s->row_stretch[k], other = s->row_stretch[next];
+  return s->row_front[next] == s->row_front[k] && s->row_ptr[next + 1] - other == s->row_ptr[k + 1] - first &&
+         s->row_loc[first] == s->row_loc[other];
+}
+
+static void derive_alike_rows(ali3_system *s) {
+  int32_t n = 0;
+  for (int32_t f = 0; f < s->size.nf; f++)
+    for (int32_t k = 0; k < s->size.nc; k++)
+      if (s->row_front[k] == f) s->front_row[n++] = k;
+  for (int32_t at = n - 1; at >= 0; at--) {
+    const int32_t k = s->front_row[at];
+    s->row_alike[at] = s->row_stretch[k] < s->row_ptr[k + 1];
+    if (s->row_alike[at] > 0 && at + 1 < n && alike(s, k, s->front_row[at + 1]))
+      s->row_alike[at] += s->row_alike[at + 1];
+  }
 }
 
 /* Whether term x of row k has one factor in its stretch and stands below the other in the front; the entry of the
@@ -309,11 +326,11 @@ static void derive_runs(ali3_system *s, int32_t k) {
 }
 
 static void derive_stretches(ali3_system *s) {
-  for (int32_t k = s->size.nc - 1; k >= 0; k--) {
+  for (int32_t k = 0; k < s->size.nc; k++) {
     derive_runs(s, k);
-    s->row_alike[k] = rows_alike(s, k);
     derive_stretch_terms(s, k);
   }
+  derive_alike_rows(s);
   for (int64_t t = 0; t < s->n_quad_a; t++) {
     const ali3_term *x = &s->quad[t];
     s->quad_pos[t] = x->pos;

@@ -1,0 +1,108 @@
+/* Terms h s^power q_a q_b of rows, s a guide: what they add to Phi, Phi_q, Phi_t, gamma and the geometric term. */
+#ifndef ALI3_GUIDE_TERMS_H
+#define ALI3_GUIDE_TERMS_H
+#include "../algebra/real.h"
+#include "../algebra/stretch.h"
+#include "../instance.h"
+
+/* 1 where there is no coordinate. */
+static inline real value_of(const real *q, int32_t coordinate) {
+  return coordinate < 0 ? ali3_same(1.0) : q[coordinate];
+}
+
+static inline real rate_of(const real *qd, int32_t coordinate) {
+  return coordinate < 0 ? ali3_same(0.0) : qd[coordinate];
+}
+
+/* w = h s^power and its two rates. */
+static inline real guide_factor(const ali3_guide_term *g, const real *s) {
+  const real v = s[g->guide];
+  return g->power == 1 ? g->term.h * v : g->term.h * v * v;
+}
+
+static inline real guide_rate(const ali3_guide_term *g, const ali3_vectors *x) {
+  const real vd = x->sd[g->guide];
+  return g->power == 1 ? g->term.h * vd : 2.0 * g->term.h * x->s[g->guide] * vd;
+}
+
+static inline real guide_second_rate(const ali3_guide_term *g, const ali3_vectors *x) {
+  const real vd = x->sd[g->guide], vdd = x->sdd[g->guide];
+  return g->power == 1 ? g->term.h * vdd : 2.0 * g->term.h * (x->s[g->guide] * vdd + vd * vd);
+}
+
+/* What a term adds to gamma, with w and its two rates. */
+static inline real guide_bend(real qa, real qb, real va, real vb, real w, real wd, real wdd) {
+  return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
+}
+
+/* Phi += w q_a q_b, and Phi_q. Here and below terms with two coordinates each, of one guide and row, are a loop. */
+static inline void guide_values(const ali3_system *S, const real *q, const real *s, real *Phi, real *J) {
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
+    const ali3_guide_term *const end = g + g->pairs;
+    const int32_t row = g->row;
+    const real v = s[g->guide];
+    real value = Phi[row];
+    if (g == end) {
+      const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b), w = guide_factor(g, s);
+      value += w * qa * qb;
+      if (g->term.a >= 0) J[g->term.ja] += w * qb;
+      if (g->term.b >= 0) J[g->term.jb] += w * qa;
+      g++;
+    }
+    ALI3_SHORT
+    for (; g < end; g++) {
+      const real qa = q[g->term.a], qb = q[g->term.b], w = g->term.h * v;
+      value += w * qa * qb;
+      J[g->term.ja] += w * qb;
+      J[g->term.jb] += w * qa;
+    }
+    Phi[row] = value;
+  }
+}
+
+/* Phit += w' q_a q_b */
+static inline void guide_rates(const ali3_system *S, const real *q, const ali3_vectors *guides, real *Phit) {
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
+    const ali3_guide_term *const end = g + g->pairs;
+    const int32_t row = g->row;
+    const real vd = guides->sd[g->guide];
+    real value = Phit[row];
+    if (g == end) {
+      value += guide_rate(g, guides) * value_of(q, g->term.a) * value_of(q, g->term.b);
+      g++;
+    }
+    ALI3_SHORT
+    for (; g < end; g++) value += g->term.h * vd * q[g->term.a] * q[g->term.b];
+    Phit[row] = value;
+  }
+}
+
+static inline void guide_gamma(const ali3_system *S, const real *q, const real *qd, const ali3_vectors *guides,
+                               real *gamma) {
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
+    const ali3_guide_term *const end = g + g->pairs;
+    const int32_t row = g->row;
+    const real v = guides->s[g->guide], vd = guides->sd[g->guide], vdd = guides->sdd[g->guide];
+    real value = gamma[row];
+    if (g == end) {
+      value +=
+          guide_bend(value_of(q, g->term.a), value_of(q, g->term.b), rate_of(qd, g->term.a), rate_of(qd, g->term.b),
+                     guide_factor(g, guides->s), guide_rate(g, guides), guide_second_rate(g, guides));
+      g++;
+    }
+    ALI3_SHORT
+    for (; g < end; g++)
+      value += guide_bend(q[g->term.a], q[g->term.b], qd[g->term.a], qd[g->term.b], g->term.h * v, g->term.h * vd,
+                          g->term.h * vdd);
+    gamma[row] = value;
+  }
+}
+
+/* F += weight * lam w of each, twice where a and b are the same. */
+static inline void guide_geometric(const ali3_system *S, const real *s, const real *lam, double weight, real *F) {
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
+    if (g->term.pos < 0) continue;
+    F[g->term.pos] += weight * lam[g->row] * guide_factor(g, s) * (g->term.a == g->term.b ? 2.0 : 1.0);
+  }
+}
+#endif
