@@ -20,7 +20,7 @@ from ali3.words import brief
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     """Run the subcommand that the first argument names.
 
-    `arguments`: by default those of the command line; `prog`: how the user typed the command. Result: exit code: 0
+    `arguments`: by default those of the command line; `prog`: how the user typed the command. Returns the exit code: 0
     done, 1 done and not good, 2 an error of the user's, 130 Ctrl-C.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)

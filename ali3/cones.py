@@ -10,7 +10,7 @@ _APART = 5.0  # m, about
 
 
 def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
-    """Where cones stand along both edges of lanes: at their ends and about every 5 m. Result: in m."""
+    """Where cones stand along both edges of lanes, x and y in m: at their ends and about every 5 m."""
     places = []
     for gate in gates:
         length = gate.x_end - gate.x_start

@@ -22,7 +22,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
     """Do the work of a command. SIGTERM and SIGHUP are met in it as Ctrl-C is, by a `KeyboardInterrupt`.
 
     `work`: gives the exit code; `errors`: besides `UserError` and `OSError`, what the user can put right: the message
-    is shown, the exit code is 2. Result: exit code.
+    is shown, the exit code is 2. Returns the exit code.
     """
     try:
         with stopped_by_signals():

@@ -24,8 +24,8 @@ class Poses:
     quaternion: Vectors
     """Unit, scalar first, of continuous sign, shape (n, 4)."""
     shown: NDArray[np.bool_]
-    """False where a number is missing; the pose is then that of the nearest time before, or the first one after, shape
-    (n,)."""
+    """Shape (n,); false where a number is missing: the pose is then that of the nearest time before, or the first one
+    after."""
 
     def points(self, local: Sequence[float] | Vectors) -> Vectors:
         """Earth positions of a point of the frame, of shape (n, 3)."""

@@ -18,7 +18,7 @@ NEWTON, CLOSED, OPEN = 20, 1e-12, 1e-8
 class VelocityTransformation:
     """qd = R z', R' M R z'' = R' (Q - M S); the dependent coordinates follow from the rows by Newton's method.
 
-    `penalty`: not used: there is none.
+    `penalty` is not used: the method has none.
     """
 
     def __init__(self, mechanism: Mechanism, penalty: float = 0.0) -> None:

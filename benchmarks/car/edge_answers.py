@@ -50,8 +50,8 @@ def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x:
 def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, float, mbs.Simulation]:
     """A car that coasts up an edge: on a kerb, or with answers of a kind every `STEP`.
 
-    Returns largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers, as
-    the length of the difference of both unit vectors; the car at the end.
+    Returns the largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers,
+    as the length of the difference of both unit vectors; the car at the end.
     """
     made = load(car)
     model = made.changed({"ports.road": "planes"}).model() if kind else made.model(KerbRoad(EDGE, edge, upper="after"))

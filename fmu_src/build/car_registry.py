@@ -45,8 +45,8 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
     poses : {"wheels", "all"} or None
         As `fmu_src.geometry.posed.posed_systems` takes it.
     ports : str, optional
-        As `mbs.vehicle.ports.chosen_ports` takes them, in addition to those of the file; the name of what is built says
-        then that it has ports.
+        As `mbs.vehicle.chosen_ports.chosen_ports` takes them, in addition to those of the file; the name of what is
+        built says then that it has ports.
     fidelity : float, optional
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
         all that an FMU offers.

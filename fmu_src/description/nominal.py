@@ -48,9 +48,9 @@ def with_nominal(
 
 
 def drive_sizes(systems: Sequence[mbs.System], table: Sequence[Variable]) -> dict[int, float]:
-    """Largest absolute values of sensors in a drive of each System, by their places in the table.
+    """Largest absolute values of sensors after the steps of a drive of each System, up to one that is refused.
 
-    Result: after each step, up to where a drive is refused.
+    Result: by their places in the table.
     """
     sensed = {i: v.index for i, v in enumerate(table) if v.source == "sensor"}
     moved = [v for v in table if v.source == "input" and not v.whole]

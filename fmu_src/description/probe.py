@@ -56,7 +56,7 @@ class Dependencies:
 
 
 def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
-    """Try a System, or all fidelities of one. Result: of all fidelities together; the same at every call."""
+    """Try a System, or all fidelities of one. Result: what holds for all of them together; the same at every call."""
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
     for system in systems:

@@ -22,7 +22,7 @@ FRAME_TUBE = "frame tube"
 def geometry(system: mbs.System, table: Sequence[Variable], name: str, description: str) -> dict[str, Any] | None:
     """The scene of an FMU: its columns are variables of the FMU. `system`: the default one.
 
-    Result: none where the System carries no drawing.
+    Result: None where the System carries no drawing.
     """
     if system.drawing is None:
         return None

@@ -84,9 +84,9 @@ def _compilers(commands: Sequence[Sequence[str]]) -> Iterator[None]:
         process.wait()
 
     with ThreadPoolExecutor(available_cores()) as pool:
-        for command in commands:
-            pool.submit(compile, command)
         try:
+            for command in commands:
+                pool.submit(compile, command)
             yield
         finally:
             with lock:

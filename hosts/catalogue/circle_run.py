@@ -47,7 +47,7 @@ class CircleRun:
     torque: NDArray[np.float64]
     speed: NDArray[np.float64]
     """`time`, `acceleration`, `steering`, `sideslip`, `roll`, `torque`, `speed`: SI units, positive to the left; NaN
-    where the car has no such output. The acceleration is level, shape (n,)."""
+    where the car has no such output. The acceleration is level. Shape (n,) each."""
     largest: float
     """Lateral acceleration to the side of the run, mean over 1 s, m/s²."""
     end: str

@@ -102,7 +102,7 @@ class SteeredRun:
     begin: float
     """Of the steering in its time, s; NaN if the car did not come to its speed."""
     time: NDArray[np.float64]
-    """s; from 1 s before the beginning or later. Empty if there was none, shape (n,)."""
+    """Shape (n,), s; from 1 s before the beginning or later. Empty if there was none."""
     steering: NDArray[np.float64]
     yaw_rate: NDArray[np.float64]
     acceleration: NDArray[np.float64]
@@ -110,7 +110,7 @@ class SteeredRun:
     roll: NDArray[np.float64]
     speed: NDArray[np.float64]
     """`steering`, `yaw_rate`, `acceleration`, `sideslip`, `roll`, `speed`: in rad, rad/s, m/s², rad, rad, m/s; NaN
-    where the car has no such output. The acceleration is lateral and level, shape (n,)."""
+    where the car has no such output. The acceleration is lateral and level. Shape (n,) each."""
     whole: bool
     """Whether the table was driven to its end."""
 

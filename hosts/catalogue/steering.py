@@ -58,7 +58,7 @@ class SteeringInput:
     def measured(self, result: Result, step: float) -> NDArray[np.float64]:
         """Angle of the steering wheel over a run: that of the car where it tells it, else what was asked for.
 
-        `result`: with n rows; `step`: communication step of the run, s. Returns an array of shape (n,): in rad.
+        `result`: with n rows; `step`: communication step of the run, s. Returns an array of shape (n,), rad.
         """
         if self.is_angle and ANGLE in result:
             return result[ANGLE]

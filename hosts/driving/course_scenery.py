@@ -52,7 +52,7 @@ def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> di
 def things_of(marks: Sequence[Mark]) -> list[Mark]:
     """Cones and lines, of which scenes are made, for marks.
 
-    Raises `ValueError` or `KeyError` or `TypeError` or `OverflowError`: they are no marks.
+    Raises `ValueError`, `KeyError`, `TypeError` or `OverflowError`: they are no marks.
     """
     things = []
     for mark in marks:

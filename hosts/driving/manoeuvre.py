@@ -82,8 +82,8 @@ def _between(one: float, other: float, part: float) -> float:
 def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
     """The manoeuvre with one name for each start value, where its file gives several.
 
-    `manoeuvre`: a key of its start values may be ``a | b``: the first of these names that there is. Result: where there
-    is none of several, with the first of them.
+    `manoeuvre`: a key of its start values may be ``a | b``: the first of these names that there is. Where there is
+    none of several the result has the first of them.
     """
     start = {}
     for key, value in manoeuvre.start.items():

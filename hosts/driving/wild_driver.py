@@ -72,8 +72,8 @@ class WildDriver:
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the step that begins at `time`.
 
-        `time`: in s; `senses`: of `SENSES` those that the FMU has. Result: for those of the five controls that the FMU
-        has, within their ranges.
+        `time`: in s; `senses`: of `SENSES` those that the FMU has. Result: values of those of the five controls
+        that the FMU has, within their ranges.
         """
         if time >= self._until:
             self._choose(time, senses)

@@ -29,8 +29,8 @@ def scene_of(
 
     `settings`: what was set in it: a road of a file is drawn from the file that its parameter names, that of a world
     with the scenery that its record beside the file has; `world`: the world that the road of a file was of; where its
-    record is gone, `missing` says so. Result: none if the FMU has none, as those of other programs. Raises `HostError`:
-    it is no FMU that can be read, or its scene is not of the format.
+    record is gone, `missing` says so. Result: None if the FMU has no scene, as those of other programs. Raises
+    `HostError`: it is no FMU that can be read, or its scene is not of the format.
     """
     try:
         with zipfile.ZipFile(path) as fmu:

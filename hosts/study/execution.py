@@ -56,8 +56,8 @@ class Execution:
     def run(self, missing: Iterator[list[int]]) -> None:
         """Make the runs.
 
-        `missing`: runs, chunk by chunk. Raises `SchedulerLostError`. Raises `WrongWorkerError`: a worker that came
-        later is of another version. Raises `FileError`: rows cannot be written.
+        `missing`: runs, chunk by chunk. Raises `SchedulerLostError`: the scheduler is lost; `WrongWorkerError`: a
+        worker that came later is of another version; `FileError`: rows cannot be written.
         """
         ended = False
         try:

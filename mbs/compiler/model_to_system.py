@@ -67,8 +67,9 @@ Corrections = dict[str, tuple[float, float]]
 LoopWatch = Callable[
     [Mechanism, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
-NO_TREE: Tables = {name: [] for name in FLOAT_ARRAYS + INTEGER_ARRAYS if name.startswith("tree_")}
 Trees = Callable[[Mechanism, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
+NO_TREE: Tables = {name: [] for name in FLOAT_ARRAYS + INTEGER_ARRAYS if name.startswith("tree_")}
+"""Of a System that has no open tree."""
 
 
 def checked(model: Mechanism) -> Mechanism:
@@ -82,7 +83,9 @@ def checked(model: Mechanism) -> Mechanism:
 def compiled(
     model: Mechanism, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
 ) -> CompiledModel:
-    """`mbs.compiler.compile.compile`, for those who neither draw the model nor step it, and have no loops to close.
+    """The arrays and names of a model, of which `compile` makes the System.
+
+    Without `closed`, `watch` and `trees`: for those who neither step it nor have loops to close.
 
     Parameters
     ----------
@@ -91,7 +94,7 @@ def compiled(
     watch : callable, optional
         `mode_arrays`: makes what steps are watched by.
     trees : callable, optional
-        `tree_arrays`: makes what methods in relative coordinates step.
+        `tree_arrays`: makes what methods in relative coordinates step; without it the report has none.
     """
     checked(model)
     linear, others = _equations(model)

@@ -113,3 +113,7 @@ __all__ = [
     "Wind",
     "WindDrag",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

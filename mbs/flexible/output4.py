@@ -20,7 +20,7 @@ _BIG = 65536
 def read_output4(path: Path) -> dict[str, sp.csc_array]:
     """All matrices of a file by their names in capital letters; complex ones are complex.
 
-    `path`: text, or binary with integers of 4 or 8 bytes in either order. Raises `ValueError` or `IndexError` or
+    `path`: text, or binary with integers of 4 or 8 bytes in either order. Raises `ValueError`, `IndexError` or
     `TypeError`: the file is damaged.
     """
     with path.open("rb") as file:

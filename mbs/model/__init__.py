@@ -47,3 +47,7 @@ __all__ = [
     "SlidingPoint",
     "Spin",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -81,6 +81,8 @@ class Body:
         ----------
         position : array_like, shape (dimension,)
             Earth axes in the reference configuration, m.
+        what : str
+            The joint, in messages.
         """
         return self
 

@@ -146,7 +146,7 @@ class Register:
         self._undo.append(restore)
 
     def unique(self, family: str, name: str) -> str:
-        """Claim a name among the things of a family, as body, joint, element, sensor.
+        """Claim a name among the things of a family, such as body, joint, element or sensor.
 
         Raises
         ------

@@ -39,7 +39,8 @@ class Report:
         Largest kinetic energy, J; at least that of 1e-6 m/s, so that round-off at rest is no error.
     speed_peak, velocity_path, predictor_path : float
         In the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, way of the velocity, and the sum over the
-        steps of what the velocity is off ``v + h a`` of their start, of methods of order four and more of either end.
+        steps of what the velocity is off ``v + h a`` of their start; of methods of order above two the larger of what
+        start and end give.
     velocity_squares, predictor_squares : float
         Sums of the squares of what the steps add to these two, kg m^2/s^2.
     energy_floor : float

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Mapping
 
-from mbs.kernel.header.enumerations import ElementType, GuideType
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.kernel.header.enumerations import ElementType, GuideType, ParameterTarget
+from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
@@ -25,13 +29,16 @@ UNRESOLVED, LOOPS, OPEN = 0.5, 1.0, 2.0
 STOPS = (4, 6)  # of the numbers of a spring-damper: the stiffnesses of its stops
 
 
-def unresolved_share(system: System, method: str) -> float:
+def unresolved_share(
+    system: System, method: str, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None
+) -> float:
     """The missed share above which steps do not resolve what changes the velocities.
 
-    Of a method of order above two where nothing abrupt can happen three steps in a period are enough, and fewer where
-    no closed loop can come near a dead centre.
+    `span`: first and last time of the run, s; `inputs`: that follow time. Of a method of order above two where nothing
+    abrupt can happen three steps in a period are enough, and fewer where no closed loop can come near a dead centre.
     """
-    if METHOD_TABLE[method].order <= 2 or not _has_smooth_laws(system):
+    free = not any(callable(signal) for signal in (inputs or {}).values())  # a function may jump within a step
+    if METHOD_TABLE[method].order <= 2 or not (free and _has_smooth_laws(system, span)):
         return UNRESOLVED
     return OPEN if is_open_tree(system) else LOOPS
 
@@ -41,14 +48,23 @@ def is_open_tree(system: System) -> bool:
     return not system.report["no_tree"] and len(system.arrays["tree_cut_body"]) == 0
 
 
-def _has_smooth_laws(system: System) -> bool:
-    """Whether no element has a stop, a contact, friction or a table, and all guides are single polynomials of time."""
+def _has_smooth_laws(system: System, span: tuple[float, float]) -> bool:
+    """Whether no element has a stop, a contact, friction or a table, and each guide is one polynomial of time there."""
     a = system.arrays
-    numbers = [np.asarray(a["el_real"])[i:j] for i, j in zip(a["el_real_ptr"], a["el_real_ptr"][1:], strict=False)]
+    reals = np.array(a["el_real"])
+    reals[a["par_index"][np.asarray(a["par_target"]) == ParameterTarget.ELEMENT]] = np.inf  # a stop may be set
+    numbers = [reals[i:j] for i, j in zip(a["el_real_ptr"], a["el_real_ptr"][1:], strict=False)]
     free = all(
         int(kind) in SMOOTH and not (kind == ElementType.SPRING_DAMPER and any(real[i] > 0.0 for i in STOPS))
         for kind, real in zip(a["el_type"], numbers, strict=True)
     )
-    of_time = zip(a["guide_real_ptr"], a["guide_type"], strict=False)
-    guided = all(kind == GuideType.OF_TIME and a["guide_real"][first] == 1 for first, kind in of_time)
-    return free and guided
+    guides = zip(a["guide_real_ptr"], a["guide_type"], strict=False)
+    return free and all(
+        kind == GuideType.OF_TIME and _is_whole(a["guide_real"][at : at + 3], span) for at, kind in guides
+    )
+
+
+def _is_whole(head: NDArray[np.float64], span: tuple[float, float]) -> bool:
+    """Whether the number of pieces and the first two breaks say that one piece holds in all of a run."""
+    pieces, begin, end = head
+    return bool(pieces == 1 and begin <= span[0] and span[1] <= end)

@@ -31,7 +31,7 @@ def rough_heights(nx: int, ny: int, spacing: float, density: float, seed: int) -
     function K1.
 
     `spacing`: in m; `density`: gd(n0), m3; `seed`: of the phases. Raises `RoadFileError`: it has too many points.
-    Returns an array of shape (nx, ny): in m.
+    Returns an array of shape (nx, ny), m.
     """
     longest = round(1.0 / (LOWEST * spacing))
     sides = [max(n, longest) for n in (nx, ny)]

@@ -110,7 +110,7 @@ def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:
     """Heights of the surface of a grid, as the kernel computes them.
 
     `heights`: of the road, contiguous, shape (nx, ny); `places`: x and y, m, shape (n, 2). Returns an array of shape
-    (n,): in m.
+    (n,), m.
     """
     found = np.empty(len(places))
     grid = np.array((*road.origin, *road.spacing), np.float64)

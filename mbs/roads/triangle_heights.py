@@ -18,7 +18,7 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
     seen as lines and left out.
 
     `corners`: m, shape (n, 3, 3); `x`, `y`: of the points, regular, m, shapes (nx,) and (ny,). Returns `lowest` and
-    `highest`, shape (nx, ny): in m.
+    `highest`, shape (nx, ny), m.
     """
     lowest, highest = np.full((len(x), len(y)), np.inf), np.full((len(x), len(y)), -np.inf)
     steps = np.array([a[1] - a[0] if len(a) > 1 else 1.0 for a in (x, y)])

@@ -87,7 +87,7 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin)
+            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin, inputs)
             if checked:
                 found = repeat.check(repeats, always=estimate_error is True)
             repeats.add_ends()

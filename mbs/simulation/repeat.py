@@ -17,6 +17,7 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
+from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
@@ -47,6 +48,8 @@ class Repeats:
         The ends of what moved in the runs before this one, by name.
     twin : bool
         Whether a repeat goes on from the one of a run before, so that there is a single one.
+    inputs : dict of str to Signal, optional
+        Those that follow time.
 
     Attributes
     ----------
@@ -61,7 +64,8 @@ class Repeats:
     unresolved : float
         The missed share above which steps do not resolve what changes the velocities.
     has_order : bool
-        Whether half the step decides where it does: the order is above two, and nothing abrupt can happen.
+        Whether half the step decides where it resolves the motion: the order is above two, and nothing abrupt can
+        happen.
     """
 
     system: System
@@ -72,6 +76,7 @@ class Repeats:
     update: Callable[[float], None]
     before: dict[str, NDArray[np.float64]] | None = None
     twin: bool = False
+    inputs: Mapping[str, Signal] | None = None
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
@@ -79,7 +84,10 @@ class Repeats:
         self._finer = list[Run]()
         settings = self.run[0].settings
         assert settings is not None
-        self._method, self.unresolved = settings.method, unresolved_share(self.system, settings.method)
+        self._method, self.unresolved = (
+            settings.method,
+            unresolved_share(self.system, settings.method, (self.run[0].t[0], self.run[0].t[-1]), self.inputs),
+        )
         self.has_order = self.unresolved > UNRESOLVED
         if self.run[1]:
             angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
@@ -119,7 +127,7 @@ class Repeats:
     def coarse(self) -> bool:
         """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
 
-        Where the second misses as much as the run, no step resolves it: a guide whose rate jumps.
+        Where the second finer run misses as much as the run itself, no step resolves it: a guide whose rate jumps.
         """
         missed = [self._missed(run) for run in (self.run, *self._finer)]
         return 2.0 * missed[-1] > self.unresolved and not (len(missed) > 2 and missed[2] > SAME * missed[0])
@@ -234,8 +242,10 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
         least = min(least, accuracy.ABRUPT) if report.divisions else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
-        if not (repeats.twin or repeats.has_order) and least < (known.error or 0.0) < most:
-            known = repeats.decided(repeats.finer(2 * parts), 4 * parts)
+        if not repeats.twin and (repeats.coarse or not repeats.has_order) and least < (known.error or 0.0) < most:
+            known = repeats.finer(2 * parts)
+            if not repeats.has_order:
+                known = repeats.decided(known, 4 * parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps

@@ -166,7 +166,7 @@ class Drawing:
     def from_bytes(cls, data: bytes, nq: int) -> Drawing:
         """What `to_bytes` gave, of a System with `nq` coordinates.
 
-        Raises `ValueError` or `KeyError` or `TypeError`: it is something else.
+        Raises `ValueError`, `KeyError` or `TypeError`: it is something else.
         """
         content = json.loads(data)
         places = Places.from_json(content["places"])

@@ -281,7 +281,7 @@ def checked_car(
     if faults:
         raise CarFileError(_told(what, faults))
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
-        own = {name: kind for name, kind in data["ports"].items() if name != "tyre"}
+        own = {name: port for name, port in data["ports"].items() if name != "tyre"}
         checked_car(kind, {**data, "ports": own}, folder, what, warn=warn)
         return car
     if not at_rest:

@@ -63,7 +63,6 @@ def file_of(car: str | Path) -> Path:
 def _of_package(kind: type[C], name: str) -> C:
     path = CARS / name / FILE
     content = read_toml(path, CarFileError)
-    found: C = checked_car(
-        kind, content, path.parent, str(path), at_rest=False
-    )  # a test holds that they stand as drawn
+    # a test holds that they stand as drawn
+    found: C = checked_car(kind, content, path.parent, str(path), at_rest=False)
     return found

@@ -176,6 +176,21 @@ def test_an_answer_ahead_is_reached_along_the_step_and_one_at_the_wheel_holds(ho
     assert heights[1] < heights[0]
 
 
+def test_an_answer_that_nobody_sets_any_more_holds_at_once(host, sledge) -> None:
+    """A derivative has led the last one ahead: the one that holds lies behind, which is no way to go along."""
+    heights = []
+    for height in (0.0, 1e-9):
+        h = host(sledge).start({"initial.speed": 10.0} | LEVEL)
+        assert h.step(0.0, 0.01) == OK
+        for name, rate in (("road_x", 20.0), ("road_height", 0.4)):
+            assert slope(h, name, 1, rate) == OK
+        assert h.step(0.01, 0.01) == OK
+        assert h.set("road_height", height) == OK
+        assert h.step(0.02, 0.01) == OK
+        heights.append(h.get("z"))
+    assert heights[0] < heights[1]
+
+
 @pytest.mark.parametrize(("turn", "told"), [(0.28, 0), (0.32, 1)])
 def test_a_normal_that_turns_at_once_is_told_once(host, sledge, turn, told) -> None:
     """About the centre of the wheel, as from ground to an edge: the plane is as far away as the last one."""

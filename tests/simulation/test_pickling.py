@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 
 from mbs import Pose, Simulation, System, Trajectory, compile, simulate
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
+from mbs.kernel.binding.many import Many
 from mbs.vehicle import load
 
 RUN = (0.2, 0.005, {"steering": 0.3, "throttle": 0.5})
@@ -53,6 +56,15 @@ def test_what_a_run_leaves_out_is_pickled_where_it_was_read(car: System) -> None
     np.testing.assert_array_equal(again["stress.SG1"], stress)
     np.testing.assert_array_equal(again.thinned(4)["stress.SG1"], stress[::4])
     assert np.ptp(stress) > 1e4
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_what_owns_memory_of_the_kernel_is_no_value(car: System, copied: Callable[[object], object]) -> None:
+    """The end of a copy freed the memory of the original, and ended the process."""
+    loaded = LoadedSystem(car.kernel_bytes())
+    for owner in (loaded, Instance(loaded), Many(loaded, 2)):
+        with pytest.raises(TypeError, match="memory is the kernel's"):
+            copied(owner)
 
 
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])

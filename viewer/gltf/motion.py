@@ -27,7 +27,7 @@ class Motion:
     reach: Vectors = field(default_factory=lambda: np.zeros((1, 3)))
     """Points of the node, as far out as its shapes, where the motion is compared, shape (k, 3)."""
     angle: tuple[Vectors, Vectors] | None = None
-    """Where it turns about an axis at a fixed place, rad: the quaternion is this, shape (n,)."""
+    """Axis, and angles of shape (n,), rad, where it turns about an axis at a fixed place: the quaternion is this."""
 
 
 @dataclass(frozen=True)

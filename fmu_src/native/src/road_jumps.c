@@ -6,8 +6,6 @@
 
 static const double JUMP = 0.015; /* m; from 0.02 m on a load is off by a fifth, see docs/decisions/0184 */
 
-static const double TURN = 0.3; /* of unit normals; sums of ground and edge stay below it, see docs/decisions/0186 */
-
 static const double BEND = 1e-4; /* m; loads are then off by up to 1.2 %, see docs/decisions/0219 */
 static const double FARTHEST = 4.0; /* square of a wheel's way to an answer over that between two */
 
@@ -20,7 +18,7 @@ static void watch_turn(slave *s, size_t i) {
     now[k] = s->value[i + 3 + k];
   }
   for (size_t k = 0; k < 3; k++) square += (now[k] - last[k]) * (now[k] - last[k]);
-  if (!(square > TURN * TURN)) return;
+  if (!(square > SLAVE_EDGE * SLAVE_EDGE)) return;
   s->said[i] |= SLAVE_TURNED;
   slave_say(
       s, SLAVE_WARNING,
@@ -59,19 +57,21 @@ static void watch_bend(slave *s, size_t i) {
     behind += along * way[k];
   }
   const double far = 0.5 * bend * fmin(away / square, FARTHEST), end = far - lifted(s, i, centre);
-  /* a road that goes from the last plane to the new one misses a quarter, in the middle, and is 0.2 % off at 0.1 mm */
-  const bool ramp = slave_is_ramp(s, i);
-  const double start = ramp ? 0.25 * far : far, most = ramp ? 4.0 * BEND : BEND;
-  if (!(fabs(end) + 0.25 * fabs(start) > most)) return; /* a step makes more of its end */
+  /* a road that goes from one plane to the next misses a quarter, in the middle, and is 0.2 % off at 0.1 mm */
+  const bool ramp = slave_is_ramp(s->slope, i), ramped = s->made.sloped && slave_is_ramp(s->made_slope, i);
+  const double start = ramp ? 0.25 * far : far;
+  /* a step makes more of its end */
+  if (!(fabs(end) / (ramped ? 4.0 : 1.0) + 0.25 * fabs(start) / (ramp ? 4.0 : 1.0) > BEND)) return;
   s->said[i + 1] |= SLAVE_TURNED;
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
-            "of its step, and that it is off by %.2g mm itself; where the road goes on so, loads are off by 1 %% or "
+            "of its step, and that it is off by %.2g mm itself%s; where the road goes on so, loads are off by 1 %% or "
             "more. It holds for %.1f steps ahead of its wheel, where 1 is best. Ask at the point ahead, with "
             "ports.road_lead = 1 where an answer holds in the step that follows the question, with 2 where all "
             "programs step at once, or take shorter communication steps; ports.road_lead is %g now. This is said once.",
             ali3_time(s->fidelity.kernel), slave_the_table.variable[i].name, 1e3 * fabs(end), 1e3 * fabs(start),
-            0.0 + nearbyint(-10.0 * behind / square) / 10.0, s->value[s->lead_reference]);
+            ramp ? " in the middle of its step" : "", 0.0 + nearbyint(-10.0 * behind / square) / 10.0,
+            s->value[s->lead_reference]);
 }
 
 /* Before a step, after normals are held: an answer that lifts its wheel at once, or takes the road away from it. The
@@ -81,9 +81,9 @@ const slave_variable *slave_watch_jumps(slave *s) {
   const slave_table *t = &slave_the_table;
   const slave_variable *found = NULL;
   double largest = JUMP;
-  for (size_t i = 0; i + 5 < t->n_known; i++) {
+  for (size_t i = 0; i < t->n_known; i++) {
     const slave_variable *v = &t->variable[i];
-    if (v->role != SLAVE_ANSWER || t->variable[i + 3].role != SLAVE_NORMAL || v->other < 0) continue;
+    if (!slave_is_answer(i)) continue;
     if (!(s->said[i] & SLAVE_TURNED)) watch_turn(s, i);
     if (!(s->said[i + 1] & SLAVE_TURNED)) watch_bend(s, i);
     if (!(fabs(lifted(s, i, &s->value[i])) > JUMP) || !slave_outputs(s)) continue;

@@ -5,9 +5,14 @@
 #include "slave.h"
 
 static const double AHEAD = 0.5; /* of the way between two answers: so far ahead of its wheel one is for the end */
-static const double TURN = 0.3; /* of unit normals: beyond it are edges, see docs/decisions/0186 */
-static const double SAME = 1e-12; /* m */
+static const double SAME = 1e-12; /* of metres, of unit normals and of frictions: round-off of what was reached */
 enum { ANSWER = 7 }; /* point, normal, friction */
+
+bool slave_is_answer(size_t i) {
+  const slave_table *t = &slave_the_table;
+  return i + ANSWER <= t->n_known && t->variable[i].role == SLAVE_ANSWER && t->variable[i + 3].role == SLAVE_NORMAL &&
+         t->variable[i].other >= 0;
+}
 
 /* An input at the end of the last step, whose derivatives it may have followed. */
 double slave_reached(const slave *s, size_t i) {
@@ -18,10 +23,10 @@ double slave_reached(const slave *s, size_t i) {
   return v->scale * value;
 }
 
-/* Whether the answer at i goes there from the last one in the step that begins. */
-bool slave_is_ramp(const slave *s, size_t i) {
+/* Whether the answer at i goes there from the one before it, by the slopes of its step. */
+bool slave_is_ramp(const double *slope, size_t i) {
   for (size_t k = 0; k < ANSWER; k++)
-    if (s->slope[(i + k) * SLAVE_TERMS] != 0.0) return true;
+    if (slope[(i + k) * SLAVE_TERMS] != 0.0) return true;
   return false;
 }
 
@@ -31,20 +36,29 @@ static bool followed(const slave *s, size_t i) {
   return false;
 }
 
+/* One that nobody sets anew holds, where a derivative has led the last one too. */
+static bool is_new(const slave *s, size_t i) {
+  for (size_t k = 0; k < ANSWER; k++)
+    if (s->pending[i + k]) return true;
+  return false;
+}
+
 /* Whether the answer at i is one for a place ahead of its wheel, of another plane than the last one, with no edge on the
  * way from that. */
 static bool is_ahead(slave *s, size_t i) {
+  if (!is_new(s, i)) return false;
   const double *now = &s->value[i], *centre = &s->value[slave_the_table.variable[i].other];
-  double square = 0.0, turn = 0.0, rise = 0.0, above = 0.0, ahead = 0.0, way[3];
+  double square = 0.0, turn = 0.0, rise = 0.0, size = 1.0, above = 0.0, ahead = 0.0, way[3];
   for (size_t k = 0; k < 3; k++) {
     const double last = slave_reached(s, i + 3 + k), bend = now[3 + k] - last;
     way[k] = now[k] - slave_reached(s, i + k);
     rise += last * way[k];
+    size += fabs(now[k]);
     square += way[k] * way[k];
     turn += bend * bend;
   }
-  if (turn == 0.0 && fabs(rise) < SAME && now[6] == slave_reached(s, i + 6)) return false;
-  if (!(square > 0.0) || turn > TURN * TURN || followed(s, i) || !slave_outputs(s)) return false;
+  if (turn < SAME * SAME && fabs(rise) < SAME * size && fabs(now[6] - slave_reached(s, i + 6)) < SAME) return false;
+  if (!(square > 0.0) || turn > SLAVE_EDGE * SLAVE_EDGE || followed(s, i) || !slave_outputs(s)) return false;
   for (size_t k = 0; k < 3; k++) above += now[3 + k] * (centre[k] - now[k]);
   for (size_t k = 0; k < 3; k++) ahead += (now[k] + above * now[3 + k] - centre[k]) * way[k];
   return ahead > AHEAD * square;
@@ -53,10 +67,8 @@ static bool is_ahead(slave *s, size_t i) {
 /* Before a step, after normals are held; a first answer has none to come from. */
 void slave_begin_ramps(slave *s, double step) {
   const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i + ANSWER <= t->n_known && s->made.n > 0; i++) {
-    if (t->variable[i].role != SLAVE_ANSWER || t->variable[i + 3].role != SLAVE_NORMAL || t->variable[i].other < 0 ||
-        !is_ahead(s, i))
-      continue;
+  for (size_t i = 0; i < t->n_known && s->made.n > 0; i++) {
+    if (!slave_is_answer(i) || !is_ahead(s, i)) continue;
     for (size_t k = 0; k < ANSWER; k++) {
       const double way = s->value[i + k] - slave_reached(s, i + k);
       s->slope[(i + k) * SLAVE_TERMS] = -way;

@@ -252,9 +252,13 @@ void slave_add_slope(const double *slope, size_t variable, double elapsed, doubl
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
+static const double SLAVE_EDGE =
+    0.3; /* of unit normals: sums of ground and edge stay below it, see docs/decisions/0186 */
+
 /* road_ramps.c: answers on the road for the end of a step go there from the last ones */
 double slave_reached(const slave *s, size_t i);
-bool slave_is_ramp(const slave *s, size_t i);
+bool slave_is_answer(size_t i);
+bool slave_is_ramp(const double *slope, size_t i);
 void slave_begin_ramps(slave *s, double step);
 void slave_end_ramps(slave *s);
 

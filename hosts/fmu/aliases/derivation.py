@@ -17,8 +17,8 @@ _ROWS = 3
 class Derivation:
     """Computes derived variables.
 
-    `names`: of the values that are there, ours where they have one. `names`: of the m variables that can be derived
-    from these.
+    `names`: of the values that are there, ours where they have one. Its own `names` are those of the m variables that
+    can be derived from them.
     """
 
     def __init__(self, derived: Sequence[Derived], names: Sequence[str]) -> None:

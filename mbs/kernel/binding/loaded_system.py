@@ -7,10 +7,11 @@ from ctypes import byref, c_void_p
 
 from ..header.structures import Sizes
 from .errors import KernelError, status_text
+from .kernel_memory import KernelMemory
 from .library import load_library
 
 
-class LoadedSystem:
+class LoadedSystem(KernelMemory):
     """A System in the kernel's memory, immutable and shared by its instances.
 
     `sizes`: numbers of coordinates, rows, inputs, sensors and so on; `state_size`, `snapshot_size`, `instance_size`:

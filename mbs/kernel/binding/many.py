@@ -11,6 +11,7 @@ from ..header.structures import LaneFields
 from .buffers import buffer
 from .errors import KernelError, status_text
 from .instance import Instance
+from .kernel_memory import KernelMemory
 from .library import load_library
 from .loaded_system import LoadedSystem
 
@@ -33,7 +34,7 @@ def widest_lanes() -> int:
     return int(load_library().ali3_widest_lanes())
 
 
-class Many:
+class Many(KernelMemory):
     """Memory to advance several instances of a System together, a lane each.
 
     `width`: lanes: 2, 4 or 8, at most `widest_lanes`.

@@ -9,10 +9,11 @@ from typing import Any
 from ..header.limits import OPEN
 from ..header.structures import ReportFields
 from .errors import KernelError, status_text
+from .kernel_memory import KernelMemory
 from .loaded_system import LoadedSystem
 
 
-class StandingInstance:
+class StandingInstance(KernelMemory):
     """A State of a System, for those who make no steps from its start. A refused call leaves the last accepted state.
 
     `system`: kept alive by the instance.

@@ -110,7 +110,8 @@ typedef struct {
   double work; /* what inputs and forces without a potential gave and took: sum over the steps, J */
   double kinetic_peak; /* largest kinetic energy, at least that of 1e-6 m/s, J */
   /* in the metric of the diagonal of M, sqrt(kg) m/s: largest velocity, length of the path of the velocity (over the
-   * largest: radians that the motion has turned), sum of the errors of v + h a over the steps */
+   * largest: radians that the motion has turned), sum of the errors of v + h a over the steps, of methods of order
+   * above two the larger of what start and end of a step give */
   double speed_peak, velocity_path, predictor_path;
   double velocity_squares, predictor_squares; /* sums of the squares of what the steps add to both paths */
   double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
@@ -371,7 +372,8 @@ ALI3_API size_t ali3_state_size(const ali3_system *s);
 ALI3_API ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size);
 ALI3_API ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size);
 /* A copy in memory of what inputs, parameters and steps change, for steps that are taken back: a block of
- * ali3_snapshot_size bytes, aligned as by malloc, which must be restored to the instance it was taken of. */
+ * ali3_snapshot_size bytes, aligned as by malloc, which must be restored to the instance it was taken of. Settings are
+ * not in it: where the method is another one now, call ali3_set_settings after it. */
 ALI3_API size_t ali3_snapshot_size(const ali3_system *s);
 ALI3_API void ali3_snapshot_take(const ali3_instance *in, void *snapshot);
 ALI3_API void ali3_snapshot_restore(ali3_instance *in, const void *snapshot);

@@ -59,6 +59,7 @@ test("lines of a grid between two equal neighbours are left out, its ends and ev
 test("cells of a grid are at most 20 m long, and lines between those of the grid lie straight between them", () => {
   assert.deepEqual(divided([0, 1, 3], 25), [0, 0.5, 1, 1 + 2 / 3, 1 + 4 / 3, 3]);
   assert.deepEqual(divided([0, 40, 41], 0.5), [0, 40, 41]);
+  assert.equal(divided([0, 1], 1e5).length, 401); // of 100 km
   const values = Float32Array.from([0, 10, 4, 18]); // prettier-ignore
   assert.deepEqual([[0, 1], [0.5, 0], [0, 0.25], [0.5, 0.5], [1, 1]].map(([i, j]) => between(values, 2, i, j)), [10, 2, 2.5, 8, 18]); // prettier-ignore
 });

@@ -15,6 +15,8 @@ const STEP = 10;
 const PIECE = 64;
 /** Metres that a cell of a grid is long at most: the depth of longer needles is off, and they lie over cars. */
 const LONGEST = 20;
+/** Cells along the longest road that is cut so: of a longer one they are longer. */
+const MOST_ADDED = 400;
 
 /**
  * @param {Data} scene
@@ -192,13 +194,18 @@ export function kept(n, same) {
   return [...Array(n).keys()].filter((k) => k === 0 || k === n - 1 || !(equal[k - 1] && equal[k]));
 }
 
-/** Lines that are no farther apart than `LONGEST`: some lie between those of the grid. @param {number[]} lines @param {number} spacing m */
-export const divided = (lines, spacing) =>
-  lines.flatMap((k, at) => {
+/**
+ * Lines that are no farther apart than `LONGEST`, or than a part of a long road: some lie between those of the grid.
+ * @param {number[]} lines @param {number} spacing m
+ */
+export function divided(lines, spacing) {
+  const longest = Math.max(LONGEST, ((lines[lines.length - 1] - lines[0]) * spacing) / MOST_ADDED);
+  return lines.flatMap((k, at) => {
     const way = (lines[at + 1] ?? k) - k;
-    const parts = Math.max(1, Math.ceil((way * spacing) / LONGEST));
+    const parts = Math.max(1, Math.ceil((way * spacing) / longest));
     return Array.from({ length: parts }, (_, part) => k + (way * part) / parts);
   });
+}
 
 /** A value on lines of a grid, or straight between two along x or y. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
 export function between(values, ny, i, j) {

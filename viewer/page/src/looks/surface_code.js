@@ -40,7 +40,8 @@ float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * ove
 
 /**
  * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them:
- * two that share a channel are halves at a quarter, and there the one goes over into the other as channels do.
+ * two that share a channel are halves at a quarter, and there the one goes over into the other as channels do. Where
+ * four surfaces meet in a point, and hold a quarter each, half of it shows those that share their channels.
  * Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
  * @param {string} at @param {string} sharper
  */

@@ -61,9 +61,11 @@ export class WorldPlan {
     const [x0, y0, x1, y1] = this.bounds;
     for (const { image, box } of this.pictures) {
       context.save();
-      context.beginPath();
-      context.rect(x0, y0, x1 - x0, y1 - y0); // not the halves of cells beyond the outer points
-      context.clip();
+      if (this._bounded) {
+        context.beginPath();
+        context.rect(x0, y0, x1 - x0, y1 - y0); // not the halves of cells beyond the outer points
+        context.clip();
+      }
       context.translate(box[0], box[3]);
       context.scale((box[2] - box[0]) / image.width, -(box[3] - box[1]) / image.height);
       context.drawImage(image, 0, 0);
