@@ -379,7 +379,7 @@ class TestOnePage:
 
     def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, shared: Program) -> None:
         """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
-        wait_drawn(shared.page)  # the small map is there again
+        shown(shared, 3.0)  # the small map is there
         made, apart = shared.ask("""(() => {
           const map = player.cockpit._inset;
           const { plan } = map;
