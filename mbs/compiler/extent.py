@@ -15,12 +15,15 @@ SMALL = 1e-3
 
 
 def model_length(model: Mechanism) -> float:
-    """The stated length, or the diagonal of the box around all bodies and joints as drawn, m.
+    """The stated length, or the drawn one, m: what errors are told in parts of."""
+    return drawn_length(model) if model.length is None else model.length
+
+
+def drawn_length(model: Mechanism) -> float:
+    """The diagonal of the box around all bodies and joints as drawn, m.
 
     A single body without joints has twice its radius of gyration; where nothing has an extent the length is 1 m.
     """
-    if model.length is not None:
-        return model.length
     points = [p for body in (model.ground, *model.bodies) for p in _points(body)]
     extent = float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
     widest = max((2.0 * _gyration(body) for body in model.bodies), default=0.0)

@@ -16,7 +16,7 @@ from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
-from mbs.compiler.extent import coordinate_lengths, fineness, model_length, unit_vectors
+from mbs.compiler.extent import coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
 from mbs.compiler.flexible import (
     deformation_metric,
     flexible_arrays,
@@ -108,8 +108,8 @@ def compiled(
     known = tell_apart(model, remaining, full, of_z, left)
     remaining, full, of_z, left = known.remaining, known.full, known.of_z, known.left
     nz = len(remaining)
-    length = model_length(model)
-    candidates = [row_terms(e, j, k, known.seen, length) for j, k, e in others]
+    length, size = model_length(model), drawn_length(model)
+    candidates = [row_terms(e, j, k, known.seen, size) for j, k, e in others]
     for row in candidates:
         if row.columns() and row.columns()[-1] >= nz:
             raise refuse_joint(row.name)
@@ -118,7 +118,7 @@ def compiled(
         row.switch = -1 if switch is None else switch.index
     candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
-    rows, dependent = independent_rows(candidates, joints_of_bodies(model), length)
+    rows, dependent = independent_rows(candidates, joints_of_bodies(model), size)
     if not remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
 
@@ -141,7 +141,7 @@ def compiled(
     stiffness = deformation_metric(model, full, new)
     drawn = reference_position(model, natural, remaining, T, z0, M_full)[order]
     q = close_position(
-        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fineness(length)
+        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fineness(size)
     )
     qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
     _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
@@ -149,7 +149,7 @@ def compiled(
     rank = rank_at(Phiq, mass.diagonal())
     _, Phiq, _ = arrays.evaluate(q, guides)
     carried = (T.multiply(T).T @ carried_mass(model))[order]
-    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(length))
+    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(size))
     arrays.scale(scale)
 
     gravity = full_gravity(model)

@@ -8,6 +8,7 @@ from scipy.interpolate import PPoly
 from scipy.special import ellipk
 
 from mbs import Model, ModelError, compile, simulate
+from mbs.scenes import slider_crank
 
 SIZES = [1e-9, 1e-7, 1e-6, 1.0, 1e3, 1e5]
 SWING = 0.5
@@ -31,6 +32,15 @@ def test_the_period_of_a_pendulum_is_that_of_the_closed_form(size):
     for run in (simulate(system, 3.0 * period, tolerance=1e-6), simulate(system, 3.0 * period, period / 2000.0)):
         assert run["x"][-1] / size == pytest.approx(np.sin(SWING), abs=1e-7)
         assert np.ptp(run["x"]) / size == pytest.approx(2.0 * np.sin(SWING), abs=1e-4)
+
+
+def test_a_stated_length_is_that_of_errors_only():
+    """What is round-off in a condition follows from the drawing."""
+    model, other = slider_crank.build(), slider_crank.build()
+    other.length = 1e-9
+    one, two = compile(model), compile(other)
+    assert two.report["length"] == 1e-9
+    assert all(np.array_equal(one.arrays[name], two.arrays[name]) for name in one.arrays)
 
 
 @pytest.mark.parametrize("size", SIZES)

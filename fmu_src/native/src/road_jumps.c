@@ -58,10 +58,9 @@ static void watch_bend(slave *s, size_t i) {
   }
   const double far = 0.5 * bend * fmin(away / square, FARTHEST), end = far - lifted(s, i, centre);
   /* a road that goes from one plane to the next misses a quarter, in the middle, and is 0.2 % off at 0.1 mm */
-  const bool ramp = slave_is_ramp(s->slope, i), ramped = s->made.sloped && slave_is_ramp(s->made_slope, i);
-  const double start = ramp ? 0.25 * far : far;
-  /* a step makes more of its end */
-  if (!(fabs(end) / (ramped ? 4.0 : 1.0) + 0.25 * fabs(start) / (ramp ? 4.0 : 1.0) > BEND)) return;
+  const bool ramp = slave_is_ramp(s->slope, i);
+  const double start = ramp ? 0.25 * far : far, most = ramp ? 4.0 * BEND : BEND;
+  if (!(fabs(end) + 0.25 * fabs(start) > most)) return; /* a step makes more of its end */
   s->said[i + 1] |= SLAVE_TURNED;
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the answer on the road '%s' tells that the last one was off by %.2g mm at its wheel at the end "
