@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
+from mbs.kernel.binding.kernel_memory import KernelMemory
 from mbs.simulation.standing_system import sensor_values
 from mbs.simulation.state import State
 from mbs.system.compiled_model import CompiledModel
 
 
-class SystemInstance:
+class SystemInstance(KernelMemory):
     """An instance of the kernel, and what is read of it wherever it stands.
 
     `loaded`: the System in the kernel's memory; `meta`: its names, which are not changed.
     """
 
+    _reason = "its state is in the kernel; make another one of the System and let it restore() what save() gave"
+
     def __init__(self, system: CompiledModel, loaded: LoadedSystem, meta: dict[str, Any]) -> None:
         self.system, self._meta = system, meta
         self.instance = Instance(loaded)
-
-    def __reduce_ex__(self, protocol: object) -> NoReturn:
-        # a copy would move the same instance of the kernel
-        raise TypeError(
-            f"A {type(self).__name__} cannot be copied or pickled, its state is in the kernel; make another one of the "
-            "System and let it restore() what save() gave."
-        )
 
     @property
     def time(self) -> float:

@@ -35,15 +35,7 @@ class SystemFileError(ValueError):
 class CompiledModel:
     """The arrays and names of a System, without what is drawn; immutable.
 
-    Attributes
-    ----------
-    arrays : mapping of str to ndarray
-        The arrays of the System file (`docs/system_file.md`), read-only; those of the assembly modes are found when
-        they are first asked for.
-    meta : mapping
-        Names, units and the report.
-    frames : Frames or None
-        Points and axes of the bodies among the coordinates; None where the System was read from a file.
+    `arrays`, `meta` and `frames` are those that `mbs.System` tells of.
     """
 
     def __init__(

@@ -67,6 +67,13 @@ static void aim(replay *r, const double *direction) {
   if (r->plus == r->minus) r->plus = PART; /* at two ends at once */
 }
 
+/* The inputs of this run at `elapsed` after the communication point. */
+static const double *row_at(const slave *s, const replay *r, double elapsed) {
+  memcpy(r->row, r->set, (size_t)ali3_system_sizes(s->fidelity.system).nu * sizeof(double));
+  if (s->made.sloped) slave_add_slopes(s->made_slope, elapsed, r->row);
+  return r->row;
+}
+
 /* Starts the step again with `part` of the direction added to its inputs. */
 static ali3_status begin(slave *s, const replay *r, double part) {
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
@@ -77,9 +84,7 @@ static ali3_status begin(slave *s, const replay *r, double part) {
   ali3_snapshot_restore(kernel, s->fidelity.start);
   for (int32_t i = 0; i < z.nu; i++) r->set[i] = r->held[i] + part * r->unit[i];
   const ali3_status status = ali3_set_settings(kernel, &exact);
-  memcpy(r->row, r->set, (size_t)z.nu * sizeof(double));
-  if (s->made.sloped) slave_add_slopes(s->made_slope, 0.0, r->row);
-  return status == ALI3_OK ? slave_set_step(s, r->parameter, r->row) : status;
+  return status == ALI3_OK ? slave_set_step(s, r->parameter, row_at(s, r, 0.0)) : status;
 }
 
 /* To its end; *contact: one with a road was made or lost on the way. */
@@ -90,9 +95,7 @@ static ali3_status run(slave *s, replay *r, bool beside, bool *contact) {
   ali3_contacts(kernel, r->before);
   slave_kinks_begin(&r->kinks, kernel, beside);
   for (int64_t k = 0; k < s->made.n && status == ALI3_OK; k++) {
-    memcpy(r->row, r->set, (size_t)z.nu * sizeof(double));
-    if (s->made.sloped) slave_add_slopes(s->made_slope, (double)(k + 1) * s->made.h, r->row);
-    status = ali3_run(kernel, s->made.h, 1, r->row, 1, NULL, NULL, NULL);
+    status = ali3_run(kernel, s->made.h, 1, row_at(s, r, (double)(k + 1) * s->made.h), 1, NULL, NULL, NULL);
     ali3_contacts(kernel, r->after);
     *contact = *contact || memcmp(r->before, r->after, (size_t)z.ne) != 0;
     slave_kinks_after(&r->kinks, kernel);

@@ -84,8 +84,8 @@ typedef enum { /* bits, for masks of allowed calls */
                SLAVE_TERMINATED = 16
 } slave_phase;
 
-/* SLAVE_TERMS: of an input along its derivatives, from order 0 on, see slopes.c */
-enum { SLAVE_MOST_ORDERS = 3, SLAVE_TERMS = 4, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
+enum { SLAVE_MOST_ORDERS = 3, SLAVE_TEXT = 1024, SLAVE_PATH = 4096, SLAVE_MOST_TEXT = 1024 };
+enum { SLAVE_TERMS = SLAVE_MOST_ORDERS + 1 }; /* of an input along its derivatives, from order 0 on, see slopes.c */
 typedef char slave_text_value[SLAVE_MOST_TEXT]; /* with zeros behind its end */
 
 typedef struct slave slave;
@@ -252,8 +252,8 @@ void slave_add_slope(const double *slope, size_t variable, double elapsed, doubl
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
-static const double SLAVE_EDGE =
-    0.3; /* of unit normals: sums of ground and edge stay below it, see docs/decisions/0186 */
+/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0186. */
+static const double SLAVE_EDGE = 0.3;
 
 /* road_ramps.c: answers on the road for the end of a step go there from the last ones */
 double slave_reached(const slave *s, size_t i);

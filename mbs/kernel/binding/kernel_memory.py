@@ -6,7 +6,9 @@ from typing import NoReturn
 
 
 class KernelMemory:
-    """Base of what frees memory of the kernel when it goes: a copy would free the same memory."""
+    """Base of what has memory of the kernel: a copy would move, and free, the same memory."""
+
+    _reason = "its memory is the kernel's"
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
-        raise TypeError(f"A {type(self).__name__} cannot be copied or pickled, its memory is the kernel's.")
+        raise TypeError(f"A {type(self).__name__} cannot be copied or pickled, {self._reason}.")

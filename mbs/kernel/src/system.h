@@ -161,7 +161,7 @@ struct ali3_system {
   double *single_val; /* as row_col: its factor, or 0 */
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
                         side; else the end of its terms */
-  int32_t *front_row; /* nc: rows front by front */
+  int32_t *front_row_ptr, *front_row; /* nf + 1; nc: rows front by front */
   int32_t *row_alike; /* as front_row: rows from this one on with the same stretch in the same front; 0: no stretch */
   ali3_term *quad; /* as quad_*; of a row the terms with entries of its stretch stand last */
   int32_t *quad_pos; /* as quad: its place in front storage */

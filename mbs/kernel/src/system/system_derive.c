@@ -34,6 +34,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->single_col = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->single_val = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(double));
   s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
+  s->front_row_ptr = ali3_pool_items(p, (size_t)s->size.nf + 1, sizeof(int32_t));
   s->front_row = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->row_alike = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->quad_end = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
@@ -270,10 +271,12 @@ static bool alike(const ali3_system *s, int32_t k, int32_t next) {
 }
 
 static void derive_alike_rows(ali3_system *s) {
-  int32_t n = 0;
-  for (int32_t f = 0; f < s->size.nf; f++)
-    for (int32_t k = 0; k < s->size.nc; k++)
-      if (s->row_front[k] == f) s->front_row[n++] = k;
+  int32_t *end = s->front_row_ptr + 1; /* of a front; first its begin, which moves on with each row */
+  const int32_t n = s->size.nc, nf = s->size.nf;
+  for (int32_t k = 0; k < n; k++)
+    if (s->row_front[k] + 1 < nf) end[s->row_front[k] + 1]++;
+  for (int32_t f = 1; f < nf; f++) end[f] += end[f - 1];
+  for (int32_t k = 0; k < n; k++) s->front_row[end[s->row_front[k]]++] = k;
   for (int32_t at = n - 1; at >= 0; at--) {
     const int32_t k = s->front_row[at];
     s->row_alike[at] = s->row_stretch[k] < s->row_ptr[k + 1];
