@@ -8,7 +8,7 @@ by link looks free to the unsolved rows and makes T dense.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine
@@ -43,6 +43,7 @@ def eliminate(
     first: set[int],
     first_only: bool = False,
     stay: frozenset[int] = frozenset(),
+    length: float = 1.0,
 ) -> Elimination:
     """Solve linear equations for as many coordinates.
 
@@ -58,6 +59,9 @@ def eliminate(
         Eliminate all that can be of `first` before any other, whatever the cost.
     stay : set of int
         Coordinates that stay although equations between them are possible: those are left (flexible bodies).
+    length : float
+        Of the model, m: what is left of an equation is round-off if it is for coordinates of `first` of 1 m and of
+        this length.
 
     Examples
     --------
@@ -70,6 +74,7 @@ def eliminate(
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
     rows = [dict(e.terms) for _, e in equations]
+    largest = [_sizes(row, first, length) for row in rows]  # of each row, ever
     constants = [e.constant for _, e in equations]
     scale = max([1.0, *(abs(c) for c in constants)])
     users: list[set[int]] = [set() for _ in range(n)]
@@ -94,6 +99,11 @@ def eliminate(
 
     def offer(i: int) -> bool:
         """Queue an unsolved row; an empty one is checked. True if it was redundant."""
+        now = _sizes(rows[i], first, length)
+        if rows[i] and all(size <= DROP * most for size, most in zip(now, largest[i], strict=True)):
+            for j in rows[i]:
+                users[j].discard(i)
+            rows[i].clear()
         if rows[i] and stay.issuperset(rows[i]):
             left.add(i)
             return False
@@ -139,6 +149,7 @@ def eliminate(
                     del other[j]
                     users[j].discard(k)
             constants[k] -= f * constants[i]
+            largest[k] = tuple(map(max, largest[k], _sizes(other, first, length)))
             if k not in solved and offer(k):
                 empty.add(k)
         users[pivot] = {i}
@@ -159,3 +170,10 @@ def eliminate(
             )
     over = [(i, Affine({number[j]: v for j, v in rows[i].items()}, constants[i])) for i in sorted(left)]
     return Elimination(remaining, expressions, redundant, over)
+
+
+def _sizes(row: Mapping[int, float], first: set[int], length: float) -> tuple[float, ...]:
+    """The largest coefficient, for coordinates of `first` in metres and in this length."""
+    return tuple(
+        max((abs(v) * (unit if j in first else 1.0) for j, v in row.items()), default=0.0) for unit in (1.0, length)
+    )

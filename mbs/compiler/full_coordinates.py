@@ -19,12 +19,12 @@ Array = NDArray[np.float64]
 
 
 def reduce_coordinates(
-    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool, stay: set[int]
+    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool, stay: set[int], length: float
 ) -> tuple[list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
     `grounded`: whether a joint ties the scene to the ground; `stay`: coordinates of flexible bodies, which are never
-    eliminated.
+    eliminated; `length`: of the model as drawn, m.
 
     Returns
     -------
@@ -43,7 +43,9 @@ def reduce_coordinates(
     locked = {i for i, info in enumerate(natural.info) if info.kind in ("angle", "spin")}
     points = {i for i, info in enumerate(natural.info) if info.kind == "point"}
     # a scene without ties to the ground may go far: its rows must not hold differences of positions
-    result = eliminate(len(natural.info), equations, locked, points, first_only=not grounded, stay=frozenset(stay))
+    result = eliminate(
+        len(natural.info), equations, locked, points, first_only=not grounded, stay=frozenset(stay), length=length
+    )
     full = [substitute(e, result.expressions) for e in natural.expressions]
     left = []
     for i, over in result.left:

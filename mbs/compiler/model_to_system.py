@@ -103,12 +103,13 @@ def compiled(
     for equation in linear:
         if not held.isdisjoint(equation.linear_form().terms):
             raise refuse_joint(equation.name)
-    reduced = reduce_coordinates(natural, linear, model.grounded, flexible_coordinates(model) | base_coordinates(model))
+    length, size = model_length(model), drawn_length(model)
+    stay = flexible_coordinates(model) | base_coordinates(model)
+    reduced = reduce_coordinates(natural, linear, model.grounded, stay, size)
     remaining, full, of_z, redundant, left = reduced
     known = tell_apart(model, remaining, full, of_z, left)
     remaining, full, of_z, left = known.remaining, known.full, known.of_z, known.left
     nz = len(remaining)
-    length, size = model_length(model), drawn_length(model)
     candidates = [row_terms(e, j, k, known.seen, size) for j, k, e in others]
     for row in candidates:
         if row.columns() and row.columns()[-1] >= nz:

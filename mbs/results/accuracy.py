@@ -35,7 +35,7 @@ FAR = 0.3  # of the range: beyond it errors do not follow the order of the metho
 SCREEN, REPEAT = "screen", "repeat"
 INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
 WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
-STILL = 1e-4  # of the largest value in the unit: a smaller range is rest
+STILL = 1e-4  # of the largest value in the unit, or of `size_in`: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 COORDINATES = "1"
 WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
@@ -175,13 +175,18 @@ def instants(samples: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
 
 
-def extent(unit: str, values: Sequence[Array]) -> float:
+def size_in(unit: str, length: float) -> float:
+    """Beyond this a value tells where something is, not how large it is: of a model with this length, m."""
+    return {"m": length, "rad": 1.0, COORDINATES: max(length, 1.0)}.get(unit, math.inf)
+
+
+def extent(unit: str, values: Sequence[Array], length: float = 1.0) -> float:
     """What errors of sensors of one unit are compared with: their largest range, of forces their largest value, since
-    they carry loads that stay; 0 where nothing moves.
+    they carry loads that stay; 0 where nothing moves in a model with this length, m, wherever it lies.
     """
     largest = max(float(np.abs(v).max()) for v in values)
     moved = max(float(np.ptp(v)) for v in values)
-    if moved <= STILL * largest:
+    if moved <= STILL * min(largest, size_in(unit, length)):
         return 0.0
     return largest if unit == "N" else moved
 
@@ -191,6 +196,7 @@ def differences(
     fine: Mapping[str, Array],
     groups: Mapping[str, Sequence[str]],
     before: Mapping[str, Array] | None = None,
+    length: float = 1.0,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """Largest differences of two runs, at their `instants` and of loads between them.
 
@@ -214,7 +220,7 @@ def differences(
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
         if forces:
             gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
-        size = extent(unit, [fine[name] if not before else np.append(fine[name], before[name]) for name in names])
+        size = extent(unit, [fine[name] if not before else np.append(fine[name], before[name]) for name in names], length)
         if size > 0.0:
             sensors |= gaps
             units[unit] = max(gaps.values()) / size

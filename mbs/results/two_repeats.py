@@ -30,6 +30,7 @@ def by_limit(
     tables: Sequence[Mapping[str, Array]],
     groups: Mapping[str, Sequence[str]],
     before: Mapping[str, Array] | None = None,
+    length: float = 1.0,
 ) -> Accuracy:
     """The error against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
 
@@ -43,10 +44,12 @@ def by_limit(
         Names of what is compared, by unit.
     before : mapping of str to ndarray, optional
         The ends of what moved before, by name.
+    length : float
+        Of the model, m.
     """
     run, coarse, fine = tables
     more = 1.0 / (2.0**EVENT_ORDER - 1.0)
     names = [name for unit in groups for name in groups[unit]]
     limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
-    units, sensors, _ = differences(run, limit, groups, before)
+    units, sensors, _ = differences(run, limit, groups, before, length)
     return replace(known, units=units, sensors=sensors)

@@ -19,6 +19,7 @@ from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
+from mbs.simulation.prepared_system import length_of
 from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
@@ -82,6 +83,7 @@ class Repeats:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
         self._finer = list[Run]()
+        self._length = length_of(self.system)
         settings = self.run[0].settings
         assert settings is not None
         self._method, self.unresolved = (
@@ -141,12 +143,12 @@ class Repeats:
         """
         for times in (1, 2):
             first, second = map(self._table, self._finer[-2:])
-            apart = accuracy.differences(first, second, self.groups, self.before)[0]
+            apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
             if not (self.coarse or unsure(known, apart)):
                 break
             last, known = known, self.finer(times * parts)
             tables = [self._table(self.run), second, self._table(self._finer[-1])]
-            known = by_limit(known, tables, self.groups, self.before)
+            known = by_limit(known, tables, self.groups, self.before, self._length)
             if times == 2 and (last.error or 0.0) > (known.error or 0.0):
                 known = replace(known, units=last.units, sensors=last.sensors)
         return known
@@ -190,7 +192,7 @@ class Repeats:
         assert coarse[0].report is not None
         assert fine[0].report is not None
         tables = self._table(coarse), self._table(fine)
-        units, sensors, self._ranges = accuracy.differences(*tables, self.groups, self.before)
+        units, sensors, self._ranges = accuracy.differences(*tables, self.groups, self.before, self._length)
         order = float(METHOD_TABLE[run.settings.method].order)
         if ratio < FAR_FINER:  # else the other is so much nearer that the order hardly counts
             reports = coarse[0].report, fine[0].report

@@ -30,19 +30,33 @@ typedef struct {
   double distance2, rate; /* from the centre, squared, and half its derivative by s */
 } nearby;
 
+static int leans(const profile *p) { return !(fabs(p->up[0]) + fabs(p->up[1]) < EXACT); }
+
+static double up_to(const profile *p, double height) { return (height - p->centre[2]) / p->up[2]; }
+
+/* The place ahead by s. A leaning disc reaches the surface aside of where it is sought. */
+static void place_at(const profile *p, double s, double place[2]) {
+  double w = 0.0;
+  for (int pass = 0, more = leans(p) ? 2 : 0; pass <= more; pass++) {
+    for (int i = 0; i < 2; i++) place[i] = p->centre[i] + s * p->ahead[i] + w * p->up[i];
+    if (pass < more) w = up_to(p, ali3_grid_height(p->grid, p->cell, place[0], place[1]));
+  }
+}
+
+static double distance2_at(const profile *p, double s) {
+  double place[2];
+  place_at(p, s, place);
+  const double w = up_to(p, ali3_grid_height(p->grid, p->cell, place[0], place[1]));
+  return s * s + w * w;
+}
+
 static nearby at(const profile *p, double s) {
   nearby n = {.s = s};
-  double w = 0.0, x = 0.0, y = 0.0;
-  ali3_surface f = {0};
-  for (int pass = 0; pass < 3; pass++) { /* a leaning disc reaches the surface aside of where it is sought */
-    x = p->centre[0] + s * p->ahead[0] + w * p->up[0];
-    y = p->centre[1] + s * p->ahead[1] + w * p->up[1];
-    f = ali3_grid_near(p->grid, p->cell, x, y);
-    w = (f.height - p->centre[2]) / p->up[2];
-    if (fabs(p->up[0]) + fabs(p->up[1]) < EXACT) break;
-  }
+  place_at(p, s, n.place);
+  const ali3_surface f = ali3_grid_near(p->grid, p->cell, n.place[0], n.place[1]);
+  const double w = up_to(p, f.height);
   const double slope = -ali3_dot(f.normal, p->ahead) / ali3_dot(f.normal, p->up);
-  n.place[0] = x, n.place[1] = y, n.place[2] = f.height;
+  n.place[2] = f.height;
   for (int i = 0; i < 3; i++) n.normal[i] = f.normal[i];
   n.friction = f.friction;
   n.distance2 = s * s + w * w;
@@ -50,17 +64,20 @@ static nearby at(const profile *p, double s) {
   return n;
 }
 
-/* Between two places where the distance falls and rises: secants and halves by turns (regula falsi, Illinois). */
+/* Between two places where the distance falls and rises: false position with the weights of Anderson and Bjorck (BIT 13,
+ * 1973, 253-264), and a half where three places have not halved the bracket. */
 static nearby refined(const profile *p, nearby low, nearby high) {
-  double a = low.s, b = high.s, fa = low.rate, fb = high.rate;
+  double a = low.s, b = high.s, fa = low.rate, fb = high.rate, width = b - a;
   nearby best = low.distance2 < high.distance2 ? low : high;
-  for (int k = 0; k < REFINEMENTS && fabs(best.rate) > EXACT && b - a > EXACT; k++) {
-    const double s = k % 3 == 2 ? 0.5 * (a + b) : a + (b - a) * (fa / (fa - fb));
-    best = at(p, s);
-    if (best.rate < 0.0)
-      a = s, fa = best.rate, fb *= 0.5;
-    else
-      b = s, fb = best.rate, fa *= 0.5;
+  for (int k = 0, slow = 0; k < REFINEMENTS && fabs(best.rate) > EXACT && b - a > EXACT; k++) {
+    best = at(p, slow ? 0.5 * (a + b) : a + (b - a) * (fa / (fa - fb)));
+    double *kept = best.rate < 0.0 ? &fb : &fa, *other = best.rate < 0.0 ? &fa : &fb;
+    const double left = 1.0 - best.rate / *other;
+    *kept *= left > 0.0 ? left : 0.5;
+    *other = best.rate;
+    *(best.rate < 0.0 ? &a : &b) = best.s;
+    slow = k % 3 == 2 && b - a > 0.5 * width;
+    if (k % 3 == 2) width = b - a;
   }
   return best;
 }
@@ -136,15 +153,15 @@ static int shared(ali3_contact out[2]) {
 /* The two deepest minima; 0 where the centre is not above the surface. */
 static int search(const profile *p, const double axis[3], double radius, ali3_contact out[2]) {
   const int parts = (int)ali3_clamp(2.0 * radius / along(p->grid, p->ahead), LEAST_PARTS, MOST_PARTS);
-  nearby found[2], last[2];
-  last[0] = last[1] = at(p, 0.0);
+  nearby found[2];
+  if (!(at(p, 0.0).place[2] < p->centre[2])) return 0;
+  double last[2] = {distance2_at(p, radius * (-parts - 1) / parts), distance2_at(p, radius * -parts / parts)};
   int count = 0;
-  if (!(last[0].place[2] < p->centre[2])) return 0;
-  for (int k = -parts - 1; k <= parts + 1; k++) {
-    const double s = radius * k / parts;
-    const nearby n = at(p, s);
-    if (k > -parts && last[1].distance2 <= last[0].distance2 && last[1].distance2 < n.distance2) {
-      const nearby one = minimum(p, last[0], last[1], n);
+  for (int k = -parts + 1; k <= parts + 1; k++) {
+    const double next = distance2_at(p, radius * k / parts);
+    if (last[1] <= last[0] && last[1] < next) {
+      const nearby one =
+          minimum(p, at(p, radius * (k - 2) / parts), at(p, radius * (k - 1) / parts), at(p, radius * k / parts));
       const int deeper = count > 0 && one.distance2 < found[0].distance2;
       if (deeper) found[1] = found[0];
       if (count == 0 || deeper)
@@ -153,7 +170,7 @@ static int search(const profile *p, const double axis[3], double radius, ali3_co
         found[1] = one;
       count = count < 2 ? count + 1 : 2;
     }
-    last[0] = last[1], last[1] = n;
+    last[0] = last[1], last[1] = next;
   }
   for (int k = 0; k < count; k++) {
     ali3_half_space(p->centre, axis, radius, found[k].place, found[k].normal, &out[k]);

@@ -13,7 +13,7 @@
 enum { RAYS = 16, MOST = 64, HALVINGS = 24, SECTIONS = 10 };
 
 static int is_out(const ali3_grid *g, ali3_cell *cell, const double point[3], const double way[2], double r) {
-  return ali3_grid_near(g, cell, point[0] + r * way[0], point[1] + r * way[1]).height <= point[2];
+  return ali3_grid_is_below(g, cell, point[0] + r * way[0], point[1] + r * way[1], point[2]);
 }
 
 /* Distance along a way to the first place out of the surface, `reach` where none is nearer. */
@@ -25,7 +25,7 @@ static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3
     out += step;
     if (!(in < reach)) return reach;
   } while (!is_out(g, cell, point, way, out));
-  for (int i = 0; i < HALVINGS; i++) {
+  for (int i = 0; i < HALVINGS && in < reach; i++) {
     const double middle = 0.5 * (in + out);
     if (is_out(g, cell, point, way, middle))
       out = middle;

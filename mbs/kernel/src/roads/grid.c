@@ -17,11 +17,15 @@
 
 enum { MOST_CELLS = 400 }; /* looked at for a top */
 #define OVERSHOOT 0.35     /* a bicubic patch leaves the range of its values by less than this part of it */
+#define LEFT 0.5           /* the same of a patch whose slopes are limited: those of both directions add up */
+enum { AROUND = 6 };       /* points along a side of what slopes at the corners of a cell depend on */
+
+static int cell_of(double s, int n) { return s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0; }
 
 /* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to
  * 0..n-1). */
-static int cubic(double s, int n, double w[4], double dw[4]) {
-  int i = s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0;
+static void cubic(double s, int n, double w[4], double dw[4]) {
+  const int i = cell_of(s, n);
   const int outside = s < 0.0 || s > (double)(n - 1);
   const double t = ali3_clamp(s - i, 0.0, 1.0), left = i > 0 ? 0.5 : 1.0, right = i + 2 < n ? 0.5 : 1.0;
   const double h10 = t * (1.0 - t) * (1.0 - t) * left, h11 = t * t * (t - 1.0) * right, h01 = t * t * (3.0 - 2.0 * t);
@@ -29,7 +33,6 @@ static int cubic(double s, int n, double w[4], double dw[4]) {
   w[0] = -h10, w[1] = 1.0 - h01 - h11, w[2] = h01 + h10, w[3] = h11;
   dw[0] = -d10, dw[1] = -d01 - d11, dw[2] = d01 + d10, dw[3] = d11;
   if (outside) dw[0] = dw[1] = dw[2] = dw[3] = 0.0; /* the border value goes on */
-  return i - 1;
 }
 
 static double height(const ali3_grid *g, int32_t i, int32_t j) {
@@ -64,22 +67,23 @@ static double slope_of(const double z[5], double spacing, int *limited) {
   return slope;
 }
 
-/* A point whose neighbours are all there; at the border slopes are one-sided and stay in the range anyway. */
-static ali3_grid_point corner_at(const ali3_grid *g, int i, int j, int *any) {
+/* A corner of a cell, 0 or 1 along both, from the values around; at the border slopes are one-sided and stay in the range
+ * anyway. */
+static ali3_grid_point corner_at(const ali3_grid *g, const ali3_cell *cell, const double v[AROUND][AROUND], int k,
+                                 int l, int *any) {
   double line[5];
   int limited = 0;
-  ali3_grid_point c = {.z = height(g, i, j)};
+  const int i = cell->i + 1 + k, j = cell->j + 1 + l, a = k + 2, b = l + 2; /* in the grid, in the values */
+  ali3_grid_point c = {.z = v[a][b]};
   const int left = i > 0, right = i + 1 < g->nx, down = j > 0, up = j + 1 < g->ny;
-  for (int k = -2; k <= 2; k++) line[k + 2] = height(g, within(i + k, g->nx), j);
+  for (int n = -2; n <= 2; n++) line[n + 2] = v[a + n][b];
   c.x = left && right ? slope_of(line, g->dx, &limited) : left ? line[2] - line[1] : line[3] - line[2];
-  for (int k = -2; k <= 2; k++) line[k + 2] = height(g, i, within(j + k, g->ny));
-  c.y = down && up ? slope_of(line, g->dy, &limited) : down ? line[2] - line[1] : line[3] - line[2];
+  c.y = down && up ? slope_of(&v[a][b - 2], g->dy, &limited) : down ? v[a][b] - v[a][b - 1] : v[a][b + 1] - v[a][b];
   if (limited) {
     *any = 1;
     return c;
   }
-  const double twist = height(g, i + right, j + up) - height(g, i + right, j - down) -
-                       (height(g, i - left, j + up) - height(g, i - left, j - down));
+  const double twist = v[a + right][b + up] - v[a + right][b - down] - (v[a - left][b + up] - v[a - left][b - down]);
   c.xy = twist / ((double)(left + right) * (double)(down + up));
   return c;
 }
@@ -92,21 +96,40 @@ static void hermite(double t, int outside, double w[2][2], double dw[2][2]) {
   dw[1][0] = outside ? 0.0 : s * (1.0 - 3.0 * t), dw[1][1] = outside ? 0.0 : t * (3.0 * t - 2.0);
 }
 
-/* Height and slope of a patch whose slopes are limited. */
-static void limited_patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *z, double slope[2]) {
+/* Height of a patch whose slopes are limited, and its slopes where they are wanted. */
+static inline double limited_patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
   const int first[2] = {cell->i + 1, cell->j + 1};
-  double wx[2][2], dx[2][2], wy[2][2], dy[2][2];
+  double wx[2][2], dx[2][2], wy[2][2], dy[2][2], z = 0.0;
   hermite(ali3_clamp(s[0] - first[0], 0.0, 1.0), s[0] < 0.0 || s[0] > (double)(g->nx - 1), wx, dx);
   hermite(ali3_clamp(s[1] - first[1], 0.0, 1.0), s[1] < 0.0 || s[1] > (double)(g->ny - 1), wy, dy);
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
       const ali3_grid_point c = cell->corner[i][j];
       const double a = c.z * wy[0][j] + c.y * wy[1][j], b = c.x * wy[0][j] + c.xy * wy[1][j];
+      z += wx[0][i] * a + wx[1][i] * b;
+      if (slope == NULL) continue;
       const double da = c.z * dy[0][j] + c.y * dy[1][j], db = c.x * dy[0][j] + c.xy * dy[1][j];
-      *z += wx[0][i] * a + wx[1][i] * b;
       slope[0] += (dx[0][i] * a + dx[1][i] * b) / g->dx;
       slope[1] += (wx[0][i] * da + wx[1][i] * db) / g->dy;
     }
+  return z;
+}
+
+/* The same of the patch of any cell that is held. */
+static inline double patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
+  double wx[4], dx[4], wy[4], dy[4], z = 0.0;
+  if (cell->limited) return limited_patch(g, cell, s, slope);
+  cubic(s[0], g->nx, wx, dx);
+  cubic(s[1], g->ny, wy, dy);
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      const double value = cell->z[i][j];
+      z += wx[i] * wy[j] * value;
+      if (slope == NULL) continue;
+      slope[0] += dx[i] * wy[j] * value / g->dx;
+      slope[1] += wx[i] * dy[j] * value / g->dy;
+    }
+  return z;
 }
 
 /* Whether a second difference at a corner is large enough for a limit. */
@@ -119,42 +142,81 @@ static int may_be_limited(const ali3_grid *g, const double v[4][4]) {
   return 0;
 }
 
-/* Values around the cell with the indices i, j before its first corner. */
-static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
-  if (cell->held && cell->i == i0 && cell->j == j0) return;
-  cell->held = 1, cell->limited = 0, cell->i = i0, cell->j = j0;
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) cell->z[i][j] = height(g, within(i0 + i, g->nx), within(j0 + j, g->ny));
-  const int look = may_be_limited(g, (const double (*)[4])cell->z);
-  for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 2; j++) {
-      cell->friction[i][j] = friction(g, i0 + 1 + i, j0 + 1 + j);
-      if (look) cell->corner[i][j] = corner_at(g, i0 + 1 + i, j0 + 1 + j, &cell->limited);
+/* Heights of n x n points from the indices i, j on; those outside are those of the border. */
+static void block(const ali3_grid *g, int i, int j, int n, double *v) {
+  if (g->file == NULL || i < 0 || j < 0 || i + n > g->nx || j + n > g->ny) {
+    for (int k = 0; k < n; k++)
+      for (int l = 0; l < n; l++) v[k * n + l] = height(g, within(i + k, g->nx), within(j + l, g->ny));
+    return;
+  }
+  int32_t stride, size[2];
+  for (int k = 0; k < n; k += size[0])
+    for (int l = 0; l < n; l += size[1]) {
+      size[0] = n - k, size[1] = n - l;
+      const double *from = ali3_road_file_block(g->file, i + k, j + l, size, &stride);
+      for (int a = 0; a < size[0]; a++)
+        for (int b = 0; b < size[1]; b++) v[(k + a) * n + l + b] = from != NULL ? from[a * stride + b] : 0.0;
     }
 }
 
+/* Values around the cell with the indices i, j before its first corner, and the range that the patch keeps. */
+static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
+  if (cell->held && cell->i == i0 && cell->j == j0) return;
+  cell->held = 1, cell->limited = cell->bears = 0, cell->i = i0, cell->j = j0;
+  block(g, i0, j0, 4, cell->z[0]);
+  double low = cell->z[0][0], high = low;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      low = cell->z[i][j] < low ? cell->z[i][j] : low;
+      high = cell->z[i][j] > high ? cell->z[i][j] : high;
+    }
+  cell->least = low - LEFT * (high - low), cell->most = high + LEFT * (high - low);
+  if (!may_be_limited(g, (const double (*)[4])cell->z)) return;
+  double around[AROUND][AROUND];
+  block(g, i0 - 1, j0 - 1, AROUND, around[0]);
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++)
+      cell->corner[i][j] = corner_at(g, cell, (const double (*)[AROUND])around, i, j, &cell->limited);
+}
+
+/* Frictions at the corners of the held cell. */
+static void hold_friction(const ali3_grid *g, ali3_cell *cell) {
+  if (cell->bears) return;
+  cell->bears = 1;
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++) cell->friction[i][j] = friction(g, cell->i + 1 + i, cell->j + 1 + j);
+}
+
+/* Holds the cell at a place; s: the place in spacings from the first point. */
+static void hold_at(const ali3_grid *g, ali3_cell *cell, double x, double y, double s[2]) {
+  s[0] = ali3_clamp((x - g->x0) / g->dx, -1.0, (double)g->nx);
+  s[1] = ali3_clamp((y - g->y0) / g->dy, -1.0, (double)g->ny);
+  hold(g, cell, cell_of(s[0], g->nx) - 1, cell_of(s[1], g->ny) - 1);
+}
+
 ali3_surface ali3_grid_near(const ali3_grid *g, ali3_cell *cell, double x, double y) {
-  double wx[4], dx[4], wy[4], dy[4], z = 0.0, slope[2] = {0.0, 0.0};
-  const double s[2] = {ali3_clamp((x - g->x0) / g->dx, -1.0, (double)g->nx),
-                       ali3_clamp((y - g->y0) / g->dy, -1.0, (double)g->ny)};
-  const int i0 = cubic(s[0], g->nx, wx, dx), j0 = cubic(s[1], g->ny, wy, dy);
-  hold(g, cell, i0, j0);
-  if (cell->limited)
-    limited_patch(g, cell, s, &z, slope);
-  else
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) {
-        const double value = cell->z[i][j];
-        z += wx[i] * wy[j] * value;
-        slope[0] += dx[i] * wy[j] * value / g->dx;
-        slope[1] += wx[i] * dy[j] * value / g->dy;
-      }
-  const double tx = ali3_clamp(s[0] - (i0 + 1), 0.0, 1.0), ty = ali3_clamp(s[1] - (j0 + 1), 0.0, 1.0);
+  double s[2], slope[2] = {0.0, 0.0};
+  hold_at(g, cell, x, y, s);
+  hold_friction(g, cell);
+  const double z = patch(g, cell, s, slope);
+  const double tx = ali3_clamp(s[0] - (cell->i + 1), 0.0, 1.0), ty = ali3_clamp(s[1] - (cell->j + 1), 0.0, 1.0);
   const double (*m)[2] = (const double (*)[2])cell->friction;
   const double mu = (1.0 - tx) * ((1.0 - ty) * m[0][0] + ty * m[0][1]) + tx * ((1.0 - ty) * m[1][0] + ty * m[1][1]);
   const double size = sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
   const ali3_surface found = {z, {-slope[0] / size, -slope[1] / size, 1.0 / size}, mu};
   return found;
+}
+
+double ali3_grid_height(const ali3_grid *g, ali3_cell *cell, double x, double y) {
+  double s[2];
+  hold_at(g, cell, x, y, s);
+  return patch(g, cell, s, NULL);
+}
+
+int ali3_grid_is_below(const ali3_grid *g, ali3_cell *cell, double x, double y, double z) {
+  double s[2];
+  hold_at(g, cell, x, y, s);
+  return cell->most <= z || (cell->least <= z && patch(g, cell, s, NULL) <= z);
 }
 
 ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y) {

@@ -21,14 +21,18 @@ typedef struct { /* a point of a grid: height, its differences per spacing, thei
 } ali3_grid_point;
 
 typedef struct { /* what lies around a cell of one grid; {0} before the first */
-  int held, limited, i, j; /* indices before its first corner */
+  int held, limited, bears, i, j; /* indices before its first corner; bears: its frictions are there */
   double z[4][4], friction[2][2];
+  double least, most; /* no height between the corners is outside */
   ali3_grid_point corner[2][2]; /* where slopes are limited */
 } ali3_cell;
 
 ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y);
 /* The same, for places that follow each other in few cells: what lies around the last one is found once. */
 ali3_surface ali3_grid_near(const ali3_grid *g, ali3_cell *cell, double x, double y);
+double ali3_grid_height(const ali3_grid *g, ali3_cell *cell, double x, double y);
+/* Whether the surface at a place is not above z. */
+int ali3_grid_is_below(const ali3_grid *g, ali3_cell *cell, double x, double y, double z);
 /* Height of the bilinear surface. */
 double ali3_grid_chord(const ali3_grid *g, double x, double y);
 /* No point of the grid within reach of a place in x and y is higher; infinite where that takes too long to see. */

@@ -133,6 +133,16 @@ double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j) {
   return tile != NULL ? tile[i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
 
+const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride) {
+  *stride = file->values != NULL ? (int32_t)file->head.ny : ALI3_ROAD_TILE;
+  if (file->values != NULL) return file->values + (int64_t)i * file->head.ny + j;
+  const int32_t at[2] = {i % ALI3_ROAD_TILE, j % ALI3_ROAD_TILE};
+  for (int k = 0; k < 2; k++)
+    if (size[k] > ALI3_ROAD_TILE - at[k]) size[k] = ALI3_ROAD_TILE - at[k];
+  const double *tile = tile_at(file, i, j);
+  return tile != NULL ? tile + at[0] * ALI3_ROAD_TILE + at[1] : NULL;
+}
+
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j) {
   if (file->head.maps < 2) return file->head.real[4];
   if (file->values != NULL) return file->values[(file->head.nx + i) * file->head.ny + j];
