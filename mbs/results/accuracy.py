@@ -220,7 +220,9 @@ def differences(
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
         if forces:
             gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
-        size = extent(unit, [fine[name] if not before else np.append(fine[name], before[name]) for name in names], length)
+        size = extent(
+            unit, [fine[name] if not before else np.append(fine[name], before[name]) for name in names], length
+        )
         if size > 0.0:
             sensors |= gaps
             units[unit] = max(gaps.values()) / size
