@@ -18,6 +18,8 @@ PIVOT_THRESHOLD = 0.1
 """A pivot is at least this part of the largest entry of its row."""
 DROP = 1e-12
 """A sum smaller than this part of its terms is a zero."""
+VANISHED = 1e-10
+"""An equation with no coefficient left above this part of its largest ever has become empty."""
 CONSISTENT = 1e-9
 """Largest mismatch, relative to the size of the constants (at least 1 m), of a redundant linear equation."""
 
@@ -73,7 +75,7 @@ def eliminate(
     >>> [(dict(e.terms), e.constant) for e in found.expressions]
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
-    rows = [dict(e.terms) for _, e in equations]
+    rows = [_significant(e.terms, first, length) for _, e in equations]
     largest = [_sizes(row, first, length) for row in rows]  # of each row, ever
     constants = [e.constant for _, e in equations]
     scale = max([1.0, *(abs(c) for c in constants)])
@@ -100,7 +102,7 @@ def eliminate(
     def offer(i: int) -> bool:
         """Queue an unsolved row; an empty one is checked. True if it was redundant."""
         now = _sizes(rows[i], first, length)
-        if rows[i] and all(size <= DROP * most for size, most in zip(now, largest[i], strict=True)):
+        if rows[i] and all(size <= VANISHED * most for size, most in zip(now, largest[i], strict=True)):
             for j in rows[i]:
                 users[j].discard(i)
             rows[i].clear()
@@ -177,3 +179,9 @@ def _sizes(row: Mapping[int, float], first: set[int], length: float) -> tuple[fl
     return tuple(
         max((abs(v) * (unit if j in first else 1.0) for j, v in row.items()), default=0.0) for unit in (1.0, length)
     )
+
+
+def _significant(row: Mapping[int, float], first: set[int], length: float) -> dict[int, float]:
+    """Without coefficients that are round-off of its largest."""
+    one, other = (DROP * size for size in _sizes(row, first, length))
+    return {j: v for j, v in row.items() if abs(v) > one or abs(v) * (length if j in first else 1.0) > other}

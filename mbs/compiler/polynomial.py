@@ -16,7 +16,9 @@ RateTerms = dict[tuple[int, int], float]
 """(i, j) for z_i dz_j/dt, (-1, j) for dz_j/dt."""
 
 DROP = 1e-12
-"""A coefficient smaller than this part of the largest that went into its row is a zero."""
+"""A coefficient smaller than this part of the largest of its row is a zero."""
+VANISHED = 1e-10
+"""A row of which nothing is larger than this part of what was added up is none; far from the origin more is left."""
 
 
 @dataclass
@@ -80,8 +82,8 @@ def substitute(expression: Affine, full: Sequence[Affine]) -> Affine:
     return Affine(terms, constant if abs(constant) > DROP * biggest else 0.0)
 
 
-def add_product(into: Polynomial, factor: float, a: Affine, b: Affine) -> None:
-    """Add ``factor * a * b``; a and b are expressions of z."""
+def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: list[float]) -> None:
+    """Add ``factor * a * b``, expressions of z, and keep in `largest` what no added term of each degree exceeds."""
     if factor == 0.0:
         return
     left = [*a.terms.items(), (-1, a.constant)] if a.constant else list(a.terms.items())
@@ -90,27 +92,31 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine) -> None:
         for j, v in right:
             m = (i, j) if i >= j else (j, i)
             into[m] = into.get(m, 0.0) + factor * u * v
+    p, q = (max(map(abs, e.terms.values()), default=0.0) for e in (a, b))
+    degrees = abs(a.constant * b.constant), max(p * abs(b.constant), q * abs(a.constant)), p * q
+    largest[:] = [max(most, abs(factor) * size) for most, size in zip(largest, degrees, strict=True)]
 
 
-def cleaned(p: Polynomial, size: float = 1.0) -> Polynomial:
+def cleaned(p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0)) -> Polynomial:
     """Without coefficients that are round-off of the largest, for coordinates of 1 m and for those of `size`, m.
 
     Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
+    `largest`: what was added up, of each degree; all that is left of it may be round-off.
     """
-    if not p:
-        return p
     kept: set[Monomial] = set()
     for unit in {1.0, size}:
         by_degree = (1.0, unit, unit * unit)
         sizes = {m: abs(v) * by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
-        least = DROP * max(sizes.values())
-        kept.update(m for m, v in sizes.items() if v > least)
+        left, added = max(sizes.values(), default=0.0), max(v * w for v, w in zip(largest, by_degree, strict=True))
+        if left > VANISHED * added:
+            kept.update(m for m, v in sizes.items() if v > DROP * left)
     return {m: v for m, v in p.items() if m in kept}
 
 
 def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float) -> Polynomial:
     """The polynomial of a sum of products and a linear part; `size`: of the model, m."""
     p: Polynomial = {}
+    largest = [0.0, 0.0, 0.0]
     cache: dict[int, Affine] = {}
 
     def of_z(a: Affine) -> Affine:
@@ -120,9 +126,9 @@ def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine], 
         return found
 
     for factor, a, b in products:
-        add_product(p, factor, of_z(a), of_z(b))
-    add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0))
-    return cleaned(p, size)
+        add_product(p, factor, of_z(a), of_z(b), largest)
+    add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0), largest)
+    return cleaned(p, size, largest)
 
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:

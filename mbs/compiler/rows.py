@@ -62,10 +62,11 @@ def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
     for i, (w_i, v_i) in enumerate(chosen):
         for w_j, v_j in chosen[: i + 1]:
             p: Polynomial = {}
+            largest = [0.0, 0.0, 0.0]
             for x, y in zip(v_i.components, v_j.components, strict=True):
-                add_product(p, 1.0, x, y)
+                add_product(p, 1.0, x, y, largest)
             p[(-1, -1)] = p.get((-1, -1), 0.0) - float(np.dot(w_i, w_j))
-            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p, body_length(body))))
+            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p, body_length(body), largest)))
     return rows
 
 
