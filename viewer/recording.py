@@ -184,11 +184,15 @@ class Recording:
         return frame | {"start": [first[:3], first[3:]]}
 
     def _note_gaps(self, names: Any) -> None:
+        same: dict[bytes, list[str]] = {}  # columns with the same gaps are told in one sentence
         for name in names:
-            bad = ~np.isfinite(self.columns[name])
+            same.setdefault((~np.isfinite(self.columns[name])).tobytes(), []).append(name)
+        for gaps, (first, *others) in same.items():
+            bad = np.frombuffer(gaps, bool)
             if bad.any():
+                who = f"columns '{first}' and {len(others)} more have each" if others else f"column '{first}' has"
                 self.notes.append(
-                    f"The column '{name}' has {int(bad.sum())} of {len(bad)} values that are no numbers, the first at "
+                    f"The {who} {int(bad.sum())} of {len(bad)} values that are no numbers, the first at "
                     f"{self.t[int(bad.argmax())]:g} s; there is nothing drawn for them."
                 )
 
