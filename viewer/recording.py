@@ -184,13 +184,14 @@ class Recording:
         return frame | {"start": [first[:3], first[3:]]}
 
     def _note_gaps(self, names: Any) -> None:
-        for name in names:
-            bad = ~np.isfinite(self.columns[name])
-            if bad.any():
-                self.notes.append(
-                    f"The column '{name}' has {int(bad.sum())} of {len(bad)} values that are no numbers, the first at "
-                    f"{self.t[int(bad.argmax())]:g} s; there is nothing drawn for them."
-                )
+        gaps = {n: (bad.sum(), self.t[bad.argmax()]) for n in names if (bad := ~np.isfinite(self.columns[n])).any()}
+        for count, begin in dict.fromkeys(gaps.values()):
+            name, *others = [n for n in gaps if gaps[n] == (count, begin)]
+            who = f"columns '{name}' and {len(others)} more have each" if others else f"column '{name}' has"
+            self.notes.append(
+                f"The {who} {count} of {len(self.t)} values that are no numbers, the first at {begin:g} s; there is "
+                "nothing drawn for them."
+            )
 
     def _cut(self, name: str) -> None:
         """Take out numbers of poses that no picture can hold, and say so."""
@@ -210,9 +211,8 @@ class Recording:
         within = (low >= -0.5 * _TURN - 1e-6 and high <= 0.5 * _TURN + 1e-6) or (low >= -1e-6 and high <= _TURN + 1e-6)
         values = angle[good]
         if within and np.abs(np.diff(values)).max(initial=0.0) > 0.5 * _TURN:
-            made = angle.copy()
-            made[good] = np.unwrap(values)
-            self.columns[name] = made
+            self.columns[name] = angle.copy()
+            self.columns[name][good] = np.unwrap(values)
             self.notes.append(f"The column '{name}' was given within one turn; it is shown as a continuous angle.")
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.car import fidelity_runs, manoeuvres, proving_ground
+from benchmarks.car import driven_worlds, fidelity_runs, manoeuvres
 from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
 from mbs.model.model import Model
@@ -104,6 +104,10 @@ def _lane_change(car: str) -> Callable[[], Recording]:
     return record
 
 
+def _driven(name: str) -> Callable[[], Recording]:
+    return lambda: driven_worlds.drive(name)
+
+
 def _kerb_test() -> Recording:
     return recording_of(fidelity_runs.run("kerb_test", Fidelity.DYNAMIC, 0.005))
 
@@ -135,9 +139,16 @@ ANIMATIONS = {
     ),
     "proving_ground": Animation(
         "The proving ground of the simulator: a jump from a metre, a sudden turn",
-        proving_ground.jump,
+        _driven("proving_ground"),
         1.4,
         5.4,
+    ),
+    "plane": Animation(
+        "The world plane: swerves at 22 m/s, then brakes", _driven("plane"), 0.2, 5.2, camera="trackside"
+    ),
+    "rough": Animation("The world rough: the hatchback at 20 m/s", _driven("rough"), 0.2, 3.8, camera="wheel FL"),
+    "washboard": Animation(
+        "The world washboard: from 6 m/s on through the resonance of the body", _driven("washboard"), 0.5, 5.5
     ),
     "kerb_test": Animation(
         "The car falls from the kerb; stress in the frame, its deformation 30 times larger",

@@ -12,7 +12,7 @@ from benchmarks.paper.animations import ANIMATIONS, FPS, SIZE
 from tests.in_browser import chromium_or_skip
 
 DOCS = Path(__file__).parents[2] / "docs"
-LARGEST, ALL = 1_600_000, 8_000_000  # bytes
+LARGEST, ALL = 1_300_000, 10_500_000  # bytes
 
 
 @pytest.mark.parametrize("name", ANIMATIONS)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.viewer.hand_scenes import floats
 from tests.viewer.test_drawing import at, ball, scene
 from tests.viewer.test_worlds_drawn import around, level
 
@@ -79,6 +80,35 @@ def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn, quality):
     dark, clean, other = (around(picture, drawn.project((*place, 0.0)), 0).mean() for place in (on, before, beside))
     assert dark < 0.6 * other
     assert clean > 0.8 * other
+
+
+def split_ground(factor: float) -> dict[str, Any]:
+    """Level ground of points every 0.5 m, dry at the left of y = 0 and of a factor of friction at the right."""
+    frictions = np.where(np.arange(-40, 41) * 0.5 < -0.1, factor, 1.0)[None].repeat(81, axis=0)
+    grid = {"kind": "grid", "origin": [-20.0, -20.0], "spacing": [0.5, 0.5], "shape": [81, 81]}
+    return grid | {"heights": floats(np.zeros(81 * 81)), "frictions": floats(frictions)}
+
+
+@pytest.mark.parametrize(("factor", "marks"), [(1.0, True), (0.6, False), (0.1, False)])
+def test_a_tyre_that_slides_on_what_is_slick_leaves_no_mark(drawn, factor, marks):
+    """The wheel runs at y = -3 m, on wet ground or ice; beside it the ground is dry."""
+    sliding = [tyre(float(x), **{"wheel.contact_y": -3.0, "wheel.slip": -1.0}) for x in np.arange(0.0, 12.0, 0.1)]
+    drawn.show(tyre_scene("asphalt") | {"roads": [split_ground(factor)]}, tyre(0.0), camera="top")
+    count, problem = drawn.ask(_DRIVE, [[[0.01 * k, 1, row] for k, row in enumerate(sliding)], "TyreMarks"])
+    assert problem == ""
+    assert (count > 50) == marks
+
+
+@pytest.mark.parametrize("quality", ["draft", "low"])
+def test_ice_beside_dry_ground_has_no_dark_line(drawn, quality):
+    """Its edge is nowhere darker than the darker side, which wet ground between them would be."""
+    drawn.show(scene(focus="body", roads=[split_ground(0.15)], extent=1.0), at(0, 0, 0), camera="top", quality=quality)
+    (u, v), (_, v_at_1) = (drawn.project((0.0, y, 0.0)) for y in (0.0, 1.0))
+    across = drawn.picture()[:, : int(u) - 10].mean(axis=(1, 2))
+    y = (np.arange(len(across)) + 0.5 - v) / (v_at_1 - v)
+    dry, ice, edge = (across[(y > low) & (y < high)] for low, high in ((0.2, 0.8), (-1.3, -0.7), (-0.55, 0.1)))
+    assert ice.mean() > 1.5 * dry.mean()
+    assert edge.min() > 0.93 * dry.min()
 
 
 def test_marks_of_a_draft_have_a_quarter_of_the_sections_and_the_same_ends(drawn):

@@ -101,6 +101,15 @@ def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> N
     ]
 
 
+def test_columns_with_the_same_gaps_are_told_in_one_sentence() -> None:
+    gaps, others = (np.where(end < TIMES, np.nan, 1.0) for end in (0.5, 1.0))
+    notes = full(**{"body.x": gaps, "body.y": gaps, "body.z": others}).notes
+    assert [note.partition(" values")[0] for note in notes] == [
+        "The columns 'body.x' and 1 more have each 15 of 21",
+        "The column 'body.z' has 10 of 21",
+    ]
+
+
 def test_numbers_that_no_picture_holds_are_told_and_not_drawn() -> None:
     recording = full(**{"body.x": np.where(TIMES > 1.0, 1e300, 1.0), "body.y": np.where(TIMES > 1.5, np.inf, 1.0)})
     assert np.array_equal(np.isfinite(recording.columns["body.x"]), TIMES <= 1.0)

@@ -1,8 +1,9 @@
 // The part of a road's profile about a place, against its levels.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { slickness, surfaceOf } from "../src/looks/heights.js";
 import { roadHeight } from "../src/looks/road_height.js";
-import { between, divided, kept, strip, surfaces, wetness } from "../src/looks/roads.js";
+import { between, divided, kept, strip, surfaces } from "../src/looks/roads.js";
 
 const KERB = { stations: [-0.5, 0.5], heights: [0, 0.1] };
 
@@ -21,9 +22,16 @@ test("an end between two stations has the level between", () => {
 });
 
 test("a friction is dry, wet or ice, the slipperier the more", () => {
-  assert.equal(wetness(1), 0);
-  assert.ok(wetness(0.8) > 0 && wetness(0.8) < wetness(0.6) && wetness(0.6) <= 0.5);
-  assert.ok(wetness(0.3) > 0.5 && wetness(0.1) <= 1 && wetness(0.1) > wetness(0.3));
+  const near = (factor, film, ice) => slickness(factor).forEach((share, k) => assert.ok(Math.abs(share - [film, ice][k]) < 1e-12));
+  for (const [factor, film, ice] of [[1.3, 0, 0], [0.95, 0, 0], [0.725, 0.5, 0], [0.5, 1, 0], [0.35, 1, 0.5], [0.1, 1, 1]]) near(factor, film, ice);
+});
+
+test("what lies at a place of a grid follows its frictions, and its border goes on", () => {
+  const frictions = btoa(String.fromCharCode(...new Uint8Array(new Float32Array([1, 0.6, 0.2, 1, 0.6, 0.2]).buffer)));
+  const grid = { kind: "grid", origin: [0, -1], spacing: [10, 1], shape: [2, 3], heights: frictions, frictions };
+  const at = surfaceOf({ roads: [grid] });
+  assert.deepEqual([-9, -0.6, -0.4, 0.4, 0.6, 9].map((y) => at(3, y)), ["asphalt", "asphalt", "wet", "wet", "ice", "ice"]);
+  assert.equal(surfaceOf({ roads: [{ ...grid, frictions: undefined }] })(3, 9), "asphalt");
 });
 
 test("a kerb is its face and a stone along its upper edge", () => {

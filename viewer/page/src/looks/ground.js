@@ -16,7 +16,7 @@ uniform sampler2D aNoise;
 uniform float aPaint;
 uniform vec3 aGrass;
 varying vec3 vGround;
-varying float vWet;
+varying vec2 vSlick;
 `;
 
 const ASPHALT = /* glsl */ `
@@ -38,15 +38,15 @@ if (aPaint > 0.0) {
   stone = mix(stone, vec3(0.62) * (0.75 + 0.3 * patches), aPaint * max(on.x, on.y) * (0.55 + 0.45 * grain));
 }
 vec3 ice = vec3(0.55, 0.66, 0.74) * (0.8 + 0.3 * patches);
-float wetNess = max(vWet, 0.0);
-stone = mix(stone, vec3(0.46, 0.455, 0.44) * (0.7 + 0.45 * grain), clamp(-vWet, 0.0, 1.0));
-stone = vWet < 0.5 ? mix(stone, stone * 0.42, wetNess * 2.0) : mix(stone * 0.42, ice, (vWet - 0.5) * 2.0);
+stone = mix(stone, vec3(0.46, 0.455, 0.44) * (0.7 + 0.45 * grain), clamp(-vSlick.x, 0.0, 1.0));
+float film = max(vSlick.x, 0.0);
+stone = mix(stone * (1.0 - 0.58 * film), ice, vSlick.y);
 diffuseColor.rgb *= stone;
 `;
 
 /** Gloss: what is wet mirrors the sky. */
 const ROUGHNESS = /* glsl */ `
-float wetGloss = smoothstep(0.15, 0.6, vWet);
+float wetGloss = smoothstep(0.3, 1.2, film + vSlick.y);
 roughnessFactor = mix(0.86 + 0.12 * patches - 0.1 * speck, 0.16 + 0.12 * patches, wetGloss);
 `;
 
@@ -58,7 +58,7 @@ if (fade > 0.0) {
   float e = 1.0 / 256.0;
   vec2 slope = vec2(texture2D(aNoise, at + vec2(e, 0.0)).r - grain, texture2D(aNoise, at + vec2(0.0, e)).r - grain);
   vec3 tilt = (viewMatrix * vec4(aX * slope.x + aY * slope.y, 0.0)).xyz;
-  normal = normalize(normal - fade * (1.0 - wetNess) * 0.55 * tilt);
+  normal = normalize(normal - fade * (1.0 - 0.5 * (film + vSlick.y)) * 0.55 * tilt);
 }
 `;
 
@@ -104,7 +104,7 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
 /** @param {Data} shader of a material of three.js */
 function patterned(shader) {
   onTheEarth(shader);
-  atEachPoint(shader, "attribute float wet;\nvarying float vWet;", "vWet = wet;");
+  atEachPoint(shader, "attribute vec2 slick;\nvarying vec2 vSlick;", "vSlick = slick;");
   atEachPixel(shader, PARAMETERS, { map_fragment: ASPHALT });
 }
 

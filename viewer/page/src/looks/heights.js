@@ -90,6 +90,15 @@ function inPatch({ origin, spacing, shape, heights }, x, y) {
 /** Names of surfaces that have a look of their own. */
 export const SURFACES = ["asphalt", "grass", "wet", "gravel", "concrete", "ice", "paint", "dirt"];
 
+/**
+ * Index of the point of a grid nearest to a place; beyond the border its points go on.
+ * @param {{origin: number[], spacing: number[], shape: number[]}} grid @param {number} x @param {number} y
+ */
+export function nearest({ origin, spacing, shape }, x, y) {
+  const [i, j] = [x, y].map((value, k) => Math.min(shape[k] - 1, Math.max(0, Math.round((value - origin[k]) / spacing[k]))));
+  return i * shape[1] + j;
+}
+
 /** The raster that says what a terrain is made of. */
 export class SurfaceRaster {
   /** @param {Data | undefined} surface the key `surface` of a terrain; without one all is asphalt */
@@ -106,17 +115,32 @@ export class SurfaceRaster {
 
   /** Name of the surface at a place; beyond the raster its border goes on. @param {number} x @param {number} y */
   nameAt(x, y) {
-    const [i, j] = [x, y].map((value, k) =>
-      Math.min(this.shape[k] - 1, Math.max(0, Math.round((value - this.origin[k]) / this.spacing[k]))),
-    );
-    return this.names[this.classes[i * this.shape[1] + j]] ?? "asphalt";
+    return this.names[this.classes[nearest(this, x, y)]] ?? "asphalt";
   }
+}
+
+/**
+ * Shares, 0 to 1, of a film of water on asphalt and of ice over it, from the factor of friction.
+ * @param {number} factor @returns {[number, number]}
+ */
+export const slickness = (factor) => [between01((0.95 - factor) / 0.45), between01((0.5 - factor) / 0.3)];
+const between01 = (/** @type {number} */ share) => Math.min(1, Math.max(0, share));
+
+/** Name of the surface that a factor of friction is drawn as: the one of which there is half or more. @param {number} factor */
+export function slickName(factor) {
+  const [film, ice] = slickness(factor);
+  return ice >= 0.5 ? "ice" : film >= 0.5 ? "wet" : "asphalt";
 }
 
 /** What lies at a place of a scene. @param {Data} scene @returns {(x: number, y: number) => string} name of a surface */
 export function surfaceOf(scene) {
   const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
-  if (terrain === undefined) return () => "asphalt";
+  if (terrain === undefined) {
+    const grid = (scene.roads ?? []).find(({ kind, frictions }) => kind === "grid" && frictions !== undefined);
+    if (grid === undefined) return () => "asphalt";
+    const frictions = floats(grid.frictions);
+    return (x, y) => slickName(frictions[nearest(grid, x, y)]);
+  }
   const raster = new SurfaceRaster(terrain.surface);
   return (x, y) => raster.nameAt(x, y);
 }

@@ -4,6 +4,7 @@ import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
 import { floats } from "../scene/data.js";
 import { alongY, turn } from "../shapes/place.js";
+import { slickness } from "./heights.js";
 
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
@@ -69,8 +70,11 @@ function endless(point, normal, material) {
 }
 
 /** No wet place. */
-function dry(geometry) {
-  geometry.setAttribute("wet", new THREE.BufferAttribute(new Float32Array(geometry.getAttribute("position").count), 1));
+const dry = (geometry) => cover(geometry, new Array(2 * geometry.getAttribute("position").count).fill(0));
+
+/** @param {THREE.BufferGeometry} geometry @param {number[]} slick two shares a point, see `slickness`; the first is -1 on stone */
+function cover(geometry, slick) {
+  geometry.setAttribute("slick", new THREE.BufferAttribute(Float32Array.from(slick), 2));
 }
 
 const flat = (road, { up, asphalt }) => endless(scale(up, road.height ?? 0), up, asphalt);
@@ -153,7 +157,7 @@ const cut = (from, to) => [from, ...EDGES.filter((edge) => from < edge && edge <
 
 function rebuild(geometry, pairs, { forward, side, up, half }) {
   const positions = [];
-  const wets = [];
+  const slick = [];
   const point = ([s, level], aside) => add(add(scale(forward, s), scale(up, level)), scale(side, aside));
   const asides = cut(-half, half);
   for (const { from, to, kerb } of surfaces(pairs)) {
@@ -165,7 +169,7 @@ function rebuild(geometry, pairs, { forward, side, up, half }) {
         const corners = [point(a, right), point(b, right), point(b, left), point(a, left)];
         for (const k of [0, 1, 2, 0, 2, 3]) {
           positions.push(...corners[k]);
-          wets.push(kerb ? -1 : 0); // below zero: a kerb's stone
+          slick.push(kerb ? -1 : 0, 0);
         }
       }
     }
@@ -176,7 +180,7 @@ function rebuild(geometry, pairs, { forward, side, up, half }) {
   geometry.dispose();
   geometry.setAttribute("position", creased.getAttribute("position"));
   geometry.setAttribute("normal", creased.getAttribute("normal"));
-  geometry.setAttribute("wet", new THREE.BufferAttribute(Float32Array.from(wets), 1));
+  cover(geometry, slick);
   geometry.computeBoundingSphere();
 }
 
@@ -232,12 +236,12 @@ function grid(road, { up, road: material, grass }) {
   for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
     for (let j0 = 0; j0 < aside.length - 1; j0 += PIECE) {
       const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, aside.length - 1)];
-      const [positions, wets, triangles] = [[], [], []];
+      const [positions, slick, triangles] = [[], [], []];
       for (let i = i0; i <= i1; i++) {
         for (let j = j0; j <= j1; j++) {
           const value = (/** @type {Float32Array} */ values) => between(values, ny, along[i], aside[j]);
           positions.push(...world((along[i] - along[i0]) * dx, (aside[j] - aside[j0]) * dy, value(heights)));
-          wets.push(frictions === null ? 0 : wetness(value(frictions)));
+          slick.push(...(frictions === null ? [0, 0] : slickness(value(frictions))));
         }
       }
       const row = j1 - j0 + 1;
@@ -247,7 +251,7 @@ function grid(road, { up, road: material, grass }) {
           triangles.push(a, a + row, a + 1, a + 1, a + row, a + row + 1);
         }
       }
-      pieces.push(piece(world(road.origin[0] + along[i0] * dx, road.origin[1] + aside[j0] * dy, 0), positions, triangles, wets, material));
+      pieces.push(piece(world(road.origin[0] + along[i0] * dx, road.origin[1] + aside[j0] * dy, 0), positions, triangles, slick, material));
     }
   }
   const low = heights.reduce((a, b) => Math.min(a, b), Infinity);
@@ -255,16 +259,12 @@ function grid(road, { up, road: material, grass }) {
   return pieces;
 }
 
-/** 0: dry, 0.5: wet, 1: ice, from the factor of friction. @param {number} factor */
-export const wetness = (factor) => (factor >= 0.95 ? 0 : factor > 0.5 ? (0.95 - factor) / 0.9 : Math.min(1, 0.5 + (0.5 - factor) / 0.6));
-
-function piece(at, positions, triangles, wets, material) {
+function piece(at, positions, triangles, slick, material) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
   geometry.setIndex(triangles);
   geometry.computeVertexNormals();
-  if (wets === null) dry(geometry);
-  else geometry.setAttribute("wet", new THREE.BufferAttribute(Float32Array.from(wets), 1));
+  cover(geometry, slick);
   const mesh = new THREE.Mesh(geometry, material);
   return { mesh, follow: (origin) => mesh.position.fromArray(subtract(at, origin)) };
 }

@@ -1,8 +1,7 @@
 // What the ground of a world is made of at a place, and how it looks from above.
 import { el } from "../common/dom.js";
 import { floats } from "../scene/data.js";
-import { SurfaceRaster } from "../looks/heights.js";
-import { wetness } from "../looks/roads.js";
+import { SurfaceRaster, nearest, slickness } from "../looks/heights.js";
 
 /** Colours of surfaces on the map. */
 const COLOURS = {
@@ -10,24 +9,6 @@ const COLOURS = {
   dirt: [120, 98, 74], wet: [58, 84, 116], ice: [176, 208, 226], paint: [214, 214, 210],
 }; // prettier-ignore
 const OTHER = [128, 118, 128];
-
-/** A grid of a road: where its points are. */
-class Grid {
-  constructor({ origin, spacing, shape }) {
-    this.origin = origin;
-    this.spacing = spacing;
-    this.shape = shape;
-  }
-
-  /** Index of the point nearest to a place; beyond the border its points go on. */
-  index(x, y) {
-    const [i, j] = [x, y].map((value, k) => {
-      const place = Math.round((value - this.origin[k]) / this.spacing[k]);
-      return Math.min(this.shape[k] - 1, Math.max(0, place));
-    });
-    return i * this.shape[1] + j;
-  }
-}
 
 /** The surfaces of the roads of a scene, as they lie in it. */
 export class Surfaces {
@@ -39,7 +20,7 @@ export class Surfaces {
   /** Coefficient of friction at a place; NaN where the roads tell none. @param {number} x @param {number} y */
   friction(x, y) {
     const { grid, frictions } = this.grids.find((one) => one.frictions) ?? {};
-    return frictions && Number.isFinite(x + y) ? frictions(grid.index(x, y)) : NaN;
+    return frictions && Number.isFinite(x + y) ? frictions(nearest(grid, x, y)) : NaN;
   }
 
   /**
@@ -53,10 +34,10 @@ export class Surfaces {
 
 function gridOf(road) {
   if (road.kind === "terrain" && road.surface) {
-    const { names, classes, ...sides } = new SurfaceRaster(road.surface);
+    const { names, classes, ...grid } = new SurfaceRaster(road.surface);
     const colours = names.map((name) => COLOURS[name] ?? OTHER);
     const frictions = (index) => road.surface.frictions[classes[index]];
-    return { grid: new Grid(sides), frictions, colour: (index) => colours[classes[index]] ?? OTHER };
+    return { grid, frictions, colour: (index) => colours[classes[index]] ?? OTHER };
   }
   if (road.kind !== "grid") return null;
   const heights = floats(road.heights);
@@ -65,10 +46,11 @@ function gridOf(road) {
   const base = COLOURS.asphalt;
   const colour = (index) => {
     const light = high > low ? 0.75 + (0.6 * (heights[index] - low)) / (high - low) : 1;
-    const wet = given ? wetness(given[index]) : 0;
-    return base.map((part, k) => light * (part + wet * (COLOURS.wet[k] - part)));
+    const [film, ice] = given ? slickness(given[index]) : [0, 0];
+    const mixed = (from, to, share) => from.map((part, k) => part + share * (to[k] - part));
+    return mixed(mixed(base, COLOURS.wet, film), COLOURS.ice, ice).map((part) => light * part);
   };
-  return { grid: new Grid(road), frictions: null, colour };
+  return { grid: road, frictions: null, colour };
 }
 
 function boxOf({ origin, spacing, shape }) {

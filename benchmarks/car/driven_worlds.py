@@ -1,0 +1,79 @@
+"""Cars driven in worlds of the simulator, for films."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import mbs
+from ali3.errors import UserError
+from mbs.settings.input_signals import Signal
+from mbs.vehicle import load
+from mbs.worlds import command as world_command
+from viewer.recording import Recording
+
+STEP = 0.002
+EVERY = 5
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A drive without a driver."""
+
+    world: str
+    start: mbs.Pose
+    inputs: Mapping[str, Signal]
+    """By time, s."""
+    stop_time: float
+    """s."""
+    car: str = "prototype"
+
+
+DRIVES = {
+    "proving_ground": Drive(
+        "proving_ground",
+        mbs.Pose(x=325.0, y=62.0, speed=16.0),
+        {
+            "throttle": ([0.0, 1.7, 1.8, 3.4, 3.6], [0.5, 0.5, 0.0, 0.0, 0.0]),
+            "brake": ([0.0, 4.6, 4.8], [0.0, 0.0, 0.6]),
+            "steering": ([0.0, 3.5, 3.8, 5.2, 5.5], [0.0, 0.0, 0.45, 0.45, 0.0]),
+        },
+        6.5,
+    ),
+    "plane": Drive(
+        "plane",
+        mbs.Pose(speed=22.0),
+        {
+            "brake": ([0.0, 2.6, 2.8], [0.0, 0.0, 1.0]),
+            "steering": ([0.0, 0.4, 0.7, 1.5, 1.9, 2.6, 2.9], [0.0, 0.0, 0.5, 0.5, -0.5, -0.5, 0.0]),
+        },
+        5.5,
+    ),
+    "rough": Drive("rough", mbs.Pose(x=9.0, speed=20.0), {"throttle": 0.1}, 4.5, "hatchback"),
+    "washboard": Drive("washboard", mbs.Pose(x=14.0, speed=6.0), {"throttle": ([0.0, 6.0], [0.1, 0.4])}, 6.0),
+}
+"""By the name of their film."""
+
+
+def drive(name: str) -> Recording:
+    """Drive, and give what is drawn with the world in it. Raises `UserError`: the world cannot be made."""
+    d = DRIVES[name]
+    with TemporaryDirectory() as folder:
+        with redirect_stdout(StringIO()):
+            code = world_command.main(["--world", d.world, "--out", folder])
+        if code != 0:
+            raise UserError(f"The world {d.world} cannot be made.")
+        car = mbs.compile(load(d.car).model())
+        road = {"road.file": str(Path(folder, f"{d.world}.road"))}
+        run = mbs.simulate(car, d.stop_time, STEP, d.inputs, parameters=road, pose=d.start, every=EVERY, progress=False)
+        drawing = json.loads(Path(folder, f"{d.world}.json").read_text(encoding="utf-8"))
+        assert run.drawing is not None
+        # Those of the file have no scenery, and are many; what was left out of the run is found by its road.
+        found = run.recording({**run.drawing.scene, "roads": []})
+    scene = {**(found.scene or {}), "roads": drawing["roads"], "scenery": drawing["scenery"]}
+    return Recording(scene, found.t, found.columns, found.units, found.name)
