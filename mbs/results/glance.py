@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mbs.results.accuracy import Accuracy, missed_share
+from mbs.results.accuracy import Accuracy, missed_share, rest_missed
 from mbs.results.run_report import Report
+from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 
@@ -37,13 +38,21 @@ def glances(
 ) -> tuple[Glance, ...]:
     """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks.
 
+    In an open tree where nothing abrupt can happen none is made that is far off by the term that its order leaves out.
+
     `unresolved`: the missed share from which on steps do not.
     """
     limited = settings.method in LIMITED and not settings.step_iterations
     chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
-    if METHOD_TABLE[settings.method].order > 2:
+    order = METHOD_TABLE[settings.method].order
+    if order > 2:
         chosen = HIGH
-    return tuple(glance for glance in chosen if glance.times * missed_share(run, settings.method) <= unresolved)
+    return tuple(
+        glance
+        for glance in chosen
+        if glance.times * missed_share(run, settings.method) <= unresolved
+        and (unresolved < OPEN or rest_missed(run, settings.method) * glance.times**order <= HOPELESS)
+    )
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

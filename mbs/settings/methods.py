@@ -23,6 +23,9 @@ class Method:
     smooth_miss: float = math.inf
     """Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
     checked by another; infinite where they say nothing."""
+    smooth_rest: float | None = None
+    """The same of `accuracy.rest_missed`, in place of `smooth_miss`, for open trees in which nothing abrupt can happen;
+    None where that is not known."""
     balance_decides: bool = False
     """Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
     runge_kutta_8 errs where it is stiff."""
@@ -88,6 +91,7 @@ METHOD_TABLE = {
         title="semi-recursive, order 8",
         order=8,
         smooth_miss=1.0,
+        smooth_rest=3e-5,
         tree_only=True,
         cost=0.2,  # measured: relative coordinates save the factorization of the natural ones
     ),
@@ -96,6 +100,7 @@ METHOD_TABLE = {
         title="semi-recursive, order 4",
         order=4,
         smooth_miss=1.0,
+        smooth_rest=5e-4,
         tree_only=True,
         cost=0.2,
     ),
