@@ -132,9 +132,8 @@ def doubt(report: Report, steps: int, halvings: int, method: str, unresolved: fl
     if halvings > SUSPECT_HALVINGS * steps or report.balance_wrong or report.branch_changes > 0:
         return REPEAT
     miss, most = summed_miss(report), METHOD_TABLE[method].smooth_miss
-    rest = METHOD_TABLE[method].smooth_rest
-    if rest is not None and unresolved >= OPEN:
-        miss, most = rest_missed(report, method), rest
+    if has_rest(method, unresolved):
+        miss, most = rest_missed(report, method), METHOD_TABLE[method].smooth_rest
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
     return "" if miss <= most and drift(report) <= SMOOTH_DRIFT and whole else SCREEN
 
@@ -144,6 +143,13 @@ def summed_miss(report: Report) -> float:
     # what a vehicle has at constant speed is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     return report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
+
+
+def has_rest(method: str, unresolved: float) -> bool:
+    """Whether `rest_missed` tells of an error: in an open tree where nothing abrupt can happen, as `unresolved_share`
+    says.
+    """
+    return unresolved >= OPEN and METHOD_TABLE[method].smooth_rest > 0.0
 
 
 def rest_missed(report: Report, method: str) -> float:

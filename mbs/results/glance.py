@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mbs.results.accuracy import Accuracy, missed_share, rest_missed
+from mbs.results.accuracy import Accuracy, has_rest, missed_share, rest_missed
 from mbs.results.run_report import Report
-from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 
@@ -30,6 +29,8 @@ FORCES = (Glance(2, 0, 0.03),)  # errors of order one, behind abrupt events, are
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
 HIGH = (Glance(4, 0, 0.1), Glance(2, 0, 0.05))
 """Of methods of higher order: errors are a third of such a difference or less, also behind abrupt forces."""
+FOURTH = (Glance(4, 0, 0.2), Glance(2, 0, 0.1))
+"""Of order four in open trees where nothing abrupt can happen: errors are a 15th of the second one."""
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
 
@@ -38,20 +39,21 @@ def glances(
 ) -> tuple[Glance, ...]:
     """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks.
 
-    In an open tree where nothing abrupt can happen none is made that is far off by the term that its order leaves out.
-
-    `unresolved`: the missed share from which on steps do not.
+    In an open tree where nothing abrupt can happen none is made that misses too much by the term that its order leaves
+    out. `unresolved`: the missed share from which on steps do not resolve.
     """
-    limited = settings.method in LIMITED and not settings.step_iterations
+    method = settings.method
+    limited = method in LIMITED and not settings.step_iterations
     chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
-    order = METHOD_TABLE[settings.method].order
+    order, rest = METHOD_TABLE[method].order, 0.0
     if order > 2:
         chosen = HIGH
+    if has_rest(method, unresolved):
+        chosen, rest = FOURTH if order == 4 else HIGH, rest_missed(run, method)
     return tuple(
         glance
         for glance in chosen
-        if glance.times * missed_share(run, settings.method) <= unresolved
-        and (unresolved < OPEN or rest_missed(run, settings.method) * glance.times**order <= HOPELESS)
+        if glance.times * missed_share(run, method) <= unresolved and rest * glance.times**order <= glance.difference
     )
 
 

@@ -23,9 +23,9 @@ class Method:
     smooth_miss: float = math.inf
     """Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
     checked by another; infinite where they say nothing."""
-    smooth_rest: float | None = None
-    """The same of `accuracy.rest_missed`, in place of `smooth_miss`, for open trees in which nothing abrupt can happen;
-    None where that is not known."""
+    smooth_rest: float = 0.0
+    """The same of `accuracy.rest_missed`, in place of `smooth_miss`, for open trees where nothing abrupt can happen; 0
+    where that is not known."""
     balance_decides: bool = False
     """Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
     runge_kutta_8 errs where it is stiff."""
@@ -85,6 +85,7 @@ METHOD_TABLE = {
         title="Runge-Kutta, order 8",
         order=8,
         smooth_miss=1.0,
+        smooth_rest=3e-5,
     ),
     "semi_recursive": Method(
         number=MethodNumber.SEMI_RECURSIVE,
@@ -109,6 +110,7 @@ METHOD_TABLE = {
         title="Radau IIA, order 5",
         order=5,
         smooth_miss=1.0,
+        smooth_rest=3e-5,
         positions_only=True,
         cost=5.5,  # measured: three stages in one tangent are three times as wide
     ),
