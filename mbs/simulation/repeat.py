@@ -129,11 +129,12 @@ class Repeats:
     def coarse(self) -> bool:
         """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
 
-        Where a run with a quarter or less misses as much as the run itself, no step does: a guide whose rate jumps.
+        Where one misses as much as the one with four times its step, no step does: a guide whose rate jumps.
         """
         missed = {parts: self._missed(run) for parts, run in self._finer.items()}
-        again = next((share for parts, share in missed.items() if parts > self.parts), 0.0)
-        return 2.0 * missed[max(missed)] > self.unresolved and again <= SAME * self._missed(self.run)
+        own = self._missed(self.run)
+        same = any(missed[n] > SAME * missed.get(n // 4, own) for n in missed if n > self.parts)
+        return 2.0 * missed[max(missed)] > self.unresolved and not same
 
     @property
     def first(self) -> int:
