@@ -15,7 +15,7 @@ from mbs.kernel.header.enumerations import GuideType, SensorType
 from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
 from mbs.results.missed_load import missed_load
 from mbs.results.run_report import Report
-from mbs.results.smooth_laws import OPEN, UNRESOLVED, is_open_tree
+from mbs.results.smooth_laws import is_open_tree
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
@@ -123,19 +123,17 @@ def has_motion_sensor(system: System) -> bool:
     return any(unit != "N" for unit in judged_sensors(system))
 
 
-def doubt(report: Report, steps: int, halvings: int, method: str, unresolved: float = UNRESOLVED) -> str:
+def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | None = None) -> str:
     """How a run is to be checked: empty, not at all; `SCREEN` by one of twice the step, `REPEAT` by one of half.
 
     Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
-    its mode, are signs of coarse steps already. `unresolved`: the `unresolved_share` of the System.
+    its mode, are signs of coarse steps already. `rest`: what decides in place of predictions, at most 1 if smooth.
     """
     if halvings > SUSPECT_HALVINGS * steps or report.balance_wrong or report.branch_changes > 0:
         return REPEAT
-    miss, most = summed_miss(report), METHOD_TABLE[method].smooth_miss
-    if has_rest(method, unresolved):
-        miss, most = rest_missed(report, method), METHOD_TABLE[method].smooth_rest
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
-    return "" if miss <= most and drift(report) <= SMOOTH_DRIFT and whole else SCREEN
+    miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
+    return "" if miss <= 1.0 and drift(report) <= SMOOTH_DRIFT and whole else SCREEN
 
 
 def summed_miss(report: Report) -> float:
@@ -143,23 +141,6 @@ def summed_miss(report: Report) -> float:
     # what a vehicle has at constant speed is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
     return report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
-
-
-def has_rest(method: str, unresolved: float) -> bool:
-    """Whether `rest_missed` tells of an error: in an open tree where nothing abrupt can happen, as `unresolved_share`
-    says.
-    """
-    return unresolved >= OPEN and METHOD_TABLE[method].smooth_rest > 0.0
-
-
-def rest_missed(report: Report, method: str) -> float:
-    """Changes of velocity that a method of order p does not see, over the largest velocity, as for a vibration.
-
-    Of ``v + h a`` a vibration of w misses ``(h w)^2 / 2``, of the order p the first term that it leaves out,
-    ``(h w)^(p+1) / (p+1)!``; `missed_share` is ``h w / 2``.
-    """
-    order = METHOD_TABLE[method].order
-    return summed_miss(report) * 2.0 * (2.0 * missed_share(report, method)) ** (order - 1) / math.factorial(order + 1)
 
 
 def drift(report: Report) -> float:

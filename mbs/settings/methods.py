@@ -23,9 +23,6 @@ class Method:
     smooth_miss: float = math.inf
     """Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
     checked by another; infinite where they say nothing."""
-    smooth_rest: float = 0.0
-    """The same of `accuracy.rest_missed`, in place of `smooth_miss`, for open trees where nothing abrupt can happen; 0
-    where that is not known."""
     balance_decides: bool = False
     """Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
     runge_kutta_8 errs where it is stiff."""
@@ -85,14 +82,12 @@ METHOD_TABLE = {
         title="Runge-Kutta, order 8",
         order=8,
         smooth_miss=1.0,
-        smooth_rest=3e-5,
     ),
     "semi_recursive": Method(
         number=MethodNumber.SEMI_RECURSIVE,
         title="semi-recursive, order 8",
         order=8,
         smooth_miss=1.0,
-        smooth_rest=3e-5,
         tree_only=True,
         cost=0.2,  # measured: relative coordinates save the factorization of the natural ones
     ),
@@ -101,7 +96,6 @@ METHOD_TABLE = {
         title="semi-recursive, order 4",
         order=4,
         smooth_miss=1.0,
-        smooth_rest=5e-4,
         tree_only=True,
         cost=0.2,
     ),
@@ -110,7 +104,6 @@ METHOD_TABLE = {
         title="Radau IIA, order 5",
         order=5,
         smooth_miss=1.0,
-        smooth_rest=3e-5,
         positions_only=True,
         cost=5.5,  # measured: three stages in one tangent are three times as wide
     ),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
-from mbs.results.glance import HOPELESS, Glance, difference_from, glances
+from mbs.results.glance import HOPELESS, Glance, difference_from, glances, rest_of
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
 from mbs.results.trajectory import Trajectory
@@ -241,7 +241,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method, repeats.unresolved)
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.before is None and doubt == accuracy.SCREEN:

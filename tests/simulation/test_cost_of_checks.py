@@ -7,8 +7,7 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_mechanisms
-from mbs.results.accuracy import rest_missed
-from mbs.results.glance import FOURTH, HIGH, glances
+from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
 from mbs.results.smooth_laws import LOOPS, OPEN
 from tests.simulation.test_coarser_runs import beside_a_wall, place
 
