@@ -123,20 +123,24 @@ def has_motion_sensor(system: System) -> bool:
     return any(unit != "N" for unit in judged_sensors(system))
 
 
-def doubt(report: Report, steps: int, halvings: int, method: str) -> str:
+def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | None = None) -> str:
     """How a run is to be checked: empty, not at all; `SCREEN` by one of twice the step, `REPEAT` by one of half.
 
     Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
-    its mode, are signs of coarse steps already.
+    its mode, are signs of coarse steps already. `rest`: what decides in place of predictions, at most 1 if smooth.
     """
     if halvings > SUSPECT_HALVINGS * steps or report.balance_wrong or report.branch_changes > 0:
         return REPEAT
+    whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
+    miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
+    return "" if miss <= 1.0 and drift(report) <= SMOOTH_DRIFT and whole else SCREEN
+
+
+def summed_miss(report: Report) -> float:
+    """Changes of velocity that ``v + h a`` does not see, over the largest velocity."""
     # what a vehicle has at constant speed is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
-    miss = report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
-    whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
-    smooth = miss <= METHOD_TABLE[method].smooth_miss and drift(report) <= SMOOTH_DRIFT and whole
-    return "" if smooth else SCREEN
+    return report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
 
 
 def drift(report: Report) -> float:

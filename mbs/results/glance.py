@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mbs.results.accuracy import Accuracy, missed_share
+from mbs.results.accuracy import Accuracy, missed_share, summed_miss
 from mbs.results.run_report import Report
+from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 
@@ -29,7 +31,29 @@ FORCES = (Glance(2, 0, 0.03),)  # errors of order one, behind abrupt events, are
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
 HIGH = (Glance(4, 0, 0.1), Glance(2, 0, 0.05))
 """Of methods of higher order: errors are a third of such a difference or less, also behind abrupt forces."""
+FOURTH = (Glance(4, 0, 0.2), Glance(2, 0, 0.1))
+"""Of order four in open trees where nothing abrupt can happen: errors are a 15th of the second one."""
+SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}
+"""Of an open tree where nothing abrupt can happen: `rest_missed` up to which a run is plainly smooth."""
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
+
+
+def rest_of(run: Report, method: str, unresolved: float) -> float | None:
+    """`rest_missed` over `SMOOTH_REST`; None where it tells of no error, but in an open tree where nothing abrupt can
+    happen, as `unresolved_share` says.
+    """
+    known = unresolved >= OPEN and method in SMOOTH_REST
+    return rest_missed(run, method) / SMOOTH_REST[method] if known else None
+
+
+def rest_missed(report: Report, method: str) -> float:
+    """Changes of velocity that a method of order p does not see, over the largest velocity, as for a vibration.
+
+    Of ``v + h a`` a vibration of w misses ``(h w)^2 / 2``, of the order p the first term that it leaves out,
+    ``(h w)^(p+1) / (p+1)!``; `missed_share` is ``h w / 2``.
+    """
+    order = METHOD_TABLE[method].order
+    return summed_miss(report) * 2.0 * (2.0 * missed_share(report, method)) ** (order - 1) / math.factorial(order + 1)
 
 
 def glances(
@@ -37,13 +61,22 @@ def glances(
 ) -> tuple[Glance, ...]:
     """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks.
 
-    `unresolved`: the missed share from which on steps do not.
+    In an open tree where nothing abrupt can happen none is made that misses too much by the term that its order leaves
+    out. `unresolved`: the missed share from which on steps do not resolve.
     """
-    limited = settings.method in LIMITED and not settings.step_iterations
+    method = settings.method
+    limited = method in LIMITED and not settings.step_iterations
     chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
-    if METHOD_TABLE[settings.method].order > 2:
+    order, rest = METHOD_TABLE[method].order, 0.0
+    if order > 2:
         chosen = HIGH
-    return tuple(glance for glance in chosen if glance.times * missed_share(run, settings.method) <= unresolved)
+    if rest_of(run, method, unresolved) is not None:
+        chosen, rest = FOURTH if order == 4 else HIGH, rest_missed(run, method)
+    return tuple(
+        glance
+        for glance in chosen
+        if glance.times * missed_share(run, method) <= unresolved and rest * glance.times**order <= glance.difference
+    )
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
-from mbs.results.glance import HOPELESS, Glance, difference_from, glances
+from mbs.results.glance import HOPELESS, Glance, difference_from, glances, rest_of
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
 from mbs.results.trajectory import Trajectory
@@ -24,6 +24,7 @@ from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
 SAME = 0.9  # of the missed share of a run: with a quarter of the step an impact has less
+SURELY = 1.2  # times what steps resolve: what repeats miss by the run's own share differs from what they do
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 
@@ -82,10 +83,12 @@ class Repeats:
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
-        self._finer = list[Run]()
+        self._finer = dict[int, Run]()
         self._length = length_of(self.system)
-        settings = self.run[0].settings
+        settings, report = self.run[0].settings, self.run[0].report
         assert settings is not None
+        assert report is not None
+        self.parts = accuracy.divisor(report.steps, report.halvings)
         self._method, self.unresolved = (
             settings.method,
             unresolved_share(self.system, settings.method, (self.run[0].t[0], self.run[0].t[-1]), self.inputs),
@@ -119,8 +122,7 @@ class Repeats:
 
     def finer(self, parts: int) -> Accuracy:
         """By a run whose steps are shorter by so many times. Raises `SimulationError`: it does not end."""
-        again = self._again(self.h / parts, self.every * parts, float(parts))
-        self._finer.append(again)
+        again = self._finer[parts] = self._again(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
@@ -129,29 +131,45 @@ class Repeats:
     def coarse(self) -> bool:
         """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
 
-        Where the second finer run misses as much as the run itself, no step resolves it: a guide whose rate jumps.
+        Where one misses as much as the one with four times its step, no step does: a guide whose rate jumps.
         """
-        missed = [self._missed(run) for run in (self.run, *self._finer)]
-        return 2.0 * missed[-1] > self.unresolved and not (len(missed) > 2 and missed[2] > SAME * missed[0])
+        missed = {parts: self._missed(run) for parts, run in self._finer.items()}
+        own = self._missed(self.run)
+        same = any(missed[n] > SAME * missed.get(n // 4, own) for n in missed if n > self.parts)
+        return 2.0 * missed[max(missed)] > self.unresolved and not same
 
-    def decided(self, known: Accuracy, parts: int) -> Accuracy:
-        """After two finer runs: where the last one is coarse, or what both differ by may change the verdict, by a
-        third, then a fourth.
+    @property
+    def first(self) -> int:
+        """By what the step is divided first: no run is made that surely is `coarse`, down to an eighth of the step."""
+        most = 1 if self.twin else 2 if self.has_order else 4
+        share = self._missed(self.run) / (SURELY * self.unresolved)
+        return self.parts * next((times for times in (1, 2) if times >= most or share <= times), most)
 
-        Of these two the one that says more counts: behind abrupt forces they are off to both sides. Raises
+    def decided(self, known: Accuracy) -> Accuracy:
+        """After a finer run: by one of twice its step where none was made, then, where the last one is coarse, or what
+        the last two differ by may change the verdict, by the next ones, down to a 16th of the step.
+
+        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. Raises
         `SimulationError`: one does not end.
         """
-        for times in (1, 2):
-            first, second = map(self._table, self._finer[-2:])
+        parts, last = max(self._finer), known
+        if parts == self.parts:
+            parts, known = 2 * parts, self.finer(2 * parts)
+        else:
+            self._finer[parts // 2] = self._again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
+        while True:
+            first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
+            if parts > 2 * self.parts:
+                known = by_limit(known, [self._table(self.run), first, second], self.groups, self.before, self._length)
+            if parts == 8 * self.parts:
+                break
             apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
             if not (self.coarse or unsure(known, apart)):
                 break
-            last, known = known, self.finer(times * parts)
-            tables = [self._table(self.run), second, self._table(self._finer[-1])]
-            known = by_limit(known, tables, self.groups, self.before, self._length)
-            if times == 2 and (last.error or 0.0) > (known.error or 0.0):
-                known = replace(known, units=last.units, sensors=last.sensors)
-        return known
+            parts, last, known = 2 * parts, known, self.finer(2 * parts)
+        if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
+            known = replace(known, units=last.units, sensors=last.sensors)
+        return replace(known, repeat_cost=self.cost)
 
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
@@ -214,7 +232,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
     the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
     with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
-    steps were halved. With `Repeats.twin` only the first of these is made.
+    steps were halved. The first of these is `Repeats.first`; with `Repeats.twin` no other is made.
 
     `always`: whether a run that is plainly smooth is repeated too.
     """
@@ -225,7 +243,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method)
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
@@ -238,16 +256,16 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
                 return screened
             if screened is not None and apart > HOPELESS:
                 break
-    parts = accuracy.divisor(report.steps, report.halvings)
     try:
-        known = repeats.finer(parts)
+        known = repeats.finer(repeats.first)
         least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
         least = min(least, accuracy.ABRUPT) if report.divisions else least
         least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
-        if not repeats.twin and (repeats.coarse or not repeats.has_order) and least < (known.error or 0.0) < most:
-            known = repeats.finer(2 * parts)
+        if not repeats.twin and least < (known.error or 0.0) < most:
             if not repeats.has_order:
-                known = repeats.decided(known, 4 * parts)
+                known = repeats.decided(known)
+            elif repeats.coarse and repeats.first == repeats.parts:
+                known = repeats.finer(2 * repeats.parts)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps

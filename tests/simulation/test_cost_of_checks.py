@@ -1,0 +1,89 @@
+"""What the check of a run costs: no repeat is made whose outcome is known, and none is left out that would tell."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from benchmarks.methods import random_mechanisms
+from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
+from mbs.results.smooth_laws import LOOPS, OPEN
+from tests.simulation.test_coarser_runs import beside_a_wall, place
+
+
+def swing() -> mbs.System:
+    """A pendulum of 1 rad/s, small enough to be linear: 0.02 rad."""
+    m = mbs.Model("swing", dimension=2, gravity=(0.0, -2.0))
+    b = m.body("rod", mass=1.0, com=(0.0, -1.0), inertia=1.0)
+    m.revolute("hinge", b, m.ground, point=(0.0, 0.0))
+    m.initial_velocity(b, linear=(0.02, 0.0), angular=0.02)
+    m.sense_position("x", b, (0.0, -1.0), component="x")
+    return mbs.compile(m)
+
+
+def chain(seed: int, number: int) -> tuple[mbs.System, float]:
+    """A random one, and its span, s."""
+    rng = np.random.default_rng([seed, number])
+    rng.random()  # which decides between mechanism and car
+    kind, drawing = random_mechanisms.drawing(rng)
+    assert "chain" in kind
+    return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span
+
+
+@pytest.mark.parametrize("h", [0.25, 0.5])
+def test_the_term_that_order_four_leaves_out_is_the_error_of_a_vibration(h: float) -> None:
+    """Of each step (h w)^5/120 of the amplitude, but for the mean of a sine that the sum of the misses is."""
+    run = mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
+    assert run.report is not None
+    error = np.abs(run["x"] - 0.02 * np.sin(run.t)).max() / 0.02
+    assert rest_missed(run.report, "semi_recursive_4") == pytest.approx(error, rel=0.6)
+
+
+@pytest.mark.parametrize(
+    ("seed", "number", "steps", "method"),
+    [
+        pytest.param(3, 66, 200, "semi_recursive_4", id="68 % off, plainly smooth by v + h a"),
+        pytest.param(2, 76, 50, "semi_recursive_4", id="8 % off, the same"),
+        pytest.param(61, 184, 200, "semi_recursive_4", id="45 % off, the same"),
+        pytest.param(3, 96, 100, "runge_kutta_8", id="15 % off, twice the step agrees within 5 %"),
+    ],
+)
+def test_chains_that_were_silent_are_told(seed: int, number: int, steps: int, method: str) -> None:
+    system, span = chain(seed, number)
+    with pytest.warns(mbs.AccuracyWarning, match="off by"):
+        mbs.simulate(system, span, span / steps, every=steps // 50, method=method, progress=False)
+
+
+@pytest.mark.parametrize("method", ["semi_recursive_4", "semi_recursive", "runge_kutta_8"])
+def test_a_right_tree_costs_its_run_alone(method: str) -> None:
+    run = mbs.simulate(swing(), 20.0, 0.2, method=method, progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeat_cost == 0.0
+    assert np.abs(run["x"] - 0.02 * np.sin(run.t)).max() < 0.005 * 0.02
+
+
+def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
+    moves = {"m": ["x"]}
+    fine, coarse = (
+        mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
+        for h in (0.2, 0.4)
+    )
+    assert fine.settings is not None
+    assert fine.report is not None
+    assert coarse.report is not None
+    assert glances(fine.settings, moves, False, OPEN, fine.report) == FOURTH
+    assert glances(fine.settings, moves, False, OPEN, coarse.report) == FOURTH[1:]
+    assert glances(fine.settings, moves, False, LOOPS, coarse.report) == HIGH
+
+
+def test_a_half_that_surely_is_coarse_is_not_made() -> None:
+    """An impact of h w = 1.6 is resolved by a quarter of the step: at 4 times the cost of the run, which was 6."""
+    h, w, gap = 0.01, 160.0, 0.4033
+    run = mbs.simulate(beside_a_wall(w * w, gap), 80 * h, h, method="radau_5", progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeated_with == pytest.approx(h / 4)
+    assert run.accuracy.repeat_cost == 4.0
+    truth = place(w * w, gap, run.t)
+    assert np.abs(run["x"] - truth).max() < 0.05 * np.ptp(truth)
+    assert not run.accuracy.message
