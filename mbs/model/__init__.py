@@ -8,11 +8,12 @@ from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
     from mbs.common.errors import ModelError
-    from mbs.model.body import Body, PointMass
+    from mbs.model.body import Body
     from mbs.model.carried import SlidingPoint, Spin
     from mbs.model.coordinate import Coordinate
     from mbs.model.joints.joint import Joint
     from mbs.model.model import Model
+    from mbs.model.point_mass import PointMass
     from mbs.model.records import Guide, Input, Parameter
     from mbs.model.sensor import Sensor
 
@@ -26,7 +27,7 @@ _LAZY = {
     "Model": "mbs.model.model",
     "ModelError": "mbs.common.errors",
     "Parameter": "mbs.model.records",
-    "PointMass": "mbs.model.body",
+    "PointMass": "mbs.model.point_mass",
     "Sensor": "mbs.model.sensor",
     "SlidingPoint": "mbs.model.carried",
     "Spin": "mbs.model.carried",

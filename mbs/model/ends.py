@@ -8,13 +8,13 @@ from numpy.typing import ArrayLike
 
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
-from mbs.model.body import Body, PointMass
+from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 
-FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | PointMass"
-"""A point of a body, earth axes in the reference configuration, m; or a particle."""
+FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
+"""A point of a body, earth axes in the reference configuration, m; or a body for its centre of mass."""
 End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
-"""The same, a body for its centre of mass, or a point that a guide slides."""
+"""The same, or a point that a guide slides."""
 PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
 """A point, or one per body where the drawing does not close."""
 

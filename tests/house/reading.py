@@ -42,6 +42,7 @@ WAYS = {
         "suspension.kind twist_beam": "mbs.vehicle.suspensions.twist_beam",
         "suspension.kind curves": "mbs.vehicle.suspensions.curves",
         "steering.rack_by_wheel_angle": "mbs.vehicle.steering.rack_table",
+        "a driven rack": "mbs.vehicle.steering.driven_rack",
         "steering.kind column": "mbs.vehicle.steering.column",
         "steering.kind pitman_arm": "mbs.vehicle.steering.pitman_arm",
         "tyre.kind magic_formula": "mbs.vehicle.tyres.magic_formula",
