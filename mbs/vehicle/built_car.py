@@ -258,12 +258,7 @@ def checked_car(
     """The car that the content of a file describes.
 
     `kind`: class of the car; `folder`: where its tables lie; `at_rest`: whether the car must be seen to come to rest;
-    `warn`: whether to warn of what is odd.
-
-    Raises
-    ------
-    CarFileError
-        It does not describe a car.
+    `warn`: whether to warn of what is odd. Raises `CarFileError`: it does not describe a car.
     """
     data, converted = of_this_version(data, what)
     try:
