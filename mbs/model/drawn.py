@@ -32,19 +32,6 @@ class Turning:
         return self.carrier.body if isinstance(self.carrier, Turning) else self.carrier
 
 
-@dataclass(frozen=True)
-class Sliding(Turning):
-    """Something that slides along a line of a body without being one itself, such as a rack.
-
-    Attributes
-    ----------
-    axis_reference : tuple of float
-        Direction of the line.
-    angle : str
-        The sensor of the way along it, m.
-    """
-
-
 Owner: TypeAlias = "Body | Spin | Turning"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,22 @@ from numpy.typing import ArrayLike
 from mbs.common.checks import array, flag, named, shown
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.drawn import Owner, Shape, Sliding, Turning
+from mbs.model.drawn import Owner, Shape, Turning
 from mbs.model.mechanism import Mechanism
 from mbs.model.shapes import ShapeVocabulary, local_place
+
+
+@dataclass(frozen=True)
+class Sliding(Turning):
+    """Something that slides along a line of a body without being one itself, such as a rack.
+
+    Attributes
+    ----------
+    axis_reference : tuple of float
+        Direction of the line.
+    angle : str
+        The sensor of the way along it, m.
+    """
 
 
 class SlidingVocabulary(ShapeVocabulary):

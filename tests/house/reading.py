@@ -36,6 +36,7 @@ WAYS = {
         "--cheapest": "mbs.vehicle.levels.report",
         "schema = 1": "mbs.vehicle.older_files",
         "[ports]": "mbs.vehicle.port_parts",
+        "[ports] of a driver": "mbs.vehicle.port_inputs",
         "[ports] tyre": "mbs.vehicle.hub_port",
         "drive.kind electric": "mbs.vehicle.drives.electric",
         "suspension.kind macpherson": "mbs.vehicle.suspensions.macpherson",

@@ -22,6 +22,7 @@ from mbs.model.records import Guide, Input
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.quantities import (
     AssistanceFactor,
     AssistanceTorque,
@@ -110,7 +111,7 @@ class Column(RackSection, of=TorsionBar):
         self._bar(b, wheel, pinion)
         if b.ports.steering is not None:
             text = "force of an actuator on the rack, positive to the left"
-            force = b.port("steering_rack_actuator_force", -LARGEST_FORCE, LARGEST_FORCE, "N", text)
+            force = new_port(b, "steering_rack_actuator_force", -LARGEST_FORCE, LARGEST_FORCE, "N", text)
             m.add(InputForce(force.index, (per_radian,)).record("port rack", (pinion.affine,)))
         racks: list[Body] = []
 

@@ -9,14 +9,16 @@ from mbs.model.coordinate import Coordinate
 from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.mechanism import Mechanism
 from mbs.model.more_guides import MoreGuidesVocabulary
-from mbs.model.records import Guide, Input
+from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.steering.steered import RACK
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 
-def by_port(b: CarBuilder, port: Input) -> Guide:
-    """The travel of the rack, m, that a port asks for."""
+def by_port(b: CarBuilder, most: float, text: str) -> Guide:
+    """The travel of the rack, m, that a port asks for; `most`: to each side, m; `text`: what the port is."""
+    port = new_port(b, "steering_rack_demand", -most, most, "m", text)
     return MoreGuidesVocabulary.guide_input(b.m, "rack", input=port, frequency=b.ports.rack_frequency, unit="m")
 
 

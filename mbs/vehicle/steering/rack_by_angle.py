@@ -99,8 +99,7 @@ class RackByAngle(RackSection):
         demand: Input | None = None
         if b.ports.steering is not None:
             most = self.rack_travel
-            port = b.port("steering_rack_demand", -most, most, "m", f"{self.travel_text(way)}, that is asked for")
-            rack = held = driven_rack.by_port(b, port)
+            rack = held = driven_rack.by_port(b, most, f"{self.travel_text(way)}, that is asked for")
         else:
             demand = angle_demand(m, self.wheel_angle_max)
             full, name, unit = way * self.rack_travel, "rack", "m"
