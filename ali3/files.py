@@ -20,13 +20,8 @@ def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Itera
 
     `file`: a device or pipe is written to directly; `make_parents`: whether its folder is made if it is not there.
     Raises `FileError` with the file and the reason, if it cannot be written. An older file is then unchanged, and
-    nothing is left.
-
-    Yields
-    ------
-    Path
-        A file of the same name in a temporary folder beside `file`, so that programs that write the same file at the
-        same time do not meet.
+    nothing is left. Result: a file of the same name in a temporary folder beside `file`, so that programs that write
+    the same file at the same time do not meet.
     """
     target = Path(os.path.realpath(file))  # a link stays a link
     _check_file(file, target)

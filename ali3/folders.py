@@ -19,12 +19,8 @@ def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """A folder to fill; when the block ends without an error it becomes `folder` at once.
 
     `folder`: one that does not exist. If another program makes it meanwhile, its folder stays. Raises `FileError` with
-    the folder and the reason, if it cannot be written; nothing is left.
-
-    Yields
-    ------
-    Path
-        A folder of the same name in a temporary one beside `folder`.
+    the folder and the reason, if it cannot be written; nothing is left. Result: a folder of the same name in a
+    temporary one beside `folder`.
     """
     target = Path(folder)
     parent = make_folder(target.parent)

@@ -7,14 +7,11 @@ of very many parts stop the parsers or the programs behind them.
 from __future__ import annotations
 
 import codecs
-import json
 import math
 import os
 import re
 import stat
 import tomllib
-from collections import Counter
-from operator import itemgetter
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -26,11 +23,9 @@ Error = type[Exception]
 LARGEST_TOML = 1_000_000
 """Bytes; the parser takes a second for them."""
 LARGEST_TEXT = 10_000_000
-LARGEST_JSON = 100_000_000
 LARGEST_STATE = 100_000_000
 """Largest saved state of an FMU, bytes."""
 DEEPEST = 100
-MOST_ENTRIES = 3_000_000
 LARGEST_WHOLE = 2**63 - 1
 """As TOML has it."""
 _MOST_DOTS = 200  # of a key: the time of the parser grows with their square
@@ -85,7 +80,7 @@ def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileEr
 
 def read_text(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> str:
     """Text of a file in UTF-8, without a byte order mark; see `check_file`."""
-    return _text(read_bytes(file, largest, error, name), error, name or str(file))
+    return file_text(read_bytes(file, largest, error, name), error, name or str(file))
 
 
 def read_toml(
@@ -100,7 +95,7 @@ def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
 
     `data`: at most `LARGEST_TOML`; `error`: what is raised, with one sentence; `name`: how the sentence calls the file.
     """
-    text = _text(data, error, name)
+    text = file_text(data, error, name)
     bare = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without texts and comments
     if any(part.count(".") > _MOST_DOTS for part in re.split(r"[,=\[\]{}\n]", bare)):
         raise error(f"{name} is no TOML file that can be read: a key has more than {_MOST_DOTS} parts.")
@@ -111,60 +106,13 @@ def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     except ValueError:  # of `int`, which has a limit of its own
         raise error(f"{name} is no TOML file that can be read: a whole number has more than 19 digits.") from None
     except RecursionError:
-        _too_deep(error, name)
-    _check(content, error, name, finite=True)
+        too_deep(error, name)
+    check_content(content, error, name, finite=True)
     return content
 
 
-def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str = "", finite: bool = True) -> Any:
-    """Content of a JSON file; see `check_file` and `json_of`."""
-    return json_of(read_bytes(file, LARGEST_JSON, error, name), error, name or str(file), finite)
-
-
-def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
-    """Content of the bytes of a JSON file: whole numbers have 64 bits, no key stands twice in a table.
-
-    Parameters
-    ----------
-    data : bytes
-        Of any size.
-    error : type of exception
-        What is raised, with one sentence.
-    name : str
-        How the sentence calls the file.
-    finite : bool
-        Whether NaN and Infinity are refused; Python writes them, though they are no JSON.
-    """
-    if data.count(b",") + data.count(b"[") + data.count(b"{") > MOST_ENTRIES:
-        raise error(f"{name} has more than {MOST_ENTRIES} entries.")
-    if not data.strip():
-        raise error(f"{name} is empty; it must be a JSON file.")
-    try:
-        content = json.loads(_text(data, error, name), object_pairs_hook=_table)
-    except _TwiceError as fault:
-        raise error(f"{name} has the key {brief(str(fault))} twice in a table.") from None
-    except json.JSONDecodeError as fault:
-        raise error(f"{name} is no JSON file: {one_line(str(fault))}.") from None
-    except ValueError:
-        raise error(f"{name} is no JSON file that can be read: a whole number has more than 19 digits.") from None
-    except RecursionError:
-        _too_deep(error, name)
-    _check(content, error, name, finite)
-    return content
-
-
-class _TwiceError(Exception):
-    """A key that stands twice."""
-
-
-def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    made = dict(pairs)
-    if len(made) < len(pairs):
-        raise _TwiceError(max(Counter(key for key, _ in pairs).items(), key=itemgetter(1))[0])
-    return made
-
-
-def _text(data: bytes, error: Error, name: str) -> str:
+def file_text(data: bytes, error: Error, name: str) -> str:
+    """Text of the content of a file in UTF-8, without a byte order mark."""
     if words := other_encoding(data):
         raise error(f"{name} is {words}.")
     try:
@@ -183,17 +131,18 @@ def other_encoding(data: bytes) -> str:
     return f"written in UTF-{32 if wide else 16}; it must be in UTF-8" if wide or short else ""
 
 
-def _too_deep(error: Error, name: str) -> NoReturn:
+def too_deep(error: Error, name: str) -> NoReturn:
+    """Refuse what is nested too deep."""
     raise error(f"{name} cannot be read: its lists or tables are nested more than {DEEPEST} deep.")
 
 
-def _check(content: Any, error: Error, name: str, finite: bool) -> None:
+def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
     """Refuse what the programs behind a parser cannot take."""
     waiting: list[tuple[Any, tuple[Any, ...], int]] = [([content], (), 0)]
     while waiting:
         held, place, depth = waiting.pop()
         if depth > DEEPEST:
-            _too_deep(error, name)
+            too_deep(error, name)
         for key, value in held.items() if isinstance(held, dict) else enumerate(held):
             if isinstance(value, (dict, list)):
                 waiting.append((value, (place, key), depth + 1))
@@ -205,7 +154,7 @@ def _check(content: Any, error: Error, name: str, finite: bool) -> None:
 
 
 def _words(place: tuple[Any, ...]) -> str:
-    """A place from the links of `_check`."""
+    """A place from the links of `check_content`."""
     parts: list[int | str] = []
     while place:
         place, key = place

@@ -13,30 +13,42 @@ if TYPE_CHECKING:
     from mbs import scenes as scenes
     from mbs import shapes as shapes
     from mbs import vehicle as vehicle
-    from mbs.analysis.kinks import LinearisationWarning
-    from mbs.analysis.linear_model import LinearModel, linearise
-    from mbs.analysis.periodic_motion import FloquetModel, floquet
-    from mbs.common.affine import Affine, AffineVector
-    from mbs.common.errors import ArgumentTypeError
-    from mbs.compiler.compile import compile
-    from mbs.model import Model, ModelError
-    from mbs.results.accuracy import Accuracy, AccuracyWarning
-    from mbs.results.animation import Animation, animate
-    from mbs.results.poses import Poses
-    from mbs.results.simulation_error import SimulationError
-    from mbs.results.trajectory import Trajectory
-    from mbs.roads import RoadFile, RoadFileError, RoadWarning, read_road, write_road
-    from mbs.settings.control import Control
-    from mbs.settings.settings import Settings
-    from mbs.simulation.branch_warning import BranchWarning
-    from mbs.simulation.large_bending import BendingWarning
-    from mbs.simulation.many_runs import ManyRuns, Variant, simulate_many
-    from mbs.simulation.parameter_warning import ParameterWarning
-    from mbs.simulation.run import simulate
-    from mbs.simulation.state import Pose
-    from mbs.simulation.stepping import Simulation
-    from mbs.system.compiled_model import SystemFileError
-    from mbs.system.system import System
+    from mbs.analysis.kinks import LinearisationWarning as LinearisationWarning
+    from mbs.analysis.linear_model import LinearModel as LinearModel
+    from mbs.analysis.linear_model import linearise as linearise
+    from mbs.analysis.periodic_motion import FloquetModel as FloquetModel
+    from mbs.analysis.periodic_motion import floquet as floquet
+    from mbs.common.affine import Affine as Affine
+    from mbs.common.affine import AffineVector as AffineVector
+    from mbs.common.errors import ArgumentTypeError as ArgumentTypeError
+    from mbs.compiler.compile import compile as compile
+    from mbs.model import Model as Model
+    from mbs.model import ModelError as ModelError
+    from mbs.results.accuracy import Accuracy as Accuracy
+    from mbs.results.accuracy import AccuracyWarning as AccuracyWarning
+    from mbs.results.animation import Animation as Animation
+    from mbs.results.animation import animate as animate
+    from mbs.results.poses import Poses as Poses
+    from mbs.results.simulation_error import SimulationError as SimulationError
+    from mbs.results.trajectory import Trajectory as Trajectory
+    from mbs.roads import RoadFile as RoadFile
+    from mbs.roads import RoadFileError as RoadFileError
+    from mbs.roads import RoadWarning as RoadWarning
+    from mbs.roads import read_road as read_road
+    from mbs.roads import write_road as write_road
+    from mbs.settings.control import Control as Control
+    from mbs.settings.settings import Settings as Settings
+    from mbs.simulation.branch_warning import BranchWarning as BranchWarning
+    from mbs.simulation.large_bending import BendingWarning as BendingWarning
+    from mbs.simulation.many_runs import ManyRuns as ManyRuns
+    from mbs.simulation.many_runs import Variant as Variant
+    from mbs.simulation.many_runs import simulate_many as simulate_many
+    from mbs.simulation.parameter_warning import ParameterWarning as ParameterWarning
+    from mbs.simulation.run import simulate as simulate
+    from mbs.simulation.state import Pose as Pose
+    from mbs.simulation.stepping import Simulation as Simulation
+    from mbs.system.compiled_model import SystemFileError as SystemFileError
+    from mbs.system.system import System as System
 
 # imported when they are first asked for: commands that need no engine start fast
 _LAZY = {
@@ -80,41 +92,4 @@ _LAZY = {
 # packages of their own too: mbs.vehicle.load("prototype")
 __getattr__ = lazy_modules("mbs", ("elements", "flexible", "roads", "scenes", "shapes", "vehicle"), _LAZY)
 
-__all__ = [
-    "Accuracy",
-    "AccuracyWarning",
-    "Affine",
-    "AffineVector",
-    "Animation",
-    "ArgumentTypeError",
-    "Control",
-    "BendingWarning",
-    "BranchWarning",
-    "FloquetModel",
-    "LinearModel",
-    "LinearisationWarning",
-    "ManyRuns",
-    "Model",
-    "ModelError",
-    "ParameterWarning",
-    "Pose",
-    "Poses",
-    "RoadFile",
-    "RoadFileError",
-    "RoadWarning",
-    "Settings",
-    "Simulation",
-    "SimulationError",
-    "System",
-    "SystemFileError",
-    "Trajectory",
-    "Variant",
-    "animate",
-    "compile",
-    "floquet",
-    "linearise",
-    "read_road",
-    "simulate",
-    "simulate_many",
-    "write_road",
-]
+__all__ = [*_LAZY]

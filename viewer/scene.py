@@ -8,7 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ali3.reading import LARGEST_JSON, json_of, read_bytes
+from ali3.json_reading import LARGEST_JSON, json_of
+from ali3.reading import read_bytes
 from ali3.words import value_words
 from viewer.errors import SceneError
 from viewer.scene_relations import relation_errors

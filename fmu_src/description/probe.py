@@ -18,7 +18,8 @@ from fmu_src.description.parameter_groups import parameter_groups
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.enumerations import SENSOR_READS, ElementType, SensorReads, SensorType
+from mbs.kernel.header.enumerations import ElementType, SensorType
+from mbs.kernel.header.sensor_reads import SENSOR_READS, SensorReads
 
 _SEED = 20_261_120
 _INITIAL_TRIES = 6

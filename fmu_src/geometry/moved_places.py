@@ -13,10 +13,7 @@ from fmu_src.geometry.sensor_rows import Array
 def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str, Any]:
     """A shape, arrow or flexible part in frames whose origins were moved.
 
-    Parameters
-    ----------
-    moved : mapping of str to array of shape (3,)
-        Place of the old origin in the new frame, m, by frame.
+    `moved`, shape (3,): place of the old origin in the new frame, m, by frame.
     """
     found = dict(part)
     frame = part.get("frame")

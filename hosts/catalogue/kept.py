@@ -13,7 +13,7 @@ import numpy as np
 
 from ali3.errors import FileError
 from ali3.files import write_text
-from ali3.reading import read_json
+from ali3.json_reading import read_json
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.task import Task, run_file
 from hosts.common.program import program_digest

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ali3.reading import read_json
+from ali3.json_reading import read_json
 from hosts.common.errors import HostError
 
 FORMAT, VERSION = "ALi3 world", 1

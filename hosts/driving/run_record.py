@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ali3.reading import read_json
+from ali3.json_reading import read_json
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.state_file import read_state

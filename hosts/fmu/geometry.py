@@ -9,7 +9,7 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
-from ali3.reading import LARGEST_JSON, read_json
+from ali3.json_reading import LARGEST_JSON, read_json
 from ali3.running import command_name
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError

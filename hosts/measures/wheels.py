@@ -15,10 +15,7 @@ LIFTED = 1.0
 def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:
     """One quantity of the four wheels. `quantity`: such as ``Fz`` of ``wheel_FL.Fz``.
 
-    Returns
-    -------
-    ndarray of shape (n, 4) or None
-        In the order of `WHEELS`; None where a wheel lacks it.
+    Result, shape (n, 4): in the order of `WHEELS`; None where a wheel lacks it.
     """
     names = [f"wheel_{wheel}.{quantity}" for wheel in WHEELS]
     return np.column_stack([result[name] for name in names]) if all(name in result for name in names) else None

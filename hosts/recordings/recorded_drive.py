@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.reading import LARGEST_JSON, LARGEST_STATE, json_of, read_bytes, read_json
+from ali3.json_reading import LARGEST_JSON, json_of, read_json
+from ali3.reading import LARGEST_STATE, read_bytes
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ali3.reading import json_of
+from ali3.json_reading import json_of
 from hosts.common.errors import HostError
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.files import make_folder, whole_file
-from ali3.reading import read_json
+from ali3.json_reading import read_json
 from hosts.common.commands import run_module
 from hosts.common.errors import HostError
 from hosts.common.road import road_value

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.files import make_folder, whole_file, write_text
-from ali3.reading import read_json
+from ali3.json_reading import read_json
 from hosts.common.errors import HostError
 
 RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ali3.reading import no_file, read_json
+from ali3.json_reading import read_json
+from ali3.reading import no_file
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 
+from mbs.common.later import Later
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
 from mbs.compiler.model_to_system import checked, compiled
@@ -58,7 +59,9 @@ def compile(model: Mechanism, *, tolerance: float = TOLERANCE) -> System:
     def ported(system: System) -> System | None:
         return None if make is None else with_ports_of(System.of(_closed(make(), closing)[1]), system)
 
-    return System.of(made, model.drawn_late(draw), None if make is None else ported)
+    late = Later(draw)
+    model.draw_before_change(late)
+    return System.of(made, late, None if make is None else ported)
 
 
 def _closed(model: Mechanism, closing: Callable[[Mechanism], Correction]) -> tuple[Correction, CompiledModel]:

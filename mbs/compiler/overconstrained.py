@@ -79,12 +79,7 @@ def corrected_joints(model: Mechanism, tolerance: float = TOLERANCE) -> list[Cor
     """The joints of overconstrained loops that move only if their drawing is corrected, with what they should be.
 
     `tolerance`: largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it
-    is.
-
-    Raises
-    ------
-    ModelError
-        A loop stands still as drawn and moves with a larger correction.
+    is. Raises `ModelError`: a loop stands still as drawn and moves with a larger correction.
     """
     if tolerance == 0.0:
         return []
@@ -96,12 +91,7 @@ def closed_loops(
 ) -> Callable[[Mechanism], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
     """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `compile`.
 
-    `tolerance`: see `corrected_joints`.
-
-    Raises
-    ------
-    ModelError
-        The tolerance is not in its range.
+    `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.
     """
     if not is_number(tolerance) or not 0.0 <= tolerance <= MOST_TOLERANCE:
         raise ModelError(

@@ -24,12 +24,8 @@ def with_ports_of(ported: System, without: System) -> System | None:
     functions of those of the other.
 
     `ported`: with quasi-static outputs, whose rows are those of the ports; `without`: of the same model without ports.
-
-    Returns
-    -------
-    System or None
-        With the arrays ``ported_``; None where the two are not one model, or were read from files and so do not know
-        their full coordinates.
+    Result: with the arrays ``ported_``; None where the two are not one model, or were read from files and so do not
+    know their full coordinates.
     """
     one, other = ported.frames, without.frames
     if one is None or other is None or one.flexible or other.flexible or not _same_forces(ported, without):

@@ -72,10 +72,7 @@ class Cut:
 def spanning_tree(model: Mechanism) -> tuple[list[Group], list[Cut]]:
     """Groups in depth-first order, the ground first, and the joints that are cut.
 
-    Raises
-    ------
-    NoTreeError
-        With the reason.
+    Raises `NoTreeError`: with the reason.
     """
     check(model)
     group_of = _welded(model)
@@ -143,10 +140,7 @@ def check(model: Mechanism) -> None:
 def turning(model: Mechanism, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
-    Raises
-    ------
-    NoTreeError
-        Where a joint between its bodies turns about another axis.
+    Raises `NoTreeError`: where a joint between its bodies turns about another axis.
     """
     assert joint.turn is not None
     axis = np.array([0.0, 0.0, 1.0]) if joint.turn.axis is None else in_space(joint.turn.axis)

@@ -13,32 +13,39 @@ from typing import TYPE_CHECKING
 from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
-    from mbs.elements.automatic_drive import AutomaticDrive
-    from mbs.elements.body_force import BodyForce
-    from mbs.elements.body_torque import BodyTorque
-    from mbs.elements.brake import Brake
-    from mbs.elements.contact_points import ContactPoints
-    from mbs.elements.coordinate_friction import CoordinateFriction
-    from mbs.elements.drag import Drag
-    from mbs.elements.electric_drive import ElectricDrive
-    from mbs.elements.gyroscopic_spin import GyroscopicSpin
-    from mbs.elements.hub_wrench import HubWrench
-    from mbs.elements.input_force import InputForce
-    from mbs.elements.lift import Lift
-    from mbs.elements.magic_tyre import MagicTyre
-    from mbs.elements.record import ElementRecord, Output
-    from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road
-    from mbs.elements.scalar_spring_damper import ScalarSpringDamper
-    from mbs.elements.spin_angle import SpinAngle
-    from mbs.elements.spin_torque import SpinTorque
-    from mbs.elements.spring_damper import EndStops, SpringDamper
-    from mbs.elements.spring_damper_table import SpringDamperTable
-    from mbs.elements.torsion_bar import TorsionBar
-    from mbs.elements.tyre import Tyre, TyreCurve
-    from mbs.elements.tyre_bore import TyreBore
-    from mbs.elements.wind import Wind
-    from mbs.elements.wind_drag import WindDrag
-    from mbs.kernel.header.enumerations import ElementType
+    from mbs.elements.automatic_drive import AutomaticDrive as AutomaticDrive
+    from mbs.elements.body_force import BodyForce as BodyForce
+    from mbs.elements.body_torque import BodyTorque as BodyTorque
+    from mbs.elements.brake import Brake as Brake
+    from mbs.elements.contact_points import ContactPoints as ContactPoints
+    from mbs.elements.coordinate_friction import CoordinateFriction as CoordinateFriction
+    from mbs.elements.drag import Drag as Drag
+    from mbs.elements.electric_drive import ElectricDrive as ElectricDrive
+    from mbs.elements.gyroscopic_spin import GyroscopicSpin as GyroscopicSpin
+    from mbs.elements.hub_wrench import HubWrench as HubWrench
+    from mbs.elements.input_force import InputForce as InputForce
+    from mbs.elements.lift import Lift as Lift
+    from mbs.elements.magic_tyre import MagicTyre as MagicTyre
+    from mbs.elements.record import ElementRecord as ElementRecord
+    from mbs.elements.record import Output as Output
+    from mbs.elements.road import GridRoad as GridRoad
+    from mbs.elements.road import KerbRoad as KerbRoad
+    from mbs.elements.road import PlaneRoad as PlaneRoad
+    from mbs.elements.road import PortRoad as PortRoad
+    from mbs.elements.road import Road as Road
+    from mbs.elements.scalar_spring_damper import ScalarSpringDamper as ScalarSpringDamper
+    from mbs.elements.spin_angle import SpinAngle as SpinAngle
+    from mbs.elements.spin_torque import SpinTorque as SpinTorque
+    from mbs.elements.spring_damper import EndStops as EndStops
+    from mbs.elements.spring_damper import SpringDamper as SpringDamper
+    from mbs.elements.spring_damper_table import SpringDamperTable as SpringDamperTable
+    from mbs.elements.torsion_bar import TorsionBar as TorsionBar
+    from mbs.elements.tyre import Tyre as Tyre
+    from mbs.elements.tyre import TyreCurve as TyreCurve
+    from mbs.elements.tyre_bore import TyreBore as TyreBore
+    from mbs.elements.wind import Wind as Wind
+    from mbs.elements.wind_drag import WindDrag as WindDrag
+    from mbs.kernel.header.enumerations import ElementType as ElementType
 
 # imported when they are first asked for: who reads one element needs no other
 _LAZY = {
@@ -78,41 +85,7 @@ _LAZY = {
 }
 __getattr__ = lazy_modules(__name__, (), _LAZY)
 
-__all__ = [
-    "AutomaticDrive",
-    "BodyForce",
-    "BodyTorque",
-    "Brake",
-    "ContactPoints",
-    "CoordinateFriction",
-    "Drag",
-    "ElectricDrive",
-    "ElementRecord",
-    "ElementType",
-    "EndStops",
-    "GridRoad",
-    "GyroscopicSpin",
-    "HubWrench",
-    "InputForce",
-    "KerbRoad",
-    "Lift",
-    "MagicTyre",
-    "Output",
-    "PlaneRoad",
-    "PortRoad",
-    "Road",
-    "ScalarSpringDamper",
-    "SpinAngle",
-    "SpinTorque",
-    "SpringDamper",
-    "SpringDamperTable",
-    "TorsionBar",
-    "Tyre",
-    "TyreBore",
-    "TyreCurve",
-    "Wind",
-    "WindDrag",
-]
+__all__ = [*_LAZY]
 
 
 def __dir__() -> list[str]:

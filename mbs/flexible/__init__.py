@@ -8,25 +8,37 @@ from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
     from mbs.flexible import scene_part as scene_part
-    from mbs.flexible.attachment_modes import inertia_relief
-    from mbs.flexible.calculix import read_calculix
-    from mbs.flexible.component_modes import craig_bampton
-    from mbs.flexible.damping import RayleighDamping
-    from mbs.flexible.fe_model import FiniteElementModel
-    from mbs.flexible.fixed_interface import Interface
-    from mbs.flexible.frame import Beam, Frame
-    from mbs.flexible.frequencies import natural_modes
-    from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
-    from mbs.flexible.load_paths import interface_loads, load_path_modes
-    from mbs.flexible.material import Material
-    from mbs.flexible.matrix_files import external_model, read_matrix, read_model
-    from mbs.flexible.modal_body import InterfaceModes
-    from mbs.flexible.mode_choice import ModeChoice, modes_for_output
-    from mbs.flexible.nastran import read_nastran
-    from mbs.flexible.recovery import StrainGauge, gauge_rows, section_forces, stress_field
-    from mbs.flexible.reduced_body import ReducedBody
-    from mbs.flexible.relief_matrices import InertiaRelief
-    from mbs.flexible.section import Section, rectangle, round_bar, tube
+    from mbs.flexible.attachment_modes import inertia_relief as inertia_relief
+    from mbs.flexible.calculix import read_calculix as read_calculix
+    from mbs.flexible.component_modes import craig_bampton as craig_bampton
+    from mbs.flexible.damping import RayleighDamping as RayleighDamping
+    from mbs.flexible.fe_model import FiniteElementModel as FiniteElementModel
+    from mbs.flexible.fixed_interface import Interface as Interface
+    from mbs.flexible.frame import Beam as Beam
+    from mbs.flexible.frame import Frame as Frame
+    from mbs.flexible.frequencies import natural_modes as natural_modes
+    from mbs.flexible.inertia_integrals import ShapeIntegrals as ShapeIntegrals
+    from mbs.flexible.inertia_integrals import shape_integrals as shape_integrals
+    from mbs.flexible.load_paths import interface_loads as interface_loads
+    from mbs.flexible.load_paths import load_path_modes as load_path_modes
+    from mbs.flexible.material import Material as Material
+    from mbs.flexible.matrix_files import external_model as external_model
+    from mbs.flexible.matrix_files import read_matrix as read_matrix
+    from mbs.flexible.matrix_files import read_model as read_model
+    from mbs.flexible.modal_body import InterfaceModes as InterfaceModes
+    from mbs.flexible.mode_choice import ModeChoice as ModeChoice
+    from mbs.flexible.mode_choice import modes_for_output as modes_for_output
+    from mbs.flexible.nastran import read_nastran as read_nastran
+    from mbs.flexible.recovery import StrainGauge as StrainGauge
+    from mbs.flexible.recovery import gauge_rows as gauge_rows
+    from mbs.flexible.recovery import section_forces as section_forces
+    from mbs.flexible.recovery import stress_field as stress_field
+    from mbs.flexible.reduced_body import ReducedBody as ReducedBody
+    from mbs.flexible.relief_matrices import InertiaRelief as InertiaRelief
+    from mbs.flexible.section import Section as Section
+    from mbs.flexible.section import rectangle as rectangle
+    from mbs.flexible.section import round_bar as round_bar
+    from mbs.flexible.section import tube as tube
 
 # imported when they are first asked for: who reads a model of beams needs no reader of matrices
 _LAZY = {
@@ -64,36 +76,4 @@ _LAZY = {
 }
 __getattr__ = lazy_modules(__name__, ("scene_part",), _LAZY)
 
-__all__ = [
-    "Beam",
-    "FiniteElementModel",
-    "Frame",
-    "InertiaRelief",
-    "Interface",
-    "InterfaceModes",
-    "Material",
-    "ModeChoice",
-    "RayleighDamping",
-    "ReducedBody",
-    "Section",
-    "ShapeIntegrals",
-    "StrainGauge",
-    "craig_bampton",
-    "external_model",
-    "gauge_rows",
-    "inertia_relief",
-    "interface_loads",
-    "load_path_modes",
-    "modes_for_output",
-    "natural_modes",
-    "read_calculix",
-    "read_matrix",
-    "read_model",
-    "read_nastran",
-    "rectangle",
-    "round_bar",
-    "section_forces",
-    "shape_integrals",
-    "stress_field",
-    "tube",
-]
+__all__ = [*_LAZY]

@@ -23,17 +23,19 @@ MAGIC = "src/elements/magic_formula.h"
 
 ENUMERATIONS = {
     "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
-    "Update": (PUBLIC, "ALI3_UPDATE_LINEARISED", "ALI3_UPDATE_", "`ali3_settings.update`."),
-    "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
-    "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
     "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "What a parameter writes to."),
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
-    "SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from."),
     "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: why the results of a run may be wrong."),
 }
 """Per Python name: header, first item, what its items begin with, docstring."""
+OF_STEPS = {
+    "Update": (PUBLIC, "ALI3_UPDATE_LINEARISED", "ALI3_UPDATE_", "`ali3_settings.update`."),
+    "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
+    "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
+}
+OF_SENSORS = {"SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from.")}
 LIMITS = {
     "ALI3_OPEN": "A row that is open by less, m, is not why something failed.",
     "ALI3_FARTHEST": "Largest distance of a start, m.",
@@ -195,12 +197,16 @@ def header() -> dict[str, str]:
             "Limits and versions", [], ["\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS))]
         ),
         "arrays.py": _text("Names of the arrays of a System", [], _arrays()),
-        "enumerations.py": _text("Types and codes", ["from enum import IntEnum"], _enumerations()),
+        "enumerations.py": _text("Types and codes", [_ENUM], _enumerations()),
+        "steps.py": _text("Methods and what steps tell", [_ENUM], _steps()),
+        "sensor_reads.py": _text("What sensors read", [_ENUM + "\n\n" + _SENSOR_TYPE], _sensor_reads()),
         "magic_coefficients.py": _text("Numbers of the Magic Formula", [], [_magic()]),
         "structures.py": _text("Structures", [_CTYPES], _structures()),
     }
 
 
+_ENUM = "from enum import IntEnum"
+_SENSOR_TYPE = "from mbs.kernel.header.enumerations import SensorType"
 _CTYPES = "from ctypes import POINTER, Structure, c_double, c_int32, c_int64, c_void_p"
 
 
@@ -219,19 +225,31 @@ def _arrays() -> Iterator[str]:
     yield _names("OPTIONAL_ARRAYS", names, "Those that a System need not have.")
 
 
-def _enumerations() -> Iterator[str]:
-    for name, (file, first, prefix, text) in ENUMERATIONS.items():
+def _classes(of: dict[str, tuple[str, str, str, str]]) -> Iterator[str]:
+    for name, (file, first, prefix, text) in of.items():
         values = (f"{item} = {value}" for item, value in enumeration(file, first, prefix).items())
         yield _class(name, "IntEnum", text, values)
+
+
+def _steps() -> Iterator[str]:
+    yield from _classes(OF_STEPS)
     methods = table(PUBLIC, "ALI3_METHODS")
     names = (f"{name} = {number}" for number, (name, _, _) in enumerate(methods))
     yield _class("MethodNumber", "IntEnum", "`ali3_settings.method`.", names)
     orders = "\n".join(f"    MethodNumber.{name}: {order}," for name, _, order in methods)
     yield f'\nMETHOD_ORDERS = {{\n{orders}\n}}\n"""Orders of steps that change."""'
-    types = sensor_types()
-    yield _class("SensorType", "IntEnum", "Types of sensors.", (f"{t.name} = {t.number}" for t in types))
-    reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in types)
+
+
+def _sensor_reads() -> Iterator[str]:
+    yield from _classes(OF_SENSORS)
+    reads = "\n".join(f"    SensorType.{t.name}: SensorReads.{t.reads}," for t in sensor_types())
     yield f"\nSENSOR_READS = {{\n{reads}\n}}"
+
+
+def _enumerations() -> Iterator[str]:
+    yield from _classes(ENUMERATIONS)
+    types = (f"{t.name} = {t.number}" for t in sensor_types())
+    yield _class("SensorType", "IntEnum", "Types of sensors.", types)
     elements = (f"{name} = {number}" for name, number in element_types().items())
     yield _class("ElementType", "IntEnum", "Types of force elements.", elements)
 

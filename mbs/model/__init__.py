@@ -7,14 +7,18 @@ from typing import TYPE_CHECKING
 from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
-    from mbs.common.errors import ModelError
-    from mbs.model.body import Body, PointMass
-    from mbs.model.carried import SlidingPoint, Spin
-    from mbs.model.coordinate import Coordinate
-    from mbs.model.joints.joint import Joint
-    from mbs.model.model import Model
-    from mbs.model.records import Guide, Input, Parameter
-    from mbs.model.sensor import Sensor
+    from mbs.common.errors import ModelError as ModelError
+    from mbs.model.body import Body as Body
+    from mbs.model.carried import SlidingPoint as SlidingPoint
+    from mbs.model.carried import Spin as Spin
+    from mbs.model.coordinate import Coordinate as Coordinate
+    from mbs.model.joints.joint import Joint as Joint
+    from mbs.model.model import Model as Model
+    from mbs.model.point_mass import PointMass as PointMass
+    from mbs.model.records import Guide as Guide
+    from mbs.model.records import Input as Input
+    from mbs.model.records import Parameter as Parameter
+    from mbs.model.sensor import Sensor as Sensor
 
 # imported when they are first asked for: who compiles a mechanism needs no word of it
 _LAZY = {
@@ -26,27 +30,14 @@ _LAZY = {
     "Model": "mbs.model.model",
     "ModelError": "mbs.common.errors",
     "Parameter": "mbs.model.records",
-    "PointMass": "mbs.model.body",
+    "PointMass": "mbs.model.point_mass",
     "Sensor": "mbs.model.sensor",
     "SlidingPoint": "mbs.model.carried",
     "Spin": "mbs.model.carried",
 }
 __getattr__ = lazy_modules(__name__, (), _LAZY)
 
-__all__ = [
-    "Body",
-    "Coordinate",
-    "Guide",
-    "Input",
-    "Joint",
-    "Model",
-    "ModelError",
-    "Parameter",
-    "PointMass",
-    "Sensor",
-    "SlidingPoint",
-    "Spin",
-]
+__all__ = [*_LAZY]
 
 
 def __dir__() -> list[str]:

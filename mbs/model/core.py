@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Self
+from typing import Any, Self
 
 from numpy.typing import ArrayLike
 
@@ -12,6 +12,7 @@ from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.model.carried import Payload, Spin, WrittenAxis, WrittenInertia
+from mbs.model.drawn import Shape, Turning
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.register import Register
@@ -50,7 +51,24 @@ class ModelCore(Register):
         self.written_axes: list[WrittenAxis] = []
         self.parameters: list[Parameter] = []
         self.constants: list[Constant] = []
+        self._shapes: list[Shape] = []
+        self._turnings: list[Turning] = []
+        self.default_shapes = True
+        self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
+        self.flexible_scene: list[dict[str, Any]] = []
         self.with_ports = None
+
+    @property
+    def shapes(self) -> list[Shape]:
+        """All shapes, in the order in which they were added."""
+        self.look()
+        return self._shapes
+
+    @property
+    def turnings(self) -> list[Turning]:
+        """What only its looks turn or slide."""
+        self.look()
+        return self._turnings
 
     @property
     def with_ports(self) -> Callable[[], Self] | None:

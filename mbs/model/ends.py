@@ -8,13 +8,13 @@ from numpy.typing import ArrayLike
 
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
-from mbs.model.body import Body, PointMass
+from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 
-FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | PointMass"
-"""A point of a body, earth axes in the reference configuration, m; or a particle."""
+FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
+"""A point of a body, earth axes in the reference configuration, m; or a body for its centre of mass."""
 End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
-"""The same, a body for its centre of mass, or a point that a guide slides."""
+"""The same, or a point that a guide slides."""
 PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
 """A point, or one per body where the drawing does not close."""
 
@@ -24,17 +24,8 @@ def body_and_point(
 ) -> tuple[Body, ArrayLike]:
     """The body and the place of an end that does not slide.
 
-    `end`: a body alone stands for its centre of mass.
-
-    Returns
-    -------
-    Body
-        Not looked at yet: it may be of another model.
-
-    Raises
-    ------
-    ModelError
-        The end is something else.
+    `end`: a body alone stands for its centre of mass. Result: not looked at yet: it may be of another model. Raises
+    `ModelError`: the end is something else.
     """
     if isinstance(end, Body):
         return end, end.com
@@ -57,13 +48,7 @@ def on_one_body(body_1: Body, body_2: Body) -> bool:
 
 
 def different(body_1: Body, body_2: Body, what: str) -> None:
-    """Refuse a joint or a force of a body with itself.
-
-    Raises
-    ------
-    ModelError
-        They are the same body.
-    """
+    """Refuse a joint or a force of a body with itself. Raises `ModelError`: they are the same body."""
     for body in (body_1, body_2):
         if not isinstance(body, Body):
             raise ModelError(f"The {what} needs a body, got {shown(body)}.")

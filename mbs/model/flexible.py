@@ -91,13 +91,7 @@ class FlexibleBody(Body):
         return np.asarray(self.com + self.reduced.node_positions @ self.axes.T)
 
     def amplitude(self, mode: int | str) -> Affine:
-        """An amplitude as an expression.
-
-        Returns
-        -------
-        Affine
-            m or rad for static modes.
-        """
+        """An amplitude as an expression. Result: m or rad for static modes."""
         names = self.reduced.mode_names
         if isinstance(mode, str):
             if mode not in names:
@@ -112,11 +106,7 @@ class FlexibleBody(Body):
         """A sum of amplitudes, each times a weight.
 
         `weights`: what `ReducedBody.recovery` gives per unit amplitude, such as a bending moment, shape (n_modes,).
-
-        Returns
-        -------
-        Affine
-            ``weights . eta``.
+        Result: ``weights . eta``.
         """
         w = vector(weights, self.n_modes, f"the weights of the modes of flexible body '{self.name}'")
         return Affine({self.start + 12 + j: float(v) for j, v in enumerate(w) if v != 0.0})
@@ -142,10 +132,7 @@ class FlexibleBody(Body):
     def interface_at(self, position: ArrayLike, what: str) -> Interface:
         """The node at a place. `position`: earth axes in the reference configuration, m, shape (3,).
 
-        Raises
-        ------
-        ModelError
-            No node is there.
+        Raises `ModelError`: no node is there.
         """
         place = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
         gaps = np.linalg.norm(self.node_positions - place, axis=1)
@@ -161,12 +148,7 @@ class FlexibleBody(Body):
     def point(self, position: ArrayLike) -> AffineVector:
         """The node at a place, or the origin of the frame.
 
-        `position`: earth axes in the reference configuration, m, shape (3,).
-
-        Raises
-        ------
-        ModelError
-            No node is there.
+        `position`: earth axes in the reference configuration, m, shape (3,). Raises `ModelError`: no node is there.
         """
         place = vector(position, 3, f"a point of flexible body '{self.name}'")
         if np.linalg.norm(place - self.com) <= SAME_PLACE:
@@ -218,12 +200,7 @@ class FlexibleBody(Body):
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
         """Refused: masses belong to the nodes of the finite-element model.
 
-        `mass`: in kg; `centre`: in m, shape (3,); `second_moment`: in kg m2, shape (3, 3).
-
-        Raises
-        ------
-        ModelError
-            Always.
+        `mass`: in kg; `centre`: in m, shape (3,); `second_moment`: in kg m2, shape (3, 3). Raises `ModelError`: always.
         """
         raise ModelError(
             f"Flexible body '{self.name}' cannot take a mass of {mass:g} kg; give it to a node of its model."

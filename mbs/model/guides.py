@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -80,25 +79,6 @@ def new_guide(
 class GuideVocabulary(BodyVocabulary):
     """The guides of a model, and what they slide."""
 
-    def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
-        """A prescribed motion that follows ``gain * input`` through a critically damped filter.
-
-        ``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency, at rest on the input at the start.
-
-        Parameters
-        ----------
-        gain : float
-            Of the filter, in units of the guide per unit of the input.
-        frequency : float
-            Of the filter, Hz.
-        unit : str
-            Of the guide, rad or m.
-        """
-        owned_input(self, input, f"The guide '{name}'")
-        w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
-        k = number(gain, f"The gain of guide '{name}'")
-        return new_guide(self, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
-
     def guide_inputs(
         self,
         name: str,
@@ -139,51 +119,6 @@ class GuideVocabulary(BodyVocabulary):
         start = min(max(asked, low), high)
         reals = [w, k_1, start, k_2, low, high]
         return new_guide(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
-
-    def guide_table(
-        self, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
-    ) -> Guide:
-        """A motion that follows another guide by a curve, such as a rack the steering wheel.
-
-        Between the points it is a monotone cubic with the slopes of scipy's PchipInterpolator (F. N. Fritsch, R. E.
-        Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246), beyond them a straight line.
-
-        Parameters
-        ----------
-        source : Guide
-            That it follows, not by a table itself.
-        table : array_like, shape (n, 2)
-            Rows of the value of `source`, rising, and of the guide.
-        slopes : array_like, shape (n,), optional
-            At the rows, where they are known; the cubics are then not held monotone.
-        unit : str
-            Of the guide, rad or m.
-
-        Raises
-        ------
-        ModelError
-            Fewer than two rows, the first column does not rise, or not as many slopes as rows.
-        """
-        what = f"guide '{name}'"
-        u = owned_guide(self, source, f"The {what}")
-        if u.type == GuideType.BY_TABLE:
-            raise ModelError(f"The {what} is over guide '{u.name}', which is by a table too; give one table of both.")
-        rows = array(table, (None, 2), f"the table of {what}")
-        if len(rows) < 2:
-            raise ModelError(f"The table of {what} has {len(rows)} rows; it needs two at least.")
-        if not np.all(np.diff(rows[:, 0]) > 0.0):
-            k = int(np.argmin(np.diff(rows[:, 0])))
-            raise ModelError(
-                f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
-                "from row to row."
-            )
-        given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
-        m = curve(rows).derivative()(rows[:, 0]) if given is None else given
-        reals = [float(x) for x in np.concatenate([*rows.T, m])]
-        guide = new_guide(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
-        value, _ = of_table(guide, u.start)
-        self.guides[-1] = replace(guide, start=value)
-        return self.guides[-1]
 
     def slide(
         self,

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from mbs.common.affine import Affine
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.ends import End, PointPair
 from mbs.model.joints.distance import distance
-from mbs.model.joints.drive import drive
 from mbs.model.joints.drop_link import drop_link
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.points import spherical
 from mbs.model.joints.sliding import cylindrical, point_on_line
-from mbs.model.records import Guide
 
 
 class LinkVocabulary(BodyVocabulary):
@@ -104,33 +101,6 @@ class LinkVocabulary(BodyVocabulary):
             Both ends are on the same body, or the length is not positive.
         """
         return self._join(distance(self, name, end_1, end_2, length))
-
-    def drive(
-        self, name: str, driven: Coordinate | Affine | tuple[End, End], guide: Guide, *, switch: bool | None = None
-    ) -> Joint:
-        """Prescribed motion: a coordinate, a component of a point, or the distance of two points follows a guide.
-
-        Parameters
-        ----------
-        driven : Coordinate, Affine or (end, end)
-            A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
-        guide : Guide
-            Of this model, rad or m.
-        switch : bool, optional
-            With a switch of the same name, on or off at the start: the drive can let go. One that is turned on later
-            keeps the distance to its guide that there is then.
-
-        Returns
-        -------
-        Joint
-            For sensors: its force is that of the drive, zero while it is off.
-
-        Raises
-        ------
-        ModelError
-            What is driven cannot move, an end slides, or a driven distance starts at zero.
-        """
-        return self._join(drive(self, name, driven, guide, switch))
 
     def drop_link(
         self,

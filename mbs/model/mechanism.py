@@ -6,7 +6,7 @@ import math
 
 from numpy.typing import ArrayLike
 
-from mbs.common.checks import not_negative, number, one_of, positive, shown
+from mbs.common.checks import not_negative, positive
 from mbs.elements.record import ElementRecord
 from mbs.model.air import AirVocabulary
 from mbs.model.angle import relative_angle
@@ -23,7 +23,6 @@ from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import ParameterVocabulary
 from mbs.model.records import Armature, Input
 from mbs.model.road_vocabulary import RoadVocabulary
-from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.spin import SpinVocabulary
 from mbs.model.springs import SpringVocabulary
 
@@ -37,7 +36,6 @@ class Mechanism(
     OrientationSensorVocabulary,
     ForceSensorVocabulary,
     ChannelSensorVocabulary,
-    SlidingVocabulary,
     SpinVocabulary,
     GuideVocabulary,
     ParameterVocabulary,
@@ -98,22 +96,6 @@ class Mechanism(
         self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
         self.armatures.append(new)
         return new
-
-    def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
-        """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
-
-        What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
-        the carrier turns slowly.
-
-        Parameters
-        ----------
-        inertia : float
-            kg m2; without one something must hold or weigh it, such as a rack or a drive.
-        """
-        value = not_negative(inertia, f"The inertia of shaft {shown(name)}")
-        index = self.new_coordinate(self.unique("shaft", name), "angle", 0.0)
-        self.inertias[index] = value
-        return Coordinate(name, index, "rad")
 
     def anti_roll_bar(
         self,
@@ -193,24 +175,3 @@ class Mechanism(
             value is not finite, and says before the first step if it was not set.
         """
         return new_input(self, name, start, min, max, unit, description, whole, port)
-
-    # --- what tables are functions of ---
-    def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
-        """A coordinate that tables are functions of, 0 as drawn.
-
-        What it moves gives it its inertia; something must move with it, or a drive must hold it.
-
-        Parameters
-        ----------
-        unit : {"m", "rad"}
-            A length or an angle.
-        rate : float
-            At the start, m/s or rad/s.
-        """
-        one_of(unit, ("m", "rad"), f"The unit of travel {shown(name)}")
-        start = number(rate, f"The rate of travel {shown(name)}")
-        index = self.new_coordinate(self.unique("travel", name), "angle", 0.0)
-        self.inertias[index] = 0.0
-        if start:
-            self.coordinate_rates[index] = start
-        return Coordinate(name, index, unit)

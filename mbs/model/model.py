@@ -7,15 +7,18 @@ from numpy.typing import ArrayLike
 
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
-from mbs.model.body import Body, PointMass
+from mbs.model.body import Body
 from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.coordinate import Coordinate
+from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
+from mbs.model.more_guides import MoreGuidesVocabulary
+from mbs.model.point_mass import PointMass
+from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
-from mbs.model.time_guides import TimeGuideVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
@@ -27,7 +30,9 @@ class Model(
     JointSensorVocabulary,
     FlexibleVocabulary,
     ContactVocabulary,
-    TimeGuideVocabulary,
+    MoreGuidesVocabulary,
+    DriveVocabulary,
+    SlidingVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.
 

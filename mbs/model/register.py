@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, named, positive, shown, vector, whole
 from mbs.common.errors import ModelError
-from mbs.common.later import Later
 from mbs.model.coordinate import Coordinate, CoordinateInfo
 
 T = TypeVar("T")
@@ -53,7 +52,7 @@ class Register:
         self._names: set[tuple[str, str]] = set()
         self._undo: list[Callable[[], None]] | None = None
         self._looks: list[Callable[[], None]] = []
-        self._drawings: list[weakref.ref[Later[Any]]] = []
+        self._drawings: list[weakref.ref[Callable[[], object]]] = []
 
     @property
     def gravity(self) -> Vector:
@@ -111,17 +110,13 @@ class Register:
             self._looks = looks
             raise
 
-    def drawn_late(self, drawing: Callable[[], T]) -> Later[T]:
-        """What a compiled model is drawn by: made when it is asked for, or before the model changes, but at once where
-        no looks were put off.
-
-        `drawing`: makes it of the model as it is.
+    def draw_before_change(self, drawing: Callable[[], object]) -> None:
+        """Call what draws the model as it is before the model changes, if there still is somebody who keeps it; at once
+        where no looks were put off.
         """
-        late = Later(drawing)
         if not self._looks:
-            late()
-        self._drawings = [r for r in (*self._drawings, weakref.ref(late)) if r() is not None]
-        return late
+            drawing()
+        self._drawings = [r for r in (*self._drawings, weakref.ref(drawing)) if r() is not None]
 
     def remember(self, thing: object) -> None:
         """Note the attributes of what is about to change, so that a refused call can restore them.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
@@ -28,10 +28,12 @@ from mbs.common.checks import (
 )
 from mbs.common.errors import ModelError
 from mbs.common.vectors import in_space
-from mbs.model.bodies import ROTATION, BodyVocabulary
+from mbs.model.bodies import ROTATION
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
+from mbs.model.drawn import Owner, Shape, Turning
+from mbs.model.mechanism import Mechanism
 
 Kind: TypeAlias = Literal[
     "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"
@@ -63,72 +65,15 @@ KINDS: Mapping[str, _Kind] = {
 }
 
 
-@dataclass(frozen=True)
-class Turning:
-    """Something that turns about an axis of a body without being one itself, such as a steering wheel."""
-
-    name: str
-    carrier: Body | Turning
-    """On which it turns."""
-    centre: Vector
-    """Shape (3,): from the origin of the carrier, along the earth axes as drawn, m."""
-    axis_reference: tuple[float, ...]
-    """Unit vector, earth axes as drawn."""
-    angle: Affine | str
-    """Angle of the turn, rad: an expression of coordinates, or the name of a sensor."""
-
-    @property
-    def body(self) -> Body:
-        """The body that carries it in the end."""
-        return self.carrier.body if isinstance(self.carrier, Turning) else self.carrier
-
-
-Owner: TypeAlias = "Body | Spin | Turning"
 Place: TypeAlias = "ArrayLike | tuple[Owner, ArrayLike]"
 """A point of the body of a shape, or (body, point) on another one; earth axes in the reference configuration, m."""
 
 
-@dataclass(frozen=True)
-class Shape:
-    """A shape as `Model.shape` checked it."""
-
-    kind: str
-    owner: Owner
-    """What it is of."""
-    fields: Mapping[str, Any] = field(default_factory=dict)
-    """Numbers and texts of the shape; places are from the origin of the owner, along the earth axes as drawn."""
-    anchors: Sequence[tuple[Owner, Vector]] = ()
-    """Points of tubes, plates, springs and dampers: of what, and where from its origin, m."""
-
-    @property
-    def name(self) -> str:
-        """Its name; empty where it has none."""
-        return str(self.fields.get("name", ""))
-
-
-class ShapeVocabulary(BodyVocabulary):
+class ShapeVocabulary(Mechanism):
     """The looks of a model."""
 
-    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
-        super().__init__(name, dimension, gravity, length)
-        self._shapes: list[Shape] = []
-        self._turnings: list[Turning] = []
-        self.default_shapes = True
-
-    @property
-    def shapes(self) -> list[Shape]:
-        """All shapes, in the order in which they were added."""
-        self.look()
-        return self._shapes
-
-    @property
-    def turnings(self) -> list[Turning]:
-        """What only its looks turn or slide."""
-        self.look()
-        return self._turnings
-
     def shape(
-        self,
+        self: Mechanism,
         body: Owner,
         kind: Kind,
         *,
@@ -225,15 +170,21 @@ class ShapeVocabulary(BodyVocabulary):
         }  # fmt: skip
         one_of(kind, tuple(KINDS), "The kind of a shape")
         what = f"{kind} of {_owner_text(body)}" if name is None else f"shape '{named(name, 'a shape')}'"
-        owner = self._owner(body, what)
+        owner = _owner(self, body, what)
         _check_arguments(kind, given, what)
         looks = {} if name is None else {"name": name}
-        made = self._made(kind, owner, given, what, looks | _looks(color, material, opacity, what))
+        made = _made(self, kind, owner, given, what, looks | _looks(color, material, opacity, what))
         self._shapes.append(made)
         return made
 
     def turning(
-        self, name: str, body: Body | Turning, *, at: ArrayLike, axis: ArrayLike, angle: Coordinate | Affine | str
+        self: Mechanism,
+        name: str,
+        body: Body | Turning,
+        *,
+        at: ArrayLike,
+        axis: ArrayLike,
+        angle: Coordinate | Affine | str,
     ) -> Turning:
         """Something that only its looks turn about an axis of a body, such as a steering wheel or a motor's pulley.
 
@@ -248,10 +199,10 @@ class ShapeVocabulary(BodyVocabulary):
         """
         self.unique("spin", self.unique("body", name))
         what = f"turning '{name}'"
-        owner = self._owner(body, what)
+        owner = _owner(self, body, what)
         if isinstance(owner, Spin):
             raise ModelError(f"The {what} needs a body to turn on, not {shown(body)}.")
-        centre = self._local(owner, at, f"the point of {what}")
+        centre = local_place(self, owner, at, f"the point of {what}")
         unit = direction(axis, 3, f"the axis of {what}")
         if isinstance(angle, str):
             if angle not in [sensor.name for sensor in self.sensors]:
@@ -263,93 +214,101 @@ class ShapeVocabulary(BodyVocabulary):
         self._turnings.append(made)
         return made
 
-    def _owner(self, owner: object, what: str) -> Owner:
-        """The body whose frame carries a shape, or the spin or turning."""
-        if isinstance(owner, Spin):
-            self.owned_coordinate(owner, f"The {what}")
-            return owner
-        if isinstance(owner, Turning):
-            if not any(owner is turning for turning in self._turnings):
-                raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{self.name}'.")
-            return owner
-        body = self.owned(owner, f"The {what}")  # type: ignore[arg-type]
-        return body if body.is_ground or body in self.bodies else self._member(body)
 
-    def _member(self, body: Body) -> Body:
-        """The body of the model that has the coordinates of another one, as a node, a frame or a body with ports."""
-        return next(b for b in self.bodies if b.start == body.start)
+def _owner(model: Mechanism, owner: object, what: str) -> Owner:
+    """The body whose frame carries a shape, or the spin or turning."""
+    if isinstance(owner, Spin):
+        model.owned_coordinate(owner, f"The {what}")
+        return owner
+    if isinstance(owner, Turning):
+        if not any(owner is turning for turning in model._turnings):
+            raise ModelError(f"The {what}: '{owner.name}' turns in another model than '{model.name}'.")
+        return owner
+    body = model.owned(owner, f"The {what}")  # type: ignore[arg-type]
+    return body if body.is_ground or body in model.bodies else _member(model, body)
 
-    def _local(self, owner: Owner, place: ArrayLike, what: str) -> Vector:
-        """A place from the origin of its owner, three components."""
-        origin = origin_of(owner)
-        given = place_of(place, self.dimension, what)
-        return np.asarray(given - origin)
 
-    def _anchors(
-        self, owner: Owner, places: object, key: str, count: tuple[int, int], what: str
-    ) -> list[tuple[Owner, Vector]]:
-        least, most = count
-        words = f"{least} points" if least == most else f"{least} points or more"
-        if not isinstance(places, (list, tuple, np.ndarray)) or not least <= len(places) <= most:
-            raise ModelError(f"The {key} of {what} must be {words}, not {shown(places)}.")
-        found = []
-        for number_, place in enumerate(places, start=1):
-            at = f"number {number_} of the {key} of {what}"
-            if isinstance(place, (tuple, list)) and len(place) == 2 and not is_number(place[0]):
-                of = self._owner(place[0], at)
-                found.append((of, self._local(of, place[1], at)))
-            elif isinstance(place, Body):
-                of = self._owner(place, at)
-                found.append((of, np.zeros(3)))
-            else:
-                found.append((owner, self._local(owner, place, at)))
-        return found
+def _member(model: Mechanism, body: Body) -> Body:
+    """The body of the model that has the coordinates of another one, as a node, a frame or a body with ports."""
+    return next(b for b in model.bodies if b.start == body.start)
 
-    def _made(self, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]) -> Shape:
-        fields = dict(looks)
-        anchors: list[tuple[Owner, Vector]] = []
-        for key in ("radius", "thickness", "width", "rim", "wire", "seat", "scale"):
-            if key in given:
-                fields[key] = positive(given[key], f"The {key} of {what}")
-        if "coils" in given:
-            fields["coils"] = whole(given["coils"], f"The coils of {what}", 1, 1000)
-        if "points" in given:
-            anchors = self._anchors(owner, given["points"], "points", (3 if kind == "plate" else 2, 10_000), what)
-        if "ends" in given:
-            anchors = self._anchors(owner, given["ends"], "ends", (2, 2), what)
-        if kind == "cylinder" and any(of is not owner for of, _ in anchors):
-            raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
-        if kind == "cylinder" and np.array_equal(anchors[0][1], anchors[1][1]):
-            raise ModelError(f"The ends of {what} are one point; a cylinder has a length.")
-        if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):
-            default = np.zeros(3) - origin_of(owner) if kind == "mesh" else np.zeros(3)
-            fields["at"] = self._local(owner, given["at"], f"the middle of {what}") if "at" in given else default
-        if "size" in given:
-            fields["size"] = _size(given["size"], self.dimension, what)
-        if "axes" in given:
-            fields["axes"] = _axes(given["axes"], self.dimension, what)
-        if kind in ("wheel", "steering_wheel"):
-            fields["axis"] = self._axle(owner, given.get("axis"), what)
-        if "rim" in fields and not fields["rim"] < fields["radius"]:
-            raise ModelError(
-                f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
-            )
-        if kind == "mesh":
-            from viewer.mesh_file import read_mesh
 
-            if not isinstance(given["file"], (str, Path)):
-                raise ModelError(f"The file of {what} must be the path of a file, not {shown(given['file'])}.")
-            scale = fields.pop("scale", 1.0)
-            fields["positions"], fields["triangles"] = read_mesh(given["file"], scale)
-            fields["file"] = Path(given["file"]).name
-        return Shape(kind, owner, fields, anchors)
+def local_place(model: Mechanism, owner: Owner, place: ArrayLike, what: str) -> Vector:
+    """A place from the origin of its owner, three components."""
+    origin = origin_of(owner)
+    given = place_of(place, model.dimension, what)
+    return np.asarray(given - origin)
 
-    def _axle(self, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
-        if axis is not None:
-            return direction(axis, 3, f"the axis of {what}")
-        if not isinstance(owner, Body):
-            return np.array(owner.axis_reference)
-        return np.array([0.0, 1.0, 0.0]) if self.dimension == 3 else np.array([0.0, 0.0, 1.0])
+
+def _anchors(
+    model: Mechanism, owner: Owner, places: object, key: str, count: tuple[int, int], what: str
+) -> list[tuple[Owner, Vector]]:
+    least, most = count
+    words = f"{least} points" if least == most else f"{least} points or more"
+    if not isinstance(places, (list, tuple, np.ndarray)) or not least <= len(places) <= most:
+        raise ModelError(f"The {key} of {what} must be {words}, not {shown(places)}.")
+    found = []
+    for number_, place in enumerate(places, start=1):
+        at = f"number {number_} of the {key} of {what}"
+        if isinstance(place, (tuple, list)) and len(place) == 2 and not is_number(place[0]):
+            of = _owner(model, place[0], at)
+            found.append((of, local_place(model, of, place[1], at)))
+        elif isinstance(place, Body):
+            of = _owner(model, place, at)
+            found.append((of, np.zeros(3)))
+        else:
+            found.append((owner, local_place(model, owner, place, at)))
+    return found
+
+
+def _made(
+    model: Mechanism, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]
+) -> Shape:
+    fields = dict(looks)
+    anchors: list[tuple[Owner, Vector]] = []
+    for key in ("radius", "thickness", "width", "rim", "wire", "seat", "scale"):
+        if key in given:
+            fields[key] = positive(given[key], f"The {key} of {what}")
+    if "coils" in given:
+        fields["coils"] = whole(given["coils"], f"The coils of {what}", 1, 1000)
+    if "points" in given:
+        anchors = _anchors(model, owner, given["points"], "points", (3 if kind == "plate" else 2, 10_000), what)
+    if "ends" in given:
+        anchors = _anchors(model, owner, given["ends"], "ends", (2, 2), what)
+    if kind == "cylinder" and any(of is not owner for of, _ in anchors):
+        raise ModelError(f"The {what} is of one body; through points of several bodies goes a tube.")
+    if kind == "cylinder" and np.array_equal(anchors[0][1], anchors[1][1]):
+        raise ModelError(f"The ends of {what} are one point; a cylinder has a length.")
+    if kind in ("box", "sphere", "mesh", "wheel", "steering_wheel"):
+        default = np.zeros(3) - origin_of(owner) if kind == "mesh" else np.zeros(3)
+        fields["at"] = local_place(model, owner, given["at"], f"the middle of {what}") if "at" in given else default
+    if "size" in given:
+        fields["size"] = _size(given["size"], model.dimension, what)
+    if "axes" in given:
+        fields["axes"] = _axes(given["axes"], model.dimension, what)
+    if kind in ("wheel", "steering_wheel"):
+        fields["axis"] = _axle(model, owner, given.get("axis"), what)
+    if "rim" in fields and not fields["rim"] < fields["radius"]:
+        raise ModelError(
+            f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
+        )
+    if kind == "mesh":
+        from viewer.mesh_file import read_mesh
+
+        if not isinstance(given["file"], (str, Path)):
+            raise ModelError(f"The file of {what} must be the path of a file, not {shown(given['file'])}.")
+        scale = fields.pop("scale", 1.0)
+        fields["positions"], fields["triangles"] = read_mesh(given["file"], scale)
+        fields["file"] = Path(given["file"]).name
+    return Shape(kind, owner, fields, anchors)
+
+
+def _axle(model: Mechanism, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
+    if axis is not None:
+        return direction(axis, 3, f"the axis of {what}")
+    if not isinstance(owner, Body):
+        return np.array(owner.axis_reference)
+    return np.array([0.0, 1.0, 0.0]) if model.dimension == 3 else np.array([0.0, 0.0, 1.0])
 
 
 def origin_of(owner: Owner) -> Vector:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +11,9 @@ from numpy.typing import ArrayLike
 from mbs.common.checks import array, flag, named, shown
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.shapes import Owner, Shape, ShapeVocabulary, Turning
+from mbs.model.drawn import Owner, Shape, Turning
+from mbs.model.mechanism import Mechanism
+from mbs.model.shapes import ShapeVocabulary, local_place
 
 
 @dataclass(frozen=True)
@@ -31,12 +32,9 @@ class Sliding(Turning):
 class SlidingVocabulary(ShapeVocabulary):
     """What slides on a body, and computed meshes."""
 
-    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
-        super().__init__(name, dimension, gravity, length)
-        self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
-        self.flexible_scene: list[dict[str, Any]] = []
-
-    def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
+    def sliding(
+        self: Mechanism, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str
+    ) -> Sliding:
         """Something that only its looks slide along a line of a body, such as a rack that a guide moves.
 
         Parameters
@@ -50,13 +48,13 @@ class SlidingVocabulary(ShapeVocabulary):
         """
         if not isinstance(way, str):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
-        made = self.turning(name, body, at=at, axis=direction, angle=way)
+        made = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
         slides = Sliding(made.name, made.carrier, made.centre, made.axis_reference, way)
         self._turnings[-1] = slides
         return slides
 
     def mesh_shape(
-        self,
+        self: Mechanism,
         body: Owner,
         positions: ArrayLike,
         triangles: ArrayLike,
@@ -89,10 +87,12 @@ class SlidingVocabulary(ShapeVocabulary):
                 f"The triangles of {what} must be numbers of its {len(places)} positions, from 0; they go from "
                 f"{given.min():g} to {given.max():g}."
             )
-        ball = self.shape(body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity)
+        ball = ShapeVocabulary.shape(
+            self, body, "sphere", radius=1.0, name=name, color=color, material=material, opacity=opacity
+        )
         self._shapes.pop()
         looks = {k: v for k, v in ball.fields.items() if k not in ("radius", "at")}
-        at = self._local(ball.owner, np.zeros(self.dimension), f"the origin of {what}")
+        at = local_place(self, ball.owner, np.zeros(self.dimension), f"the origin of {what}")
         if flag(cover, f"the cover of {what}"):
             looks["cover"] = True
         mesh: dict[str, Any] = {"at": at, "positions": places, "triangles": corners, "file": name}

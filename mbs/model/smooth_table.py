@@ -25,13 +25,9 @@ DRAWN = 1e-6
 def smooth_table(axes: object, values: object, functions: tuple[int, ...], what: str) -> SmoothTable:
     """The table of values at points.
 
-    `axes`: one or two, equally spaced and rising, four points or more each; `values`: functions at the points,
-    shape (n0, *functions) or (n0, n1, *functions); `functions`: nothing for one function, else how many there must be.
-
-    Raises
-    ------
-    ModelError
-        Points or values are not so.
+    `axes`: one or two, equally spaced and rising, four points or more each; `values`: functions at the points, shape
+    (n0, *functions) or (n0, n1, *functions); `functions`: nothing for one function, else how many there must be. Raises
+    `ModelError`: points or values are not so.
     """
     if not isinstance(axes, (list, tuple)) and not (isinstance(axes, np.ndarray) and axes.ndim == 2):
         raise ModelError(f"The axes of {what} are {shown(axes)}; they must be one or two sequences of points.")

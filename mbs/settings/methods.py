@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from mbs.kernel.header.enumerations import METHOD_ORDERS, MethodNumber
+from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 from mbs.common.checks import LARGEST, flag, is_finite, shown, whole
-from mbs.kernel.header.enumerations import Predictor, Update
+from mbs.kernel.header.steps import Predictor, Update
 from mbs.settings.methods import METHOD_TABLE
 
 UPDATES = tuple(update.name.lower() for update in Update)

@@ -15,9 +15,10 @@ from mbs.common.checks import Vector
 from mbs.common.vectors import in_space
 from mbs.model.body import Body
 from mbs.model.carried import Spin
+from mbs.model.drawn import Owner, Turning
 from mbs.model.flexible import FlexibleBody
 from mbs.model.mechanism import Mechanism
-from mbs.model.shapes import Owner, Turning, origin_of
+from mbs.model.shapes import origin_of
 from mbs.model.sliding_shapes import Sliding
 from mbs.model.tabled import TabledBody
 from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace, matrices

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from mbs.common.checks import Vector
 from mbs.common.vectors import in_space
 from mbs.flexible.scene_part import flexible_parts
+from mbs.model.drawn import Shape
 from mbs.model.flexible import FlexibleBody
 from mbs.model.mechanism import Mechanism
-from mbs.model.shapes import Shape
 from mbs.model.tabled import TabledBody
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults

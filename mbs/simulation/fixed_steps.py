@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
-from mbs.kernel.header.enumerations import BranchKind
+from mbs.kernel.header.steps import BranchKind
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
 from mbs.results.simulation_error import SimulationError

@@ -37,13 +37,7 @@ class StandingSystem:
 
 
 def start(instance: StandingInstance, meta: dict[str, Any]) -> None:
-    """Make the start consistent. `meta`: names of the System.
-
-    Raises
-    ------
-    ModelError
-        It cannot be.
-    """
+    """Make the start consistent. `meta`: names of the System. Raises `ModelError`: it cannot be."""
     try:
         instance.initialise()
     except KernelError as error:

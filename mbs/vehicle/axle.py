@@ -64,10 +64,7 @@ class Axle(Section):
     def open(self, folder: Path) -> None:
         """Read the files of its tyres and its suspension; done once by the reader of the car.
 
-        Raises
-        ------
-        CarFileError
-            A file is missing or not right.
+        Raises `CarFileError`: a file is missing or not right.
         """
         self.tyre.open(folder)
         self.suspension.open(folder, self.wheel.centre)

@@ -6,13 +6,11 @@ import math
 
 from mbs.elements.brake import Brake
 from mbs.model.carried import Spin
-from mbs.model.records import Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
+from mbs.vehicle.port_inputs import brake_port
 from mbs.vehicle.quantities import Balance, BrakeSide, BrakeTorque, HandBrakeTorque, StickStiffness
 from mbs.vehicle.section import Section
-
-LARGEST_TORQUE, LARGEST_PRESSURE = 1e4, 4e7  # N m, Pa: ends of the ranges of the ports
 
 
 class AxleBrakes(Section, of=Brake):
@@ -42,14 +40,6 @@ class Brakes(Section):
         share = 1.0 - self.balance if wheel.startswith("R") else self.balance
         return share, 1.0 + (self.side if wheel.endswith("L") else -self.side)
 
-    def _port(self, b: CarBuilder, wheel: str) -> Input:
-        """The input of the brake of a wheel that another program sets."""
-        if b.ports.brakes == "torque":
-            text = "largest torque that the brake of the wheel can hold, which turns neither way by itself"
-            return b.port(f"wheel_{wheel}.brake_torque_demand", 0.0, LARGEST_TORQUE, "N.m", text)
-        text = "pressure in the brake of the wheel"
-        return b.port(f"wheel_{wheel}.brake_pressure", 0.0, LARGEST_PRESSURE, "Pa", text)
-
     def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
         """Add the brake of a wheel. `spin_inertia`: of the wheel, kg.m2."""
         behind = corner.side.axle == "rear"
@@ -63,7 +53,7 @@ class Brakes(Section):
         torque = self.torque * per_unit
         if b.ports.brakes == "torque":
             torque = share = side = 1.0
-        channel = self._port(b, corner.side.wheel) if by_size else b.inputs["brake"]
+        channel = brake_port(b, corner.side.wheel) if by_size else b.inputs["brake"]
         brake = Brake(torque, stiffness, damping, share, self.hand_torque if behind else 0.0, side)
         hand = b.inputs["hand_brake"].index if behind else None
         name = f"brake {corner.side.wheel}"

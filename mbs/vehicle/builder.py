@@ -8,10 +8,9 @@ from typing import TypeAlias
 
 from mbs.elements.reals import declared
 from mbs.model.coordinate import Coordinate
-from mbs.model.inputs import new_input
 from mbs.model.mechanism import Mechanism
 from mbs.model.parameters import Owner
-from mbs.model.records import Input, Role
+from mbs.model.records import Input
 from mbs.vehicle.chassis.mount import Mount
 from mbs.vehicle.ports import Ports
 from mbs.vehicle.quantities import Quantity
@@ -65,29 +64,6 @@ class CarBuilder:
     @chassis.setter
     def chassis(self, mount: Mount) -> None:
         self._chassis = mount
-
-    def port(
-        self,
-        name: str,
-        least: float,
-        largest: float,
-        unit: str,
-        description: str,
-        role: Role = Role.NONE,
-        near: str = "",
-        *,
-        whole: bool = False,
-        figures: tuple[float, ...] = (),
-    ) -> Input:
-        """An input that another program sets, 0 until then.
-
-        `least`, `largest`: ends of its range, at which larger values are held, in `unit`; `role`, `near`, `figures`:
-        what an FMU watches it for, by which sensor, and what it must know; `whole`: whether it is a whole number.
-        """
-        limits = 0.0, least, largest, unit, description
-        channel = new_input(self.m, name, *limits, whole, True, role, near, figures=figures)
-        self.port_inputs.append(channel)
-        return channel
 
     def tie(
         self,

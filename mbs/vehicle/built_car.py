@@ -11,12 +11,12 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from ali3.words import one_line
+from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.elements.road import Road, RoadOfFile
 from mbs.model.carried import Spin
 from mbs.model.ends import End
 from mbs.model.mechanism import Mechanism
-from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of, stress_outputs
@@ -95,9 +95,12 @@ class BuiltCar(CarContent):
         m: Mechanism,
         road: Road | RoadOfFile | None = None,
         fidelity: Fidelity = Fidelity.RIGID,
-        guide: Callable[[Mechanism], Guide] | None = None,
+        drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
-        """Add the car to an empty model (`empty`); the arguments are those of `Car.model`."""
+        """Add the car to an empty model (`empty`); the arguments are those of `Car.model`.
+
+        `drive`: adds what drives the x coordinate of the chassis' reference point, m; the selector is then in neutral.
+        """
         if not fidelity.rigid and not self.steering.on_flexible_chassis:
             raise ModelError(
                 f"{self.steering.key('kind')} is '{self.steering.kind}', which needs a rigid chassis, fidelity "
@@ -112,7 +115,7 @@ class BuiltCar(CarContent):
 
             tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with m.together():
-            self._build(b, road, flexible, fidelity, guide)
+            self._build(b, road, flexible, fidelity, drive)
         return b
 
     @property
@@ -133,7 +136,7 @@ class BuiltCar(CarContent):
         road: Road | RoadOfFile | None,
         flexible: FlexibleFrame | None,
         fidelity: Fidelity,
-        guide: Callable[[Mechanism], Guide] | None,
+        drive: Callable[[Affine], object] | None,
     ) -> None:
         """Add all parts of the car to an empty model."""
         m = b.m
@@ -147,7 +150,7 @@ class BuiltCar(CarContent):
         (steered, front), (_, rear) = self.tabled(b) if fidelity is Fidelity.TABLE else self.mechanism(b)
         spins = front | rear
         if self.ports.torque is None:
-            self.drive.build(b, spins, neutral=guide is not None)
+            self.drive.build(b, spins, neutral=drive is not None)
         else:
             torque_ports(b, spins, self.drive, self.ports.torque)
         if self.ports.forces is not None:
@@ -160,8 +163,8 @@ class BuiltCar(CarContent):
             self.road.parameters(m, road, b.road, ", ".join(frictions), works)
         self._outputs(b, steered, spins, fidelity)
         b.parameters(self.order, works, late=True)
-        if guide is not None:
-            m.drive("guided way", b.chassis.frame.point(b.chassis.origin)[0], guide(m))
+        if drive is not None:
+            drive(b.chassis.frame.point(b.chassis.origin)[0])
         m.put_off(partial(self._draw, b, spins, fidelity))
 
     def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
@@ -255,12 +258,7 @@ def checked_car(
     """The car that the content of a file describes.
 
     `kind`: class of the car; `folder`: where its tables lie; `at_rest`: whether the car must be seen to come to rest;
-    `warn`: whether to warn of what is odd.
-
-    Raises
-    ------
-    CarFileError
-        It does not describe a car.
+    `warn`: whether to warn of what is odd. Raises `CarFileError`: it does not describe a car.
     """
     data, converted = of_this_version(data, what)
     try:

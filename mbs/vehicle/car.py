@@ -59,7 +59,8 @@ class Car(BuiltCar):
         """
         fidelity = Fidelity.of(fidelity)
         m = self.empty(Model)
-        b = self.build(m, road, fidelity, guide if guide is None else lambda _: guide(m))
+        drive = None if guide is None else lambda way: m.drive("guided way", way, guide(m))
+        b = self.build(m, road, fidelity, drive)
         if Fidelity.DYNAMIC in self.offered:
             m.more_poses.append(partial(self._frame_poses, b))
         if fidelity is Fidelity.RIGID and Fidelity.QUASI_STATIC in self.offered:

@@ -19,12 +19,8 @@ PARTS = {part: str(k) for parts in (AXES, PRODUCTS) for k, part in enumerate(par
 def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: str) -> dict[str, Any]:
     """A copy with other values.
 
-    `data`: tables of the file; `values`: by key path; keys that are not there yet are added.
-
-    Raises
-    ------
-    CarFileError
-        A key path is malformed, or leads through a value.
+    `data`: tables of the file; `values`: by key path; keys that are not there yet are added. Raises `CarFileError`: a
+    key path is malformed, or leads through a value.
     """
     if not isinstance(values, Mapping):
         raise CarFileError(f"{what}: the changes are {shown(values)}; they must be a mapping from key paths to values.")

@@ -10,10 +10,7 @@ from mbs.vehicle.ports import PORTS, Ports
 def chosen_ports(text: str) -> dict[str, str]:
     """The keys of `Ports` that a list such as ``torque,brakes=pressure`` asks for; of each the first kind by default.
 
-    Raises
-    ------
-    ValueError
-        It is no such list; the message names the ports and their kinds.
+    Raises `ValueError`: it is no such list; the message names the ports and their kinds.
     """
     known = {name: _kinds(name) for name in PORTS}
     chosen: dict[str, str] = {}

@@ -15,12 +15,7 @@ from mbs.vehicle.schema import SCHEMA_FILE
 def copy_car(name: str, folder: Path) -> list[Path]:
     """Copy the folder of a car; it is there whole or not at all.
 
-    Raises
-    ------
-    CarFileError
-        There is no such car, or the folder exists.
-    FileError
-        It cannot be written.
+    Raises `CarFileError`: there is no such car, or the folder exists; `FileError`: it cannot be written.
     """
     if name not in car_names():
         known = ", ".join(car_names())

@@ -11,12 +11,8 @@ from mbs.vehicle.errors import CarFileError
 def beside(folder: Path, name: str, key: str) -> Path:
     """A file of the car's folder.
 
-    `name`: as the car file gives it; `key`: key path that gives it.
-
-    Raises
-    ------
-    CarFileError
-        It lies elsewhere, or is not there.
+    `name`: as the car file gives it; `key`: key path that gives it. Raises `CarFileError`: it lies elsewhere, or is not
+    there.
     """
     if not name or "\0" in name or "\\" in name or Path(name).is_absolute() or ".." in Path(name).parts:
         raise CarFileError(

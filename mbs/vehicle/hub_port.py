@@ -6,6 +6,7 @@ from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried import Spin
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.tyres import Tyre
 
 LARGEST = {"F": ("N", 2e5, "force"), "M": ("N.m", 5e4, "moment")}
@@ -27,7 +28,7 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
             text = f"{what} of the tyre on the hub along the earth's {c} axis, about the centre of the wheel"
             name = f"wheel_{wheel}.hub_{letter}{c}"
             watched = () if channels else (Role.HUB, f"wheel_{wheel}.earth_vx")
-            channel = b.port(name, -largest, largest, unit, text, *watched, figures=() if channels else figures)
+            channel = new_port(b, name, -largest, largest, unit, text, *watched, figures=() if channels else figures)
             channels.append(channel.index)
     b.m.add(HubWrench(channels).record(f"port hub {wheel}", spin.centre, spin.axis, spin.coordinate))
 

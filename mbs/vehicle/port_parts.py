@@ -23,6 +23,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
 from mbs.vehicle.drives import Drive
+from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.road import RoadSection
 
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -43,7 +44,7 @@ def torque_ports(
     taker = "chassis" if kind == "half_shafts" else "carrier of the wheel"
     text = f"torque on the wheel about its axis, positive forward, with its reaction on the {taker}"
     for w, spin in spins.items():
-        channel = b.port(f"wheel_{w}.drive_torque", -LARGEST_TORQUE, LARGEST_TORQUE, "N.m", text)
+        channel = new_port(b, f"wheel_{w}.drive_torque", -LARGEST_TORQUE, LARGEST_TORQUE, "N.m", text)
         axes = b.chassis.drive_axes if kind == "half_shafts" else (spin.f, spin.g)
         b.m.add(SpinTorque(channel.index).record(f"port drive {w}", *axes, spin.coordinate))
     if kind == "half_shafts":
@@ -63,7 +64,7 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
         for letter, unit, largest, what in (("F", "N", LARGEST_FORCE, "force"), ("M", "N.m", LARGEST_MOMENT, "torque")):
             for c in "xyz":
                 text = f"{what} on the chassis along the {c} axis of the {axes}, acting at the point '{name}'"
-                sets.append(b.port(f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
+                sets.append(new_port(b, f"point_{name}.{letter}{c}", -largest, largest, unit, text).index)
         m.add(BodyForce(sets[:3]).record(f"port force {name}", point, frame))
         turned = BodyTorque(sets[3:], "earth" if axes == "earth" else "body")
         m.add(turned.record(f"port torque {name}", b.chassis.contact_frame[1]))
@@ -81,9 +82,9 @@ def wind_port(b: CarBuilder) -> Wind | None:
         return None
     turn = 2.0 * np.pi
     text = "speed of the air over the ground"
-    speed = b.port("wind.speed", 0.0, FASTEST_WIND, "m/s", text)
+    speed = new_port(b, "wind.speed", 0.0, FASTEST_WIND, "m/s", text)
     text = "heading that the air moves to, from the earth's x axis, positive to the left"
-    return Wind(speed.index, b.port("wind.heading", -turn, turn, "rad", text).index)
+    return Wind(speed.index, new_port(b, "wind.heading", -turn, turn, "rad", text).index)
 
 
 def road_ports(m: Mechanism, road: RoadSection) -> tuple[int, dict[str, int]]:

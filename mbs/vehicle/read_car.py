@@ -38,13 +38,7 @@ def read_car(kind: type[C], car: str | Path) -> C:
 
 
 def file_of(car: str | Path) -> Path:
-    """The file of a car that is given by its folder or file.
-
-    Raises
-    ------
-    CarFileError
-        There is none.
-    """
+    """The file of a car that is given by its folder or file. Raises `CarFileError`: there is none."""
     path = Path(car)
     try:
         if path.is_dir():

@@ -17,6 +17,7 @@ from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
+from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.mechanism import Mechanism
 from mbs.model.table_vocabulary import TableVocabulary
 from mbs.vehicle.builder import CarBuilder
@@ -129,7 +130,7 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
         raise ModelError(
             f"{data.suspension.key('kind')} '{data.suspension.kind}' steers and joins its sides; it has no table."
         )
-    compressions = {s.wheel: b.m.travel(f"spring compression {s.wheel}") for s in sides(axle)}
+    compressions = {s.wheel: DriveVocabulary.travel(b.m, f"spring compression {s.wheel}") for s in sides(axle)}
     parts: Any = TabledParts(b.m, b.chassis.frame, grid, compressions, rack)
 
     def rod(side: Side, point: Point) -> Any:

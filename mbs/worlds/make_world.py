@@ -8,7 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ali3.reading import read_json, read_toml
+from ali3.json_reading import read_json
+from ali3.reading import read_toml
 from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import UserError
-from ali3.reading import read_json
+from ali3.json_reading import read_json
 
 WORLDS = Path(__file__).parent
 ROADS = Path(__file__).parents[1] / "roads" / "files"

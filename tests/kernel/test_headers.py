@@ -12,17 +12,8 @@ import pytest
 from mbs.kernel import build, read_headers
 from mbs.kernel.binding import library, load_library
 from mbs.kernel.header import limits
-from mbs.kernel.header.enumerations import (
-    METHOD_ORDERS,
-    Doubt,
-    GuideType,
-    MethodNumber,
-    ParameterTarget,
-    RoadType,
-    SensorType,
-    SolverValue,
-    Status,
-)
+from mbs.kernel.header.enumerations import Doubt, GuideType, ParameterTarget, RoadType, SensorType, SolverValue, Status
+from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber
 from mbs.kernel.header.structures import STRUCTURES
 from mbs.results import accuracy
 from mbs.settings.methods import METHOD_TABLE

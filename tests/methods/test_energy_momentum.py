@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import csr_array
 
 from mbs import Settings, Simulation, SimulationError, compile, simulate
-from mbs.kernel.header.enumerations import MethodNumber
+from mbs.kernel.header.steps import MethodNumber
 from mbs.scenes import bricard, double_four_bar, spatial_chain
 from tests.methods.models import MOVED_S, TRIANGLE_MASSES, driven, hinge, swing, triangle
 

@@ -331,7 +331,7 @@ CALLS: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
     "joint_named": lambda b: {"name": "hinge"},
 }
 REGISTER = {"remember", "unique", "new_coordinate", "drawn", "owned_coordinate", "expression", "expressions", "owned"}
-REGISTER |= {"anchor", "anchor_axis", "together", "put_off", "look", "drawn_late"}
+REGISTER |= {"anchor", "anchor_axis", "together", "put_off", "look", "draw_before_change"}
 """What the vocabulary itself calls."""
 
 

@@ -40,12 +40,7 @@ class FlexiblePart:
 def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], deformation: float) -> FlexiblePart:
     """Tubes of a flexible part of a scene.
 
-    Parameters
-    ----------
-    columns : mapping of str to array of shape (n,)
-        With its amplitudes.
-    deformation : float
-        Factor of the drawn deformation.
+    `columns`: arrays of shape (n,) by name, with its amplitudes; `deformation`: factor of the drawn deformation.
     """
     nodes = np.array(part["nodes"], dtype=float)
     beams = np.array(part["beams"], dtype=np.int64).reshape(-1, 2)

@@ -34,28 +34,6 @@ class Status(IntEnum):
     BAD_INERTIA = 25
 
 
-class Update(IntEnum):
-    """`ali3_settings.update`."""
-
-    LINEARISED = 0
-    PAPER = 1
-
-
-class Predictor(IntEnum):
-    """`ali3_settings.predictor`."""
-
-    PARABOLA = 0
-    ACCELERATION = 1
-
-
-class BranchKind(IntEnum):
-    """`ali3_report.branch_kind`."""
-
-    NONE = 0
-    LEFT = 1
-    JUMP = 2
-
-
 class SolverValue(IntEnum):
     """What the solver says about itself."""
 
@@ -102,48 +80,12 @@ class RoadType(IntEnum):
     PORT = 3
 
 
-class SensorReads(IntEnum):
-    """What the value of a sensor comes from."""
-
-    MOTION = 0
-    INPUTS = 1
-    FORCES = 2
-    SOLVER = 3
-    ROWS = 4
-
-
 class Doubt(IntEnum):
     """`ali3_doubt`: why the results of a run may be wrong."""
 
     NONE = 0
     HALVINGS = 1
     BALANCE = 2
-
-
-class MethodNumber(IntEnum):
-    """`ali3_settings.method`."""
-
-    ALI3P = 0
-    GENERALISED_ALPHA = 1
-    ENERGY_MOMENTUM = 2
-    ENERGY_MOMENTUM_4 = 3
-    RUNGE_KUTTA_8 = 4
-    SEMI_RECURSIVE = 5
-    SEMI_RECURSIVE_4 = 6
-    RADAU_5 = 7
-
-
-METHOD_ORDERS = {
-    MethodNumber.ALI3P: 2,
-    MethodNumber.GENERALISED_ALPHA: 1,
-    MethodNumber.ENERGY_MOMENTUM: 2,
-    MethodNumber.ENERGY_MOMENTUM_4: 3,
-    MethodNumber.RUNGE_KUTTA_8: 8,
-    MethodNumber.SEMI_RECURSIVE: 8,
-    MethodNumber.SEMI_RECURSIVE_4: 4,
-    MethodNumber.RADAU_5: 5,
-}
-"""Orders of steps that change."""
 
 
 class SensorType(IntEnum):
@@ -175,36 +117,6 @@ class SensorType(IntEnum):
     GUIDED_WORK = 23
     SCALED_INPUT = 24
     CARRIED = 25
-
-
-SENSOR_READS = {
-    SensorType.SIGNAL: SensorReads.MOTION,
-    SensorType.SIGNAL_RATE: SensorReads.MOTION,
-    SensorType.SIGNAL_SECOND_RATE: SensorReads.FORCES,
-    SensorType.COMPONENT: SensorReads.MOTION,
-    SensorType.ANGLE: SensorReads.MOTION,
-    SensorType.PITCH: SensorReads.MOTION,
-    SensorType.ANGULAR_RATE: SensorReads.MOTION,
-    SensorType.QUATERNION: SensorReads.MOTION,
-    SensorType.ELEMENT_OUTPUT: SensorReads.FORCES,
-    SensorType.REACTION: SensorReads.ROWS,
-    SensorType.ENERGY: SensorReads.FORCES,
-    SensorType.INPUT: SensorReads.INPUTS,
-    SensorType.GUIDE: SensorReads.INPUTS,
-    SensorType.SOLVER: SensorReads.SOLVER,
-    SensorType.NORM: SensorReads.MOTION,
-    SensorType.DIRECTION: SensorReads.MOTION,
-    SensorType.ANGLE_ABOUT: SensorReads.MOTION,
-    SensorType.QUASI_STATIC: SensorReads.ROWS,
-    SensorType.REACTION_PRODUCTS: SensorReads.ROWS,
-    SensorType.WORK: SensorReads.FORCES,
-    SensorType.MASS: SensorReads.MOTION,
-    SensorType.GUIDE_EXCESS: SensorReads.INPUTS,
-    SensorType.REACTION_BY_TABLE: SensorReads.ROWS,
-    SensorType.GUIDED_WORK: SensorReads.FORCES,
-    SensorType.SCALED_INPUT: SensorReads.INPUTS,
-    SensorType.CARRIED: SensorReads.MOTION,
-}
 
 
 class ElementType(IntEnum):

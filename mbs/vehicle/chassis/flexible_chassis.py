@@ -29,10 +29,7 @@ COMPUTED = "stress.computed"
 def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Iterable[object]]) -> FlexibleFrame:
     """The frame of a car on the joints where its parts hang. `b`: an empty model; `parts`: as of `attachments`.
 
-    Raises
-    ------
-    ModelError
-        The car has no flexible frame, or its files do not describe one that fits the car.
+    Raises `ModelError`: the car has no flexible frame, or its files do not describe one that fits the car.
     """
     frame, chassis = car.frame_section, car.chassis
     structure = frame.structure(car.folder)

@@ -91,10 +91,7 @@ class FlexibleFrame:
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
 
-        Raises
-        ------
-        ModelError
-            There is no table of them, or it is not one of these interfaces.
+        Raises `ModelError`: there is no table of them, or it is not one of these interfaces.
         """
         if self.section.loads is None:
             raise ModelError(
@@ -180,12 +177,8 @@ class FlexibleFrame:
     def drawn_amplitudes(self, body: ModalBody) -> np.ndarray:
         """Amplitudes of `drawn` per unit amplitude of another reduction of the frame, nearest in the energy norm.
 
-        `body`: of this frame, with the same reference.
-
-        Returns
-        -------
-        ndarray, shape (n_modes of `drawn`, n_modes)
-            The identity for `drawn` itself.
+        `body`: of this frame, with the same reference. Result, shape (n_modes of `drawn`, n_modes): the identity for
+        `drawn` itself.
         """
         if body is self.drawn:
             return np.eye(body.n_modes)

@@ -16,10 +16,7 @@ _REMEDY = "Change the masses of the frame too; what a parameter of a run changes
 def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
     """Refuse a frame that is another body than the rigid chassis. `model`: of the frame with all it carries.
 
-    Raises
-    ------
-    ModelError
-        Mass, centre of mass or inertia differ.
+    Raises `ModelError`: mass, centre of mass or inertia differ.
     """
     masses, total = model.mass.masses, float(model.mass.masses.sum())
     if abs(total - chassis.mass) > MASS * chassis.mass:

@@ -24,12 +24,7 @@ def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Po
     """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`.
 
     `model`: the car with fidelity `Fidelity.DYNAMIC`; `reference_point`: origin of the frame "chassis" of the scene,
-    which has the axes of the car, m.
-
-    Raises
-    ------
-    ModelError
-        The frame does not fit the car.
+    which has the axes of the car, m. Raises `ModelError`: the frame does not fit the car.
     """
     body, start, full_scale = flexible.drawn, _standing(flexible, model), None
     if body.frame is not None:

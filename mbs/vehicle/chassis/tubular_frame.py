@@ -68,12 +68,8 @@ class TubularFrame:
         from the first joint of each tube to the second.
 
         `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: multiplies the number of elements of every tube;
-        `carried_masses`: without them the frame is bare tubes.
-
-        Raises
-        ------
-        ModelError
-            A table is missing or does not describe a frame.
+        `carried_masses`: without them the frame is bare tubes. Raises `ModelError`: a table is missing or does not
+        describe a frame.
         """
         material, sections = self.material, self.tube_sections
         joints = self.joint_places()
@@ -95,12 +91,8 @@ class TubularFrame:
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
         """The gauges on the elements of a frame of any refinement.
 
-        `tubes`: from `frame`.
-
-        Raises
-        ------
-        ModelError
-            A gauge is on no tube, or its fibre is named by a direction in which the tube runs.
+        `tubes`: from `frame`. Raises `ModelError`: a gauge is on no tube, or its fibre is named by a direction in which
+        the tube runs.
         """
         joints, gauges = self.joint_places(), []
         for name, gauge in self.section.gauges.items():

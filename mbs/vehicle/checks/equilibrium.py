@@ -80,10 +80,7 @@ class Rest:
 def settled(model: Mechanism, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium.
 
-    Raises
-    ------
-    ModelError
-        Its parts refuse a number, or it has no equilibrium.
+    Raises `ModelError`: its parts refuse a number, or it has no equilibrium.
     """
     at_rest = StandingSystem(compiled(model)).sensors
 

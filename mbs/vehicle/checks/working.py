@@ -100,12 +100,8 @@ def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
 def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:
     """Ranges of a spring that carries a weight, N, and of its damper.
 
-    A law is taken as lines from row to row, which go on beyond its ends.
-
-    Returns
-    -------
-    float
-        How much more load, N, the spring carries until it has sunk by `SUNK`.
+    A law is taken as lines from row to row, which go on beyond its ends. Result: how much more load, N, the spring
+    carries until it has sunk by `SUNK`.
     """
     spring, damper = axle.spring, axle.damper
     x, force = _rows(spring)

@@ -10,6 +10,7 @@ from pydantic import Field
 from mbs.elements.automatic_drive import AutomaticDrive
 from mbs.model.carried import Spin
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.port_inputs import clutch_port, gear_port
 from mbs.vehicle.quantities import (
     AngularSpeed,
     CreepTorque,
@@ -81,12 +82,10 @@ class Automatic(Section, of=AutomaticDrive):
         inputs = b.inputs["throttle"].index, 1, b.inputs["selector"].index
         request = None
         if b.ports.gear is not None:
-            text = "forward gear that is asked for; 0: as the drive shifts by itself"
-            request = b.port("gear_request", 0.0, float(len(self.ratios)), "1", text, whole=True).index
+            request = gear_port(b, len(self.ratios))
         clutch = None
         if b.ports.clutch is not None:
-            text = "clutch pedal: 0 released, 1 pressed, where nothing of the drive's torque is left"
-            clutch = b.port("clutch", 0.0, 1.0, "1", text).index
+            clutch = clutch_port(b)
         element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request, clutch))
         b.tie_numbers(self, drive, element)
         for k, ratio in enumerate(self.ratios):

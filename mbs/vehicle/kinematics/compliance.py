@@ -47,15 +47,8 @@ class Compliance:
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
     """Compliance of both axles at the drawing, in SI units.
 
-    Parameters
-    ----------
-    fidelity : Fidelity, int or str, optional
-        Of the chassis; by default its flexible frame with all static modes, where the car has one.
-
-    Raises
-    ------
-    ModelError
-        The car has no frame for the fidelity.
+    `fidelity`: of the chassis; by default its flexible frame with all static modes, where the car has one. Raises
+    `ModelError`: the car has no frame for the fidelity.
     """
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)
@@ -73,15 +66,8 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
 def fidelity_of(car: Car, fidelity: Fidelity | int | str | None) -> Fidelity:
     """The fidelity at which compliance is taken.
 
-    Parameters
-    ----------
-    fidelity : Fidelity, int or str, optional
-        A member, its number, also as text, or its name; None: the best that the car offers.
-
-    Raises
-    ------
-    ModelError
-        There is none, or the car has no frame for it.
+    `fidelity`: a member, its number, also as text, or its name; None: the best that the car offers. Raises
+    `ModelError`: there is none, or the car has no frame for it.
     """
     offered = tuple(car.fidelities())
     if fidelity is None:

@@ -63,12 +63,8 @@ def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Ch
 def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> Choice:
     """The fidelity and step with the least time per simulated second that meet tolerances in all manoeuvres measured.
 
-    `rows`: as for `levels`; `tolerances`: on the errors of outputs.
-
-    Raises
-    ------
-    ValueError
-        A tolerance is not positive, or nothing that was measured meets all; the message says how near the nearest is.
+    `rows`: as for `levels`; `tolerances`: on the errors of outputs. Raises `ValueError`: a tolerance is not positive,
+    or nothing that was measured meets all; the message says how near the nearest is.
     """
     for output, tolerance in tolerances.items():
         if not tolerance > 0.0:

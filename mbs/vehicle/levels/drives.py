@@ -78,11 +78,7 @@ def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
     """A drive from a table of inputs over time.
 
     `file`: CSV with the column ``time``, s, and one of each input; linear in between; `speed`: at the start, m/s.
-
-    Raises
-    ------
-    FileError
-        It is no such table; the message names file and fault.
+    Raises `FileError`: it is no such table; the message names file and fault.
     """
     table = TextTable(file)
     if "time" not in table.names or len(table.names) < 2:

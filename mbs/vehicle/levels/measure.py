@@ -31,10 +31,7 @@ FREQUENCY = 10.0  # Hz, of the low-pass of moments
 def systems_of(car: Car) -> dict[Fidelity, System]:
     """The car with each fidelity that it has, the cheapest first and the most detailed last.
 
-    Raises
-    ------
-    ModelError
-        The car does not stand on tyres of its own.
+    Raises `ModelError`: the car does not stand on tyres of its own.
     """
     if car.ports.tyre is not None:
         raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it drives nowhere.")

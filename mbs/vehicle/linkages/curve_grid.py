@@ -18,12 +18,8 @@ from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
     """Columns of the table of the left wheel, as far as its stops and the rack go, (n,) each, by name, SI units.
 
-    `rack_travel`: to each side, m; 0 where the axle is not steered.
-
-    Raises
-    ------
-    NotReachedError
-        The links end before the stops.
+    `rack_travel`: to each side, m; 0 where the axle is not steered. Raises `NotReachedError`: the links end before the
+    stops.
     """
     coupled = is_coupled(linkage)
     travel = _travels(linkage, coupled)

@@ -139,12 +139,8 @@ class Linkage(StandingModel):
         """The position near a start.
 
         `start`: coordinates near to it, shape (nq,); `travel`: of the left and the right wheel, m, shape (2,); `rack`:
-        travel of the rack, m.
-
-        Raises
-        ------
-        NotReachedError
-            The iteration does not end: links are too short or too long for it.
+        travel of the rack, m. Raises `NotReachedError`: the iteration does not end: links are too short or too long for
+        it.
         """
         q, still, wanted = start.copy(), np.zeros(len(start)), self._drawn_heights + travel
         offset = np.array([centre[1][2] for centre in self._centres])

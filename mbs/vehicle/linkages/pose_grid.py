@@ -53,12 +53,8 @@ class PoseGrid:
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
     """Positions of an axle over all it can be asked for.
 
-    `rack_travel`: to each side, m; 0 where the axle is not steered.
-
-    Raises
-    ------
-    NotReachedError
-        The links end before the stops.
+    `rack_travel`: to each side, m; 0 where the axle is not steered. Raises `NotReachedError`: the links end before the
+    stops.
     """
     low, high = compression_range(linkage)
     compression = even_points(-low, high, SPACING[0])
@@ -110,12 +106,8 @@ def _march(
 def at_springs(linkage: Linkage, start: Array, compression: tuple[float, float], rack: float) -> Array:
     """Coordinates (nq,) near a start at compressions of both springs and a travel of the rack.
 
-    `compression`: of the left and the right spring from the drawing, m; `rack`: m.
-
-    Raises
-    ------
-    NotReachedError
-        The links do not allow it.
+    `compression`: of the left and the right spring from the drawing, m; `rack`: m. Raises `NotReachedError`: the links
+    do not allow it.
     """
     q, still = start.copy(), np.zeros(len(start))
     lines = [linkage.linear(spring) for spring in linkage.springs]

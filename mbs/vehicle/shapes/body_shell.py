@@ -15,6 +15,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, SILL, Looks, Paint
@@ -251,15 +252,15 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     """Draw the body. `clear`: whether pages can make it see-through, onto the frame in it."""
     car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
-    m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
-    m.mesh_shape(chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
-    m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
+    SlidingVocabulary.mesh_shape(m, chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
+    SlidingVocabulary.mesh_shape(m, chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
+    SlidingVocabulary.mesh_shape(m, chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
     half = 0.5 * car.vehicle.width
     x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
     floor = SILL * car.front.tyre.radius + 0.03
-    m.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
+    looks.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
     dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
-    m.shape(chassis, "box", at=dash, size=size, **GREY)
+    looks.shape(chassis, "box", at=dash, size=size, **GREY)
     pillar, place, height = shell.outline.details.tolist()
     panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])
     lower, upper = shell.edge(
@@ -279,4 +280,4 @@ def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Deta
     chassis, half = looks.chassis, 0.5 * looks.car.vehicle.width
     for share, across, height, size, paint in details:
         place = float(shell.place(share)), side * across * half, height * shell.height
-        looks.m.shape(chassis, "box", at=place, size=size, **paint)
+        looks.shape(chassis, "box", at=place, size=size, **paint)

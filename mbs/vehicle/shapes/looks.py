@@ -11,8 +11,9 @@ import numpy as np
 
 from mbs.model.body import Body
 from mbs.model.carried import Spin
+from mbs.model.drawn import Owner
 from mbs.model.mechanism import Mechanism
-from mbs.model.shapes import Owner
+from mbs.model.shapes import Kind, ShapeVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.side import Point
@@ -69,11 +70,13 @@ class Looks:
         """What the inner end of a tie rod or toe link of an axle is on."""
         return self.rack if axle in self.steered else self.chassis
 
+    def shape(self, of: Owner, kind: Kind, **fields: Any) -> None:
+        """A shape; `fields` are those of `Model.shape`."""
+        ShapeVocabulary.shape(self.m, of, kind, **fields)
+
     def tube(self, *points: Anchor, radius: float, name: str | None = None, **looks: Any) -> None:
         """A round tube through points, `radius` that of a small car."""
-        self.m.shape(
-            points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE)
-        )
+        self.shape(points[0][0], "tube", points=list(points), radius=self.scale * radius, name=name, **(looks or BARE))
 
     def rod(self, name: str, axle: str, outer: Anchor, inner: Sequence[float]) -> None:
         """A tie rod or toe link of an axle, from its outer end on the carrier; its `name` is that of its joint."""
@@ -81,11 +84,11 @@ class Looks:
 
     def ball(self, of: Anchor, radius: float, **looks: Any) -> None:
         """A joint."""
-        self.m.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST))
+        self.shape(of[0], "sphere", at=of[1], radius=self.scale * radius, **(looks or CAST))
 
     def cylinder(self, of: Owner, ends: tuple[Sequence[float], Sequence[float]], radius: float, **looks: Any) -> None:
         """A round part in one frame, its radius in m."""
-        self.m.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST))
+        self.shape(of, "cylinder", ends=ends, radius=radius, **(looks or CAST))
 
 
 def between(a: Sequence[float], b: Sequence[float], share: float) -> Point:

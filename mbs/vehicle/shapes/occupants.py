@@ -38,7 +38,7 @@ def occupant_shapes(looks: Looks) -> None:
             continue
         if "luggage" in name or payload.mass < PERSON:
             size = 0.25 + 0.004 * payload.mass
-            looks.m.shape(looks.chassis, "box", at=payload.point, size=(0.8 * size, 1.6 * size, size), **CASE)
+            looks.shape(looks.chassis, "box", at=payload.point, size=(0.8 * size, 1.6 * size, size), **CASE)
         else:
             _person(looks, payload.point, driver=False)
 
@@ -49,15 +49,15 @@ def _person(looks: Looks, at: Point, driver: bool) -> None:
 
     def limb(radius: float, paint: Paint, *offsets: tuple[float, float, float]) -> None:
         points = [(chassis, (x + a, y + b, max(z + c, floor + radius))) for a, b, c in offsets]
-        looks.m.shape(chassis, "tube", points=points, radius=radius, **paint)
+        looks.shape(chassis, "tube", points=points, radius=radius, **paint)
 
     limb(0.135, SHIRT, (-0.04, 0.0, -0.08), (-0.14, 0.0, 0.30))
-    looks.m.shape(chassis, "sphere", at=(x - 0.17, y, z + 0.53), radius=0.115, **(HELMET if driver else SKIN))
+    looks.shape(chassis, "sphere", at=(x - 0.17, y, z + 0.53), radius=0.115, **(HELMET if driver else SKIN))
     for side in (1.0, -1.0):
         limb(0.072, TROUSERS, (-0.02, 0.09 * side, -0.14), (0.38, 0.12 * side, -0.02), (0.66, 0.11 * side, -0.32))
         hands = (0.36, 0.16 * side, 0.24) if driver else (0.24, 0.16 * side, 0.0)
         limb(0.045, SHIRT, (-0.13, 0.19 * side, 0.26), (0.08, 0.23 * side, 0.04), hands)
-        looks.m.shape(chassis, "sphere", at=(x + hands[0], y + hands[1], z + hands[2]), radius=0.05, **SKIN)
-    looks.m.shape(chassis, "box", at=(x + 0.10, y, max(z - 0.26, floor + 0.06)), size=(0.50, 0.44, 0.12), **CLOTH)
+        looks.shape(chassis, "sphere", at=(x + hands[0], y + hands[1], z + hands[2]), radius=0.05, **SKIN)
+    looks.shape(chassis, "box", at=(x + 0.10, y, max(z - 0.26, floor + 0.06)), size=(0.50, 0.44, 0.12), **CLOTH)
     tilt = ((COS, 0.0, -SIN), (0.0, 1.0, 0.0), (SIN, 0.0, COS))
-    looks.m.shape(chassis, "box", at=(x - 0.28, y, z + 0.10), size=(0.10, 0.46, 0.72), axes=tilt, **CLOTH)
+    looks.shape(chassis, "box", at=(x - 0.28, y, z + 0.10), size=(0.10, 0.46, 0.72), axes=tilt, **CLOTH)

@@ -20,11 +20,11 @@ def powertrain_shapes(looks: Looks) -> None:
     if car.drive.kind == "electric":
         radius, length = (looks.scale * size for size in MOTOR)
         looks.cylinder(chassis, ((x, -0.5 * length, z), (x, 0.5 * length, z)), radius)
-        looks.m.shape(chassis, "box", at=(x, 0.0, z + 1.4 * radius), size=(1.8 * radius, length, 0.7 * radius), **DARK)
+        looks.shape(chassis, "box", at=(x, 0.0, z + 1.4 * radius), size=(1.8 * radius, length, 0.7 * radius), **DARK)
     else:
         size = tuple(looks.scale * edge for edge in ENGINE)
         at = x + inward * (0.5 * size[0] + 0.10), 0.0, z + 0.25 * size[2]
-        looks.m.shape(chassis, "box", at=at, size=size, **CAST)
+        looks.shape(chassis, "box", at=at, size=size, **CAST)
         looks.ball((chassis, (x, 0.0, z)), 0.11, **CAST)
     for side in sides(name):
         inner = x, side.sign * INNER, z

@@ -22,7 +22,7 @@ def coil(looks: Looks, name: str, lower: Anchor, upper: Anchor, seat: float = 0.
     """A coil spring alone, whose coil begins at `seat`, m from its lower end."""
     scale = looks.scale
     coils = max(3, round((math.dist(lower[1], upper[1]) - seat) / (scale * PITCH)))
-    looks.m.shape(
+    looks.shape(
         lower[0],
         "spring",
         ends=(lower, upper),
@@ -37,4 +37,4 @@ def coil(looks: Looks, name: str, lower: Anchor, upper: Anchor, seat: float = 0.
 
 def damper(looks: Looks, lower: Anchor, upper: Anchor) -> None:
     """A telescopic damper."""
-    looks.m.shape(lower[0], "damper", ends=(lower, upper), radius=looks.scale * DAMPER_RADIUS, **POLISHED)
+    looks.shape(lower[0], "damper", ends=(lower, upper), radius=looks.scale * DAMPER_RADIUS, **POLISHED)

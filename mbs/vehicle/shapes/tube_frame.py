@@ -24,11 +24,11 @@ def tube_frame_shapes(looks: Looks, frame: TubularFrame, *, bends: bool) -> None
         for tube in frame.frame(carried_masses=False)[1]:
             points = [(looks.chassis, joints[name]) for name in (tube.start, tube.end)]
             radius = 0.5 * frame.section.sections[tube.section].diameter
-            looks.m.shape(looks.chassis, "tube", points=points, radius=radius, name=FRAME, **paint)
+            looks.shape(looks.chassis, "tube", points=points, radius=radius, name=FRAME, **paint)
     places = np.array(list(joints.values()))
     low = places[places[:, 2] < places[:, 2].min() + LOW]
     try:
         corners = low[ConvexHull(low[:, :2]).vertices]
     except (QhullError, ValueError):  # no area
         return
-    looks.m.shape(looks.chassis, "plate", points=[(looks.chassis, p) for p in corners], thickness=0.004, **BARE)
+    looks.shape(looks.chassis, "plate", points=[(looks.chassis, p) for p in corners], thickness=0.004, **BARE)

@@ -24,7 +24,7 @@ def tyre_width(tyre: Tyre) -> float:
 def wheel_shapes(looks: Looks, name: str, axle: Axle) -> None:
     """Draw the wheels of an axle."""
     for side in sides(name):
-        looks.m.shape(
+        looks.shape(
             looks.spins[side.wheel],
             "wheel",
             radius=axle.tyre.radius,

@@ -12,6 +12,7 @@ from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
+from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.ends import End
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
@@ -21,6 +22,7 @@ from mbs.model.records import Guide, Input
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.port_inputs import new_port
 from mbs.vehicle.quantities import (
     AssistanceFactor,
     AssistanceTorque,
@@ -101,12 +103,15 @@ class Column(RackSection, of=TorsionBar):
             unit="N.m",
             description="torque of the driver's hands where steering.by_torque is 1, positive to the left",
         )
-        wheel, pinion = m.shaft("steering wheel", inertia=self.wheel_inertia), m.shaft("pinion")
+        wheel, pinion = (
+            DriveVocabulary.shaft(m, "steering wheel", inertia=self.wheel_inertia),
+            DriveVocabulary.shaft(m, "pinion"),
+        )
         held = self._hands(b, wheel, demand, torque)
         self._bar(b, wheel, pinion)
         if b.ports.steering is not None:
             text = "force of an actuator on the rack, positive to the left"
-            force = b.port("steering_rack_actuator_force", -LARGEST_FORCE, LARGEST_FORCE, "N", text)
+            force = new_port(b, "steering_rack_actuator_force", -LARGEST_FORCE, LARGEST_FORCE, "N", text)
             m.add(InputForce(force.index, (per_radian,)).record("port rack", (pinion.affine,)))
         racks: list[Body] = []
 
@@ -132,10 +137,10 @@ class Column(RackSection, of=TorsionBar):
             frequency=self.frequency,
             unit="rad",
         )
-        hands = m.shaft("hands")
+        hands = DriveVocabulary.shaft(m, "hands")
         TransmissionVocabulary.gear(m, "grip", wheel, hands, ratio=1.0)
         ForceVocabulary.torque_on(m, "steering torque", hands, input=torque)
-        m.drive("steering angle", hands, guide, switch=True)
+        DriveVocabulary.drive(m, "steering angle", hands, guide, switch=True)
         b.tie(self, "by_torque", "steering angle", "on", -1.0, offset=1.0)
         # an equilibrium of a free steering wheel would be any angle at which friction holds
         m.equilibrium_parameters[self.key("by_torque")] = 0.0

@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.elements.coordinate_friction import CoordinateFriction
+from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.ends import End
 from mbs.model.joints.joint import Joint
 from mbs.model.mechanism import Mechanism
+from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
@@ -182,8 +184,13 @@ class PitmanArm(SteeringSection):
             place = f"steering link {side.wheel}"
             moved, rate = self.four_bar.carried(self.in_plane(point), turn * angles)
             ways = [
-                b.m.guide_table(
-                    f"{place} {name}", guide, np.column_stack([angles, part(moved)]), slopes=turn * part(rate), unit="m"
+                MoreGuidesVocabulary.guide_table(
+                    b.m,
+                    f"{place} {name}",
+                    guide,
+                    np.column_stack([angles, part(moved)]),
+                    slopes=turn * part(rate),
+                    unit="m",
                 )
                 for name, part in (("x", np.real), ("y", np.imag))
             ]
@@ -208,8 +215,8 @@ class PitmanArm(SteeringSection):
             unit="rad",
         )
         if self.friction > 0.0:
-            wheel = m.shaft("steering wheel")
-            m.drive("steering column", wheel.affine * (1.0 / self.ratio), arm)
+            wheel = DriveVocabulary.shaft(m, "steering wheel")
+            DriveVocabulary.drive(m, "steering column", wheel.affine * (1.0 / self.ratio), arm)
             m.add(CoordinateFriction(self.friction, *COLUMN_STICK).record("steering friction", wheel.affine))
 
         def outputs() -> None:
@@ -236,7 +243,7 @@ class PitmanArm(SteeringSection):
         turn, angles = self.turn(way), self._angles
         _, turned, rate = self.four_bar.turned(turn * angles)
         turned = np.column_stack([angles, turned])
-        link = m.guide_table("steering link", arm, turned, slopes=turn * rate, unit="rad")
+        link = MoreGuidesVocabulary.guide_table(m, "steering link", arm, turned, slopes=turn * rate, unit="rad")
         slide = _rods(m)[0].slide
         assert slide is not None, "such are the rods"
         (_, ahead), (_, aside) = slide[1].ways

@@ -5,22 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, ClassVar, Literal
 
 from pydantic import ConfigDict, model_validator
 
-from mbs.elements.coordinate_friction import CoordinateFriction
-from mbs.model.coordinate import Coordinate
 from mbs.model.records import Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import PrescribedFriction
+from mbs.vehicle.steering import driven_rack
 from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.rack_section import RackSection, rack_ends
 from mbs.vehicle.steering.rack_table import SAME, RackTable, Rows, table_faults
 from mbs.vehicle.steering.ratio import tie_ratio
-from mbs.vehicle.steering.steered import RACK, Steered, tie_rods
-from mbs.vehicle.steering.steering_section import COLUMN_STICK
+from mbs.vehicle.steering.steered import Steered, tie_rods
 
 
 def _not_required(schema: dict[str, Any]) -> None:
@@ -101,8 +99,7 @@ class RackByAngle(RackSection):
         demand: Input | None = None
         if b.ports.steering is not None:
             most = self.rack_travel
-            port = b.port("steering_rack_demand", -most, most, "m", f"{self.travel_text(way)}, that is asked for")
-            rack = held = m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
+            rack = held = driven_rack.by_port(b, most, f"{self.travel_text(way)}, that is asked for")
         else:
             demand = angle_demand(m, self.wheel_angle_max)
             full, name, unit = way * self.rack_travel, "rack", "m"
@@ -118,17 +115,9 @@ class RackByAngle(RackSection):
                 unit=unit,
             )
             if by_table is not None:
-                rack = m.guide_table("rack", held, by_table.rows * (1.0, way), unit="m")
+                rack = driven_rack.by_table(m, held, by_table.rows * (1.0, way))
         if self.friction > 0.0:
-            wheel = m.shaft("steering wheel")
-            m.drive("steering column", wheel.affine * per_radian, held)
-            friction = CoordinateFriction(self.friction, *COLUMN_STICK)
-            m.add(friction.record("steering friction", wheel.affine))
-
-        def travel() -> Coordinate:
-            way_of_rack = m.travel(RACK)
-            m.drive(RACK, way_of_rack.affine, rack)
-            return way_of_rack
+            driven_rack.column_friction(m, held, per_radian, self.friction)
 
         def outputs() -> None:
             m.sense_guide("steering_rack", rack, description=self.travel_text(way))
@@ -155,4 +144,4 @@ class RackByAngle(RackSection):
             if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
                 tie_ratio(b, self, "rack_per_turn", held, turn, inverse=False)
 
-        return Steered(rack_ends(b, rack), outputs, torque_outputs, travel)
+        return Steered(rack_ends(b, rack), outputs, torque_outputs, partial(driven_rack.travel, m, rack))

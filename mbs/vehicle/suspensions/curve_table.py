@@ -91,10 +91,7 @@ class CurveTable:
 def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     """Read the table of an axle. `key`: key path of the name, for messages.
 
-    Raises
-    ------
-    CarFileError
-        There is no such file, or it is no such table; the message says what is missing.
+    Raises `CarFileError`: there is no such file, or it is no such table; the message says what is missing.
     """
     what = f"{key} ({name})"
     table = TextTable(beside(folder, name, key), CarFileError, what, units=True)

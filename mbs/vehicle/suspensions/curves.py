@@ -14,6 +14,7 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
+from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
@@ -200,7 +201,7 @@ class Curves(SuspensionSection):
 
         `axle`, `springs`: as of `IndependentSuspension.corners`; `tie_rod`: of no use here: the rack is a coordinate.
         """
-        travels = {side.name: b.m.travel(f"wheel travel {side.wheel}") for side in sides(axle)}
+        travels = {side.name: DriveVocabulary.travel(b.m, f"wheel travel {side.wheel}") for side in sides(axle)}
         levers = []
         for side in sides(axle):
             own, w = travels[side.name], side.wheel

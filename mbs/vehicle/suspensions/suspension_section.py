@@ -23,20 +23,11 @@ class SuspensionSection(Section):
     def open(self, folder: Path, centre: Point) -> None:
         """Read its files; done once by the reader of the car. `centre`: of the left wheel as drawn, m.
 
-        Raises
-        ------
-        CarFileError
-            A file is missing or not right.
+        Raises `CarFileError`: a file is missing or not right.
         """
 
     def needs_links(self) -> None:
-        """Refuse what has no links.
-
-        Raises
-        ------
-        ModelError
-            It has none.
-        """
+        """Refuse what has no links. Raises `ModelError`: it has none."""
 
     @property
     def stop_left_out(self) -> str:

@@ -16,10 +16,7 @@ class TyreSection(Section):
     def open(self, folder: Path) -> None:
         """Read their file, if there is one; done once by the reader of the car.
 
-        Raises
-        ------
-        CarFileError
-            It is missing, or not right.
+        Raises `CarFileError`: it is missing, or not right.
         """
 
     @staticmethod

@@ -68,20 +68,11 @@ class FrameSection(Section):
 
     @abstractmethod
     def structure(self, folder: Path) -> Structure:
-        """Read it.
-
-        Raises
-        ------
-        ModelError
-            A file is missing or does not describe a frame.
-        """
+        """Read it. Raises `ModelError`: a file is missing or does not describe a frame."""
 
     @abstractmethod
     def check(self, folder: Path) -> None:
         """Refuse at once what can be seen without reading large files.
 
-        Raises
-        ------
-        ModelError
-            A file is missing, or a table is not right.
+        Raises `ModelError`: a file is missing, or a table is not right.
         """

@@ -30,13 +30,7 @@ class MatrixFrame(FrameSection):
 
     @abstractmethod
     def finite_elements(self, folder: Path) -> FiniteElementModel:
-        """Read the matrices.
-
-        Raises
-        ------
-        ModelError
-            A file is missing, or the matrices are no free model.
-        """
+        """Read the matrices. Raises `ModelError`: a file is missing, or the matrices are no free model."""
 
     def structure(self, folder: Path) -> Structure:
         """Read the matrices and the gauges, each of which must be on their nodes."""

@@ -37,10 +37,8 @@ class RecoveryRows(Section):
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
         """What it reports.
 
-        Raises
-        ------
-        ModelError
-            The table is missing or does not fit the nodes, or a rigid motion would be read as a stress.
+        Raises `ModelError`: the table is missing or does not fit the nodes, or a rigid motion would be read as a
+        stress.
         """
         columns = ("gauge", "quantity", "node", "axis", "factor")
         rows: dict[str, np.ndarray] = {}

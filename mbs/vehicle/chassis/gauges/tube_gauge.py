@@ -60,12 +60,7 @@ class TubeGauge(Section):
         """The gauge on the elements of its tube.
 
         `ends`: first and last joint of the tube, m, shape (3,); `radius`: outer radius of the tube, m; `elements`: of
-        the tube, first joint first.
-
-        Raises
-        ------
-        ModelError
-            The fibre is named by a direction in which the tube runs.
+        the tube, first joint first. Raises `ModelError`: the fibre is named by a direction in which the tube runs.
         """
         along = self.place * len(elements)
         number = min(int(along), len(elements) - 1)

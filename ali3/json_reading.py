@@ -1,0 +1,55 @@
+"""Reads JSON files that others wrote, as `ali3.reading` does others."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from operator import itemgetter
+from typing import Any
+
+from ali3.errors import FileError
+from ali3.reading import Error, check_content, file_text, read_bytes, too_deep
+from ali3.words import brief, one_line
+
+LARGEST_JSON = 100_000_000
+MOST_ENTRIES = 3_000_000
+
+
+def read_json(file: str | os.PathLike[str], error: Error = FileError, name: str = "", finite: bool = True) -> Any:
+    """Content of a JSON file; see `check_file` and `json_of`."""
+    return json_of(read_bytes(file, LARGEST_JSON, error, name), error, name or str(file), finite)
+
+
+def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
+    """Content of the bytes of a JSON file: whole numbers have 64 bits, no key stands twice in a table.
+
+    `error`, `name`: as of `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
+    """
+    if data.count(b",") + data.count(b"[") + data.count(b"{") > MOST_ENTRIES:
+        raise error(f"{name} has more than {MOST_ENTRIES} entries.")
+    if not data.strip():
+        raise error(f"{name} is empty; it must be a JSON file.")
+    try:
+        content = json.loads(file_text(data, error, name), object_pairs_hook=_table)
+    except _TwiceError as fault:
+        raise error(f"{name} has the key {brief(str(fault))} twice in a table.") from None
+    except json.JSONDecodeError as fault:
+        raise error(f"{name} is no JSON file: {one_line(str(fault))}.") from None
+    except ValueError:
+        raise error(f"{name} is no JSON file that can be read: a whole number has more than 19 digits.") from None
+    except RecursionError:
+        too_deep(error, name)
+    check_content(content, error, name, finite)
+    return content
+
+
+class _TwiceError(Exception):
+    """A key that stands twice."""
+
+
+def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    made = dict(pairs)
+    if len(made) < len(pairs):
+        raise _TwiceError(max(Counter(key for key, _ in pairs).items(), key=itemgetter(1))[0])
+    return made

@@ -1,0 +1,129 @@
+"""Guides that few models need: in time, of one input, by a table from another guide."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline, PPoly
+
+from mbs.common.checks import LARGEST, array, number, positive, shown
+from mbs.common.errors import ModelError
+from mbs.kernel.header.enumerations import GuideType
+from mbs.model.guides import curve, new_guide, of_table, owned_guide
+from mbs.model.inputs import owned_input
+from mbs.model.mechanism import Mechanism
+from mbs.model.records import Guide, Input
+
+
+class MoreGuidesVocabulary(Mechanism):
+    """Prescribed motions in time, of one input and by tables."""
+
+    def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
+        """A prescribed motion in time; it stands still outside its pieces, so it should begin and end with zero rates.
+
+        Parameters
+        ----------
+        motion : scipy.interpolate.PPoly or (times, values)
+            Pieces of degree 5 or less over s; or points, of shape (n,) each, through which a cubic spline goes that
+            begins and ends at rest.
+        unit : str
+            Of the guide, rad or m.
+
+        Raises
+        ------
+        ModelError
+            The degree is above 5, or the times do not rise.
+        """
+        pieces = motion if isinstance(motion, PPoly) else _spline(motion, f"guide '{name}'")
+        c, b = np.asarray(pieces.c, dtype=float), np.asarray(pieces.x, dtype=float)
+        if c.ndim != 2 or c.shape[0] > 6:
+            raise ModelError(f"The motion of guide '{name}' must be one scalar motion of degree 5 or less.")
+        if not (np.all(np.abs(c) < LARGEST) and np.all(np.abs(b) < LARGEST) and np.all(np.diff(b) > 0.0)):
+            raise ModelError(f"The motion of guide '{name}' needs finite coefficients and rising times.")
+        ascending = np.zeros((c.shape[1], 6))
+        ascending[:, : c.shape[0]] = c[::-1].T
+        reals = [float(c.shape[1]), *b, *ascending.ravel()]
+        start = float(pieces(min(max(0.0, b[0]), b[-1])))
+        return new_guide(self, name, GuideType.OF_TIME, -1, reals, start, unit)
+
+    def guide_input(
+        self: Mechanism, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1"
+    ) -> Guide:
+        """A prescribed motion that follows ``gain * input`` through a critically damped filter.
+
+        ``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency, at rest on the input at the start.
+
+        Parameters
+        ----------
+        gain : float
+            Of the filter, in units of the guide per unit of the input.
+        frequency : float
+            Of the filter, Hz.
+        unit : str
+            Of the guide, rad or m.
+        """
+        owned_input(self, input, f"The guide '{name}'")
+        w = 2.0 * np.pi * positive(frequency, f"The frequency of guide '{name}'")
+        k = number(gain, f"The gain of guide '{name}'")
+        return new_guide(self, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
+
+    def guide_table(
+        self: Mechanism, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
+    ) -> Guide:
+        """A motion that follows another guide by a curve, such as a rack the steering wheel.
+
+        Between the points it is a monotone cubic with the slopes of scipy's PchipInterpolator (F. N. Fritsch, R. E.
+        Carlson, SIAM Journal on Numerical Analysis 17, 1980, 238-246), beyond them a straight line.
+
+        Parameters
+        ----------
+        source : Guide
+            That it follows, not by a table itself.
+        table : array_like, shape (n, 2)
+            Rows of the value of `source`, rising, and of the guide.
+        slopes : array_like, shape (n,), optional
+            At the rows, where they are known; the cubics are then not held monotone.
+        unit : str
+            Of the guide, rad or m.
+
+        Raises
+        ------
+        ModelError
+            Fewer than two rows, the first column does not rise, or not as many slopes as rows.
+        """
+        what = f"guide '{name}'"
+        u = owned_guide(self, source, f"The {what}")
+        if u.type == GuideType.BY_TABLE:
+            raise ModelError(f"The {what} is over guide '{u.name}', which is by a table too; give one table of both.")
+        rows = array(table, (None, 2), f"the table of {what}")
+        if len(rows) < 2:
+            raise ModelError(f"The table of {what} has {len(rows)} rows; it needs two at least.")
+        if not np.all(np.diff(rows[:, 0]) > 0.0):
+            k = int(np.argmin(np.diff(rows[:, 0])))
+            raise ModelError(
+                f"The table of {what} goes from {rows[k, 0]:g} to {rows[k + 1, 0]:g} in its first column; it must rise "
+                "from row to row."
+            )
+        given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
+        m = curve(rows).derivative()(rows[:, 0]) if given is None else given
+        reals = [float(x) for x in np.concatenate([*rows.T, m])]
+        guide = new_guide(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
+        value, _ = of_table(guide, u.start)
+        self.guides[-1] = replace(guide, start=value)
+        return self.guides[-1]
+
+
+def _spline(motion: tuple[ArrayLike, ArrayLike], what: str) -> CubicSpline:
+    """A spline through points that begins and ends at rest."""
+    if not isinstance(motion, (tuple, list)) or len(motion) != 2:
+        raise ModelError(f"The motion of {what} must be a PPoly or (times, values), not {shown(motion)}.")
+    times = array(motion[0], (None,), f"the times of {what}")
+    values = array(motion[1], (None,), f"the values of {what}")
+    if len(times) < 2 or len(times) != len(values) or not np.all(np.diff(times) > 0.0):
+        raise ModelError(
+            f"The motion of {what} has {len(times)} times and {len(values)} values; it needs two or more rising times "
+            "and a value for each."
+        )
+    return CubicSpline(times, values, bc_type="clamped")
