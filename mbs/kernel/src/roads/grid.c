@@ -160,8 +160,7 @@ static void block(const ali3_grid *g, int i, int j, int n, double *v) {
 }
 
 /* Values around the cell with the indices i, j before its first corner, and the range that the patch keeps. */
-static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
-  if (cell->held && cell->i == i0 && cell->j == j0) return;
+static void fill(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
   cell->held = 1, cell->limited = cell->bears = 0, cell->i = i0, cell->j = j0;
   block(g, i0, j0, 4, cell->z[0]);
   double low = cell->z[0][0], high = low;
@@ -185,6 +184,25 @@ static void hold_friction(const ali3_grid *g, ali3_cell *cell) {
   cell->bears = 1;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) cell->friction[i][j] = friction(g, cell->i + 1 + i, cell->j + 1 + j);
+}
+
+static int is_held(const ali3_cell *cell, int i0, int j0) { return cell->held && cell->i == i0 && cell->j == j0; }
+
+/* Holds a cell: of a file, as it was filled before, unless a tile was lost then. */
+static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
+  if (is_held(cell, i0, j0)) return;
+  if (g->file == NULL) {
+    fill(g, cell, i0, j0);
+    return;
+  }
+  ali3_cell *kept = ali3_road_file_cell(g->file, i0, j0);
+  if (is_held(kept, i0, j0)) {
+    *cell = *kept;
+    return;
+  }
+  fill(g, cell, i0, j0);
+  hold_friction(g, cell);
+  if (ali3_road_file_lost(g->file) == NULL) *kept = *cell;
 }
 
 /* Holds the cell at a place; s: the place in spacings from the first point. */
