@@ -207,7 +207,8 @@ static int table_values(const ali3_road_table *t, char *message, size_t size) {
 }
 
 /* A file as it begins, and room behind it for its cells and for tiles; NULL: no memory. */
-static ali3_road_file *with_room(const ali3_road_file *start, size_t room, void *(*allocate)(size_t count, size_t size)) {
+static ali3_road_file *with_room(const ali3_road_file *start, size_t room,
+                                 void *(*allocate)(size_t count, size_t size)) {
   const size_t before = (sizeof *start + 15u) / 16u * 16u, cells = CELLS * CELLS * sizeof(ali3_cell);
   ali3_road_file *file = allocate(1, before + cells + room);
   if (file == NULL) return NULL;
