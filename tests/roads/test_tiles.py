@@ -10,6 +10,8 @@ import pytest
 from mbs.elements import GridRoad
 from mbs.roads import write_road
 from tests.elements.harness import library
+from tests.roads.worlds.harness import Grid, Surface
+from tests.roads.worlds.harness import opened as from_file
 
 NEAR = 64
 
@@ -23,6 +25,8 @@ def lib():
     lib.ali3_road_file_reads.restype = ctypes.c_int64
     lib.ali3_road_file_reads.argtypes = [ctypes.c_void_p]
     lib.ali3_road_file_close.argtypes = [ctypes.c_void_p]
+    lib.ali3_grid_at.restype = Surface
+    lib.ali3_grid_at.argtypes = [ctypes.POINTER(Grid), ctypes.c_double, ctypes.c_double]
     return lib
 
 
@@ -65,3 +69,17 @@ def test_what_fits_is_read_at_once(lib, tmp_path):
         assert lib.ali3_road_file_height(file, i, 255 - i) == 0.0
     assert lib.ali3_road_file_reads(file) == NEAR
     lib.ali3_road_file_close(file)
+
+
+@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "calloc"), reason="no C library by that name")
+def test_kept_cells_are_those_of_the_grid_in_memory(lib, tmp_path):
+    """Cells 16 apart share their room, and are met by turns; steps limit slopes."""
+    rng = np.random.default_rng(7)
+    heights, frictions = 0.1 * rng.integers(0, 3, (70, 70)).astype(float), rng.uniform(0.2, 1.0, (70, 70))
+    write_road(GridRoad((0.0, 0.0), (0.25, 0.25), heights, frictions), tmp_path / "a.road")
+    memory = Grid(70, 70, 0.0, 0.0, 0.25, 0.25, heights.ctypes.data, frictions.ctypes.data, None)
+    x, y = (np.repeat(rng.uniform(0.0, 1.2, (2, 200)), 4, axis=1) + 4.0 * rng.integers(0, 5, (2, 800))).clip(-1.0, 17.0)
+    with from_file(tmp_path / "a.road") as at:
+        found = np.array([at(x, y) for _ in range(2)])
+    one = [lib.ali3_grid_at(ctypes.byref(memory), float(a), float(b)) for a, b in zip(x, y, strict=True)]
+    assert np.array_equal(found, [[[s.height for s in one], [s.friction for s in one]]] * 2)

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "../../include/ali3.h"
+#include "../algebra/processor.h"
 #include "../algebra/small_vectors.h"
 
 #define PART 0.005                      /* of the spacing */
@@ -24,7 +25,7 @@ static int cell_of(double s, int n) { return s >= (double)(n - 1) ? n - 2 : s > 
 
 /* Cubic Hermite weights (slopes by central differences, one-sided at the border) of values first..first+3 (clamped to
  * 0..n-1). */
-static void cubic(double s, int n, double w[4], double dw[4]) {
+ALI3_INLINED void cubic(double s, int n, double w[4], double dw[4]) {
   const int i = cell_of(s, n);
   const int outside = s < 0.0 || s > (double)(n - 1);
   const double t = ali3_clamp(s - i, 0.0, 1.0), left = i > 0 ? 0.5 : 1.0, right = i + 2 < n ? 0.5 : 1.0;
@@ -89,7 +90,7 @@ static ali3_grid_point corner_at(const ali3_grid *g, const ali3_cell *cell, cons
 }
 
 /* Weights of value and slope at both ends of a segment, and their derivatives. */
-static void hermite(double t, int outside, double w[2][2], double dw[2][2]) {
+ALI3_INLINED void hermite(double t, int outside, double w[2][2], double dw[2][2]) {
   const double s = 1.0 - t;
   w[0][1] = t * t * (3.0 - 2.0 * t), w[0][0] = 1.0 - w[0][1], w[1][0] = t * s * s, w[1][1] = -t * t * s;
   dw[0][1] = outside ? 0.0 : 6.0 * t * s, dw[0][0] = -dw[0][1];
@@ -97,7 +98,7 @@ static void hermite(double t, int outside, double w[2][2], double dw[2][2]) {
 }
 
 /* Height of a patch whose slopes are limited, and its slopes where they are wanted. */
-static inline double limited_patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
+ALI3_INLINED double limited_patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
   const int first[2] = {cell->i + 1, cell->j + 1};
   double wx[2][2], dx[2][2], wy[2][2], dy[2][2], z = 0.0;
   hermite(ali3_clamp(s[0] - first[0], 0.0, 1.0), s[0] < 0.0 || s[0] > (double)(g->nx - 1), wx, dx);
@@ -116,7 +117,7 @@ static inline double limited_patch(const ali3_grid *g, const ali3_cell *cell, co
 }
 
 /* The same of the patch of any cell that is held. */
-static inline double patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
+ALI3_INLINED double patch(const ali3_grid *g, const ali3_cell *cell, const double s[2], double *slope) {
   double wx[4], dx[4], wy[4], dy[4], z = 0.0;
   if (cell->limited) return limited_patch(g, cell, s, slope);
   cubic(s[0], g->nx, wx, dx);
@@ -160,8 +161,7 @@ static void block(const ali3_grid *g, int i, int j, int n, double *v) {
 }
 
 /* Values around the cell with the indices i, j before its first corner, and the range that the patch keeps. */
-static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
-  if (cell->held && cell->i == i0 && cell->j == j0) return;
+static void fill(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
   cell->held = 1, cell->limited = cell->bears = 0, cell->i = i0, cell->j = j0;
   block(g, i0, j0, 4, cell->z[0]);
   double low = cell->z[0][0], high = low;
@@ -185,6 +185,25 @@ static void hold_friction(const ali3_grid *g, ali3_cell *cell) {
   cell->bears = 1;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) cell->friction[i][j] = friction(g, cell->i + 1 + i, cell->j + 1 + j);
+}
+
+static int is_held(const ali3_cell *cell, int i0, int j0) { return cell->held && cell->i == i0 && cell->j == j0; }
+
+/* Holds a cell: of a file, as it was filled before, unless a tile was lost then. */
+static void hold(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
+  if (is_held(cell, i0, j0)) return;
+  if (g->file == NULL) {
+    fill(g, cell, i0, j0);
+    return;
+  }
+  ali3_cell *kept = ali3_road_file_cell(g->file, i0, j0);
+  if (is_held(kept, i0, j0)) {
+    *cell = *kept;
+    return;
+  }
+  fill(g, cell, i0, j0);
+  hold_friction(g, cell);
+  if (ali3_road_file_lost(g->file) == NULL) *kept = *cell;
 }
 
 /* Holds the cell at a place; s: the place in spacings from the first point. */

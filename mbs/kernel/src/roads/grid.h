@@ -16,17 +16,6 @@ typedef struct {
   double height, normal[3], friction;
 } ali3_surface;
 
-typedef struct { /* a point of a grid: height, its differences per spacing, their twist */
-  double z, x, y, xy;
-} ali3_grid_point;
-
-typedef struct { /* what lies around a cell of one grid; {0} before the first */
-  int held, limited, bears, i, j; /* indices before its first corner; bears: its frictions are there */
-  double z[4][4], friction[2][2];
-  double least, most; /* no height between the corners is outside */
-  ali3_grid_point corner[2][2]; /* where slopes are limited */
-} ali3_cell;
-
 ali3_surface ali3_grid_at(const ali3_grid *g, double x, double y);
 /* The same, for places that follow each other in few cells: what lies around the last one is found once. */
 ali3_surface ali3_grid_near(const ali3_grid *g, ali3_cell *cell, double x, double y);

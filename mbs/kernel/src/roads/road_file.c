@@ -14,6 +14,7 @@
 
 enum { GRID = 2 }; /* elements/road.h */
 enum { POINTS = ALI3_ROAD_TILE * ALI3_ROAD_TILE, HINTS = 256, TEXT = 200 };
+enum { CELLS = 16 }; /* kept along x and y: a car with its wheels on the points of its grid */
 static const double TABLE_FRICTION = 0.9; /* of a text without frictions */
 
 struct ali3_road_file {
@@ -31,6 +32,7 @@ struct ali3_road_file {
   unsigned char *slot; /* n_slots x tile_bytes */
   unsigned char *record; /* of version 2: room for what stands in the file */
   double *values; /* of a text: all of its grid, in place of tiles */
+  ali3_cell *cells; /* CELLS x CELLS, of this file and so never out of date */
   char lost[TEXT];
 };
 
@@ -150,6 +152,10 @@ double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j) {
   return tile != NULL ? tile[POINTS + i % ALI3_ROAD_TILE * ALI3_ROAD_TILE + j % ALI3_ROAD_TILE] : 0.0;
 }
 
+ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j) {
+  return &file->cells[(uint32_t)i % CELLS * CELLS + (uint32_t)j % CELLS];
+}
+
 /* CRC-32 of the checksums of all tiles, in memory, or of the table of them; 0 where it cannot be read. */
 static uint32_t contents_of(ali3_road_file *file) {
   uint32_t crc[ALI3_TILES_NEAR];
@@ -200,6 +206,19 @@ static int table_values(const ali3_road_table *t, char *message, size_t size) {
   return 1;
 }
 
+/* A file as it begins, and room behind it for its cells and for tiles; NULL: no memory. */
+static ali3_road_file *with_room(const ali3_road_file *start, size_t room,
+                                 void *(*allocate)(size_t count, size_t size)) {
+  const size_t before = (sizeof *start + 15u) / 16u * 16u, cells = CELLS * CELLS * sizeof(ali3_cell);
+  ali3_road_file *file = allocate(1, before + cells + room);
+  if (file == NULL) return NULL;
+  *file = *start;
+  file->cells = (ali3_cell *)((unsigned char *)file + before);
+  file->slot = (unsigned char *)file->cells + cells;
+  memset(file->cells, 0, cells);
+  return file;
+}
+
 /* All of a text is read and its stream closed. */
 static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*allocate)(size_t count, size_t size),
                                   char *message, size_t message_size) {
@@ -232,12 +251,11 @@ static ali3_road_file *open_table(ali3_road_file *start, int64_t size, void *(*a
   if (why != NULL)
     refuse(message, message_size, why);
   else if (table_values(&t, message, message_size))
-    file = allocate(1, sizeof *file);
+    file = with_room(start, 0, allocate);
   if (file == NULL) {
     start->release(t.values);
     return NULL;
   }
-  *file = *start;
   file->values = t.values;
   return file;
 }
@@ -273,15 +291,10 @@ ali3_road_file *ali3_road_file_open(const char *path, void *(*allocate)(size_t c
     start.tiles_y = ali3_road_tiles_along(start.head.ny);
     start.n_tiles = ali3_road_tiles_along(start.head.nx) * start.tiles_y;
     start.n_slots = start.n_tiles < ALI3_TILES_NEAR ? (int32_t)start.n_tiles : ALI3_TILES_NEAR;
-    const size_t before = (sizeof start + 15u) / 16u * 16u;
     const size_t room = (size_t)start.n_slots * start.tile_bytes;
-    file = allocate(1, before + room + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0));
+    file = with_room(&start, room + (start.version == ALI3_ROAD_SHARED ? ALI3_MOST_RECORD : 0), allocate);
     if (file == NULL) why = "there is not enough memory";
-    if (file != NULL) {
-      *file = start;
-      file->slot = (unsigned char *)file + before;
-      file->record = file->slot + room;
-    }
+    if (file != NULL) file->record = file->slot + room;
   }
   if (why != NULL) {
     if (start.stream != NULL) ali3_file_close(start.stream);

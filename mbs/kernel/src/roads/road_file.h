@@ -14,6 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "cell.h"
+
 #define ALI3_ROAD_VERSION 1
 #define ALI3_ROAD_SHARED 2
 #define ALI3_ROAD_TILE 32
@@ -43,6 +45,9 @@ double ali3_road_file_height(ali3_road_file *file, int32_t i, int32_t j);
  * NULL: lost. */
 const double *ali3_road_file_block(ali3_road_file *file, int32_t i, int32_t j, int32_t size[2], int32_t *stride);
 double ali3_road_file_friction(ali3_road_file *file, int32_t i, int32_t j);
+/* Room for the cell with the indices i, j before its first corner, and for all that lie 16 apart: holds the last one that
+ * was put there. */
+ali3_cell *ali3_road_file_cell(const ali3_road_file *file, int32_t i, int32_t j);
 
 /* NULL, or what was wrong with the last tile that could not be read, a sentence without its full stop. */
 const char *ali3_road_file_lost(const ali3_road_file *file);
