@@ -127,12 +127,10 @@ def _run(machine: Machine, tolerance: float, parts: int) -> Array:
         return np.concatenate([v[free], force[free] / mass[free], slips])
 
     t = np.linspace(0.0, machine.span, INSTANTS + 1)
-    y = np.concatenate(
-        [np.array(machine.start)[free], np.array(machine.speeds)[free], np.zeros(len(machine.frictions))]
-    )
+    start, speeds = np.array(machine.start)[free], np.array(machine.speeds)[free]
     run = solve_ivp(
-        rates, (0.0, machine.span), np.concatenate(begin), t_eval=t, method="DOP853", rtol=tolerance, atol=0.1 * tolerance,
-        max_step=machine.span / parts,
+        rates, (0.0, machine.span), np.concatenate([start, speeds, np.zeros(len(machine.frictions))]), t_eval=t,
+        method="DOP853", rtol=tolerance, atol=0.1 * tolerance, max_step=machine.span / parts,
     )  # fmt: skip
     if not run.success:
         raise NoReferenceError(run.message)
