@@ -46,6 +46,7 @@ SUMMARY = {
     "silently wrong": "d",
     "estimates": "d",
     "within ten times": ".0%",
+    "steps over its own": ".2f",
     "cost, median": ".3g",
     "cost over before": ".2f",
 }
@@ -160,7 +161,8 @@ def _judged(
     wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught]
     verdict = VERDICTS[(3 if said else 4) if wrong else (1 if said else 0)]
     method = run.control.method if run.control is not None else ""
-    return row | {"verdict": verdict, "error": error, "told": told, "warnings": said, "method": method}
+    steps = None if run.accuracy is None else 1.0 + run.accuracy.repeat_cost
+    return row | {"verdict": verdict, "error": error, "told": told, "warnings": said, "method": method, "steps": steps}
 
 
 def _of_range(run: mbs.Trajectory, truth: Mapping[str, Array], units: Mapping[str, Sequence[str]]) -> float:
@@ -191,6 +193,7 @@ def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = (
             count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}
             told = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
             near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in told)
+            steps = [r["steps"] for r in part if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
             ratios = [r["cpu_s"] / old[r["number"], r["asked"]] for r in part if (r["number"], r["asked"]) in old]
             lines.append(
                 {
@@ -203,6 +206,7 @@ def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = (
                     "silently wrong": count["silently wrong"],
                     "estimates": len(told),
                     "within ten times": near / len(told) if told else None,
+                    "steps over its own": float(np.median(steps)) if steps else None,
                     "cost, median": float(np.median([r["cpu_s"] for r in part])),
                     "cost over before": float(np.median(ratios)) if ratios else None,
                 }

@@ -7,7 +7,8 @@
 
 #include "slave.h"
 
-static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times, a car bounces once */
+static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times */
+static const double START = 2.0; /* s from a start: a wheel that spins grips again as late as after 0.9 s */
 static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
 static const double JUMP = 0.05; /* of its range: an input that jumps */
 static const double WRONG = 0.05; /* of the largest force at communication points */
@@ -157,6 +158,7 @@ slave_status slave_halve_steps(slave *s) {
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
   t->begins = false;
+  if (begins && !(t->driven > 0.0)) t->spent = -START; /* beside what abrupt forces may cost */
   t->driven += length;
   t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
   const bool spent = t->spent > FREE + SHARE * t->driven;
@@ -166,12 +168,12 @@ slave_status slave_halve_steps(slave *s) {
     if (rests) memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
     t->jumped = t->jumped && !rests;
     t->alone = t->alone && !rests;
-    t->left = SPAN;
+    t->left = fmax(t->left, begins ? START : SPAN);
   }
   if (t->left > 0.0) {
     t->left -= length;
     t->spent += length;
-    if (follow(s, now) > AGREED * WRONG * t->largest && !spent) t->left = SPAN;
+    if (follow(s, now) > AGREED * WRONG * t->largest && !spent) t->left = fmax(t->left, SPAN);
   }
   return tell(s, &report, now, false);
 }
