@@ -148,7 +148,7 @@ def _judged(
     judge: Callable[[mbs.Trajectory], tuple[float, float | None, float]],
 ) -> dict[str, Any]:
     """A run with its verdict."""
-    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "warnings": []}
+    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "told": None, "warnings": []}
     begin = time.process_time()
     try:
         with warnings.catch_warnings(record=True) as caught:
