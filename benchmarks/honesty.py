@@ -1,12 +1,13 @@
 """Whether a run reports that it is wrong: ``python -m benchmarks.honesty [--json FILE] [--quick]``,
-or of random mechanisms and cars ``--random N --seed S [--before FILE]``.
+or of random mechanisms and cars or machines ``--random N --seed S [--family machines] [--before FILE]``.
 
 Every scene, method and manoeuvre of the car at coarse and fine steps, as `mbs.simulate` runs it: the true error beside
 its estimate. A run is wrong when a judged sensor is off by more than 5 % of the largest range in its unit at one of
 51 instants; a warning then is right, and is a false alarm elsewhere.
 
 With --random, N mechanisms and a car for every ten: each in equal steps and under a tolerance (wrong: beyond ten
-of it), against Newton and Euler's equations under DOP853, of cars against another method.
+of it), against Newton and Euler's equations under DOP853, of cars against another method. With --family machines N
+belts, brakes, plays, cams, impacts and stops, against their equations under DOP853.
 """
 
 from __future__ import annotations
@@ -51,10 +52,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--longest", type=float, default=LONG, metavar="S", help="of a run, before finer steps stop")
     parser.add_argument("--random", type=int, metavar="N", help="so many random mechanisms and cars instead")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of --random; 1 if not given")
+    parser.add_argument("--family", choices=random_honesty.FAMILIES, default="mechanisms", help="of --random")
     parser.add_argument("--before", type=Path, metavar="FILE", help="rows of --random to compare costs with")
     options = parser.parse_args(arguments)
     if options.random is not None:
-        return _random(options.random, options.seed, options.before, options.json)
+        return _random(options.random, options.seed, options.family, options.before, options.json)
     rows: list[dict[str, Any]] = []
     for name in watched(options.scene or list(QUICK if options.quick else SCENES)):
         methods = ["ali3p"] if options.quick else SCENES[name].methods()
@@ -71,8 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _random(count: int, seed: int, before: Path | None, file: Path | None) -> int:
-    rows = list(random_honesty.rows_of(seed, watched(range(count))))
+def _random(count: int, seed: int, family: str, before: Path | None, file: Path | None) -> int:
+    rows = list(random_honesty.rows_of(seed, watched(range(count)), family))
     old = json.loads(before.read_text(encoding="utf-8"))["rows"] if before is not None else []
     bad = [r for r in rows if r["verdict"] in random_honesty.TOLD]
     if bad:
@@ -81,7 +83,7 @@ def _random(count: int, seed: int, before: Path | None, file: Path | None) -> in
     lines = random_honesty.summary(rows, old)
     print_table(lines, random_honesty.SUMMARY)
     print(f"\n{sum(r['verdict'] == 'none' for r in rows)} without a reference: two runs of it did not agree.")
-    save_rows(file, "honesty", rows, seed=seed, summary=lines)
+    save_rows(file, "honesty", rows, seed=seed, family=family, summary=lines)
     return 0
 
 

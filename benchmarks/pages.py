@@ -24,6 +24,7 @@ from benchmarks.methods.pages import (
     dissipative_blocks,
     growth_blocks,
     honesty_blocks,
+    machines_blocks,
     stability_blocks,
     work_blocks,
 )
@@ -60,6 +61,7 @@ MAKERS: dict[str, Callable[[Files], dict[str, str]]] = {
     "dissipative": lambda files: dissipative_blocks({"rows": _rows(files)}),
     "control": _with_machine("control", lambda files: control_blocks(_rows(files))),
     "honesty": _with_machine("honesty", lambda files: honesty_blocks(_rows(files))),
+    "honesty-machines": _with_machine("honesty machines", machines_blocks),
     "study": _with_machine("study", lambda files: study_blocks(_rows(files))),
     "car": _with_machine("car", lambda files: car_blocks(files[0]["rows"])),
     "trust": _trust,

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import mbs
+from benchmarks.methods import random_honesty
 from benchmarks.methods.error_control import CHOSEN, MOST_ERROR, MOST_TIME
 from benchmarks.methods.honesty import FACTOR, HOLDS, SUMMARY, VERDICTS, summary
 from benchmarks.methods.kernel_methods import TITLES
@@ -168,6 +169,18 @@ def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
         "honesty": table(summary(list(rows)), SUMMARY),
         "honesty exceptions": "\n".join(said),
         "honesty crank": crank_table(rows),
+    }
+
+
+def machines_blocks(files: Sequence[Row]) -> dict[str, str]:
+    """Verdicts on random machines of several seeds."""
+    rows = [r for f in files for r in f["rows"]]
+    columns = {k: f for k, f in random_honesty.SUMMARY.items() if not k.startswith("cost")}
+    seeds = ", ".join(str(f["meta"]["seed"]) for f in files)
+    none = sum(r["verdict"] == "none" for r in rows)
+    said = f"Seeds {seeds}, {len({(f['meta']['seed'], r['number']) for f in files for r in f['rows']})} machines"
+    return {
+        "honesty machines": f"{said}; {none} without a reference.\n\n{table(random_honesty.summary(rows), columns)}"
     }
 
 

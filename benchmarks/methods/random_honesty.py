@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from benchmarks.methods import random_cars, random_mechanisms
-from benchmarks.references import newton_euler
+from benchmarks.methods import random_cars, random_machines, random_mechanisms
+from benchmarks.references import masses_on_a_line, newton_euler
 from mbs.results.accuracy import WRONG_ERROR, extent, judged_sensors
 
 Array = NDArray[np.float64]
@@ -22,7 +22,8 @@ CAR_SHARE = 0.1  # cars beside so many mechanisms
 NOTHING = 1e-3  # of the range or the length: of a smaller error no estimate is asked
 FACTOR = 10.0  # by which an estimate may be off
 BEYOND = 10.0  # tolerances: wrong
-KINDS = ("planar", "spatial", "car")
+FAMILIES = ("mechanisms", "machines")
+KINDS = ("planar", "spatial", "car", *random_machines.KINDS)
 VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong")
 TOLD = ("false alarm", "refused", "silently wrong")
 """Verdicts that are shown case by case."""
@@ -45,44 +46,74 @@ SUMMARY = {
     "silently wrong": "d",
     "estimates": "d",
     "within ten times": ".0%",
+    "steps over its own": ".2f",
     "cost, median": ".3g",
     "cost over before": ".2f",
 }
 
 
-def rows_of(seed: int, numbers: Iterable[int]) -> Iterator[dict[str, Any]]:
+def rows_of(seed: int, numbers: Iterable[int], family: str = FAMILIES[0]) -> Iterator[dict[str, Any]]:
     """Rows of the cases of a seed; a case without a reference gives one row that says so."""
     for number in numbers:
         rng = np.random.default_rng([seed, number])
+        if family == "machines":
+            yield from _machine(number, rng)
+            continue
         is_car = rng.random() < CAR_SHARE / (1.0 + CAR_SHARE)
         yield from (_car if is_car else _mechanism)(number, rng)
 
 
 def _mechanism(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     name, drawing = random_mechanisms.drawing(rng)
-    h, tolerance = float(rng.choice(STEPS)), float(rng.choice(TOLERANCES))
     case = {"number": number, "kind": name, "class": KINDS[drawing.dimension - 2]}
-    try:
+    names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in "xyz"[: drawing.dimension]]
+
+    def truth() -> dict[str, Array]:
         found = newton_euler.motion(drawing)
+        return dict(zip(names, found.reshape(len(found), -1).T, strict=True))
+
+    yield from _both(case, rng, drawing.span, truth, lambda: random_mechanisms.model_of(drawing))
+
+
+def _machine(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
+    kind, machine = random_machines.machine(rng)
+    case = {"number": number, "kind": kind, "class": kind}
+
+    def truth() -> dict[str, Array]:
+        found = masses_on_a_line.motion(machine)
+        return {f"x{i}": found[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
+
+    yield from _both(case, rng, machine.span, truth, lambda: random_machines.model_of(machine))
+
+
+def _both(
+    case: dict[str, Any],
+    rng: np.random.Generator,
+    span: float,
+    make_truth: Callable[[], dict[str, Array]],
+    make_model: Callable[[], mbs.Model],
+) -> Iterator[dict[str, Any]]:
+    """In equal steps and under a tolerance."""
+    h, tolerance = float(rng.choice(STEPS)), float(rng.choice(TOLERANCES))
+    try:
+        truth = make_truth()
     except newton_euler.NoReferenceError as none:
         yield case | {"asked": "reference", "verdict": "none", "reason": str(none)}
         return
-    system = mbs.compile(random_mechanisms.model_of(drawing))
+    system = mbs.compile(make_model())
     system.to_bytes()  # assembly modes are searched on demand: at the model's cost, not at the first run's
-    t = np.linspace(0.0, drawing.span, newton_euler.INSTANTS + 1)
-    axes = "xyz"[: drawing.dimension]
-    names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in axes]
-    truth = dict(zip(names, found.reshape(len(t), -1).T, strict=True))
-    steps = max(1, round(drawing.span / newton_euler.INSTANTS / h))
-    fixed = drawing.span / newton_euler.INSTANTS / steps  # the nearest step that ends at the instants
+    t = np.linspace(0.0, span, newton_euler.INSTANTS + 1)
+    steps = max(1, round(span / newton_euler.INSTANTS / h))
+    fixed = span / newton_euler.INSTANTS / steps  # the nearest step that ends at the instants
+    units = {"m": list(truth)}
     yield case | _judged(
         f"{h:g} s",
-        lambda: mbs.simulate(system, drawing.span, fixed, every=steps, progress=False),
-        lambda run: (_of_range(run, truth, {"m": names}), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
+        lambda: mbs.simulate(system, span, fixed, every=steps, progress=False),
+        lambda run: (_of_range(run, truth, units), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
     )
     yield case | _judged(
         f"tolerance {tolerance:g}",
-        lambda: mbs.simulate(system, drawing.span, times=t, tolerance=tolerance, progress=False),
+        lambda: mbs.simulate(system, span, times=t, tolerance=tolerance, progress=False),
         lambda run: (_of_length(run, truth), run.control.error if run.control else None, BEYOND * tolerance),
     )
 
@@ -117,7 +148,7 @@ def _judged(
     judge: Callable[[mbs.Trajectory], tuple[float, float | None, float]],
 ) -> dict[str, Any]:
     """A run with its verdict."""
-    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "warnings": []}
+    row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "told": None, "warnings": []}
     begin = time.process_time()
     try:
         with warnings.catch_warnings(record=True) as caught:
@@ -130,7 +161,8 @@ def _judged(
     wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught]
     verdict = VERDICTS[(3 if said else 4) if wrong else (1 if said else 0)]
     method = run.control.method if run.control is not None else ""
-    return row | {"verdict": verdict, "error": error, "told": told, "warnings": said, "method": method}
+    steps = None if run.accuracy is None else 1.0 + run.accuracy.repeat_cost
+    return row | {"verdict": verdict, "error": error, "told": told, "warnings": said, "method": method, "steps": steps}
 
 
 def _of_range(run: mbs.Trajectory, truth: Mapping[str, Array], units: Mapping[str, Sequence[str]]) -> float:
@@ -161,6 +193,7 @@ def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = (
             count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}
             told = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
             near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in told)
+            steps = [r["steps"] for r in part if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
             ratios = [r["cpu_s"] / old[r["number"], r["asked"]] for r in part if (r["number"], r["asked"]) in old]
             lines.append(
                 {
@@ -173,6 +206,7 @@ def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = (
                     "silently wrong": count["silently wrong"],
                     "estimates": len(told),
                     "within ten times": near / len(told) if told else None,
+                    "steps over its own": float(np.median(steps)) if steps else None,
                     "cost, median": float(np.median([r["cpu_s"] for r in part])),
                     "cost over before": float(np.median(ratios)) if ratios else None,
                 }

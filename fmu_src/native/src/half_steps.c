@@ -1,16 +1,18 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
- * the next 0.4 s are made a second time with half of a short step and down to an eighth of a long one: what both differ
- * by is the error of the step. A run without either, or that has been told of one, pays nothing. The other motion is a
- * snapshot of the same instance. */
+ * what follows is made a second time, until both agree for 0.4 s, with half of a short step and down to an eighth of a
+ * long one: what both differ by is the error of the step. A run without either, or that has been told of one, pays
+ * nothing. The other motion is a snapshot of the same instance. */
 #include <math.h>
 #include <string.h>
 
 #include "slave.h"
 
-static const double SPAN = 0.4; /* s after the last abrupt step: a wheel swings about four times, a car bounces once */
+static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times */
+static const double START = 2.0; /* s from a start: a wheel that spins grips again as late as after 0.9 s */
 static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
 static const double JUMP = 0.05; /* of its range: an input that jumps */
 static const double WRONG = 0.05; /* of the largest force at communication points */
+static const double AGREED = 0.1; /* of WRONG: a larger difference may still grow, as of a wheel that spins */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 static const int64_t MOST = 8; /* parts of a step */
 static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
@@ -87,8 +89,9 @@ static ali3_status make(slave *s) {
   return status;
 }
 
-/* The other motion through the communication step, which ends at `now`; the kernel comes back to this one. */
-static void follow(slave *s, double now) {
+/* The other motion through the communication step, which ends at `now`; the kernel comes back to this one. Returns the
+ * difference, N. */
+static double follow(slave *s, double now) {
   slave_half_steps *t = &s->half_steps;
   ali3_instance *kernel = s->fidelity.kernel;
   ali3_snapshot_take(kernel, t->end);
@@ -99,15 +102,16 @@ static void follow(slave *s, double now) {
   if (!good) {
     t->left = 0.0;
     t->alone = true;
-    return;
+    return 0.0;
   }
   ali3_contact_forces(kernel, !t->jumped, t->force + n);
   double apart = 0.0;
   for (int32_t i = 0; i < n; i++) apart = fmax(apart, fabs(t->force[i] - t->force[n + i]));
-  if (!(apart > t->apart)) return;
+  if (!(apart > t->apart)) return apart;
   t->apart = apart;
   t->time = now;
   t->h = s->made.h;
+  return apart;
 }
 
 /* The largest difference, when what comes later has shown how large forces are. */
@@ -154,20 +158,22 @@ slave_status slave_halve_steps(slave *s) {
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
   t->begins = false;
+  if (begins && !(t->driven > 0.0)) t->spent = -START; /* beside what abrupt forces may cost */
   t->driven += length;
   t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
-  if (abrupt && (t->spent > FREE + SHARE * t->driven || !allocate(s))) {
+  const bool spent = t->spent > FREE + SHARE * t->driven;
+  if (abrupt && (spent || !allocate(s))) {
     t->alone = true;
   } else if (abrupt) {
     if (rests) memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
     t->jumped = t->jumped && !rests;
     t->alone = t->alone && !rests;
-    t->left = SPAN;
+    t->left = fmax(t->left, begins ? START : SPAN);
   }
   if (t->left > 0.0) {
     t->left -= length;
     t->spent += length;
-    follow(s, now);
+    if (follow(s, now) > AGREED * WRONG * t->largest && !spent) t->left = fmax(t->left, SPAN);
   }
   return tell(s, &report, now, false);
 }
