@@ -35,6 +35,10 @@ TESTS = [
     "tests/simulation/test_assembly_modes.py",
 ]
 LEFT_OUT = {"tests/kernel/test_elementary.py", "tests/kernel/test_without_avx2.py"}  # compile libraries of their own
+REPEATED = [
+    f"tests/roads/test_shared_tiles.py::test_the_same_road_in_both_versions[{few}]" for few in ("some", "two", "one")
+]
+"""Slow tests of bits whose C is run here by others of that file."""
 FLAGS = ["-g1", "-O1", "-std=c11", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror"]
 ADDRESSES = ["-fsanitize=address", "-DALI3_GAPS"]
 OBJECTS = "ALI3_SANITIZED_OBJECTS"
@@ -104,7 +108,8 @@ def main(arguments: list[str]) -> int:
         library = Path(folder) / build.library_name(build.host_target())
         what, environment = compiled(library)
         print(f"Checked: {what}.", flush=True)
-        chosen = ["-n", "auto", "-m", "not proof", *(test for test in TESTS if test not in LEFT_OUT)]
+        chosen = ["-n", "auto", "-m", "not proof", *(f"--deselect={test}" for test in REPEATED)]
+        chosen += (test for test in TESTS if test not in LEFT_OUT)
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(arguments or chosen)]
         environment["ALI3_KERNEL_LIBRARY"] = str(library)
         code = subprocess.run(command, cwd=ROOT, env=os.environ | environment, check=False).returncode

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
@@ -47,6 +48,12 @@ def answer(kind: str, edge: float, centre: np.ndarray, radius: float, contact_x:
     return (*(centre - normal * (radius - deep)), *normal)
 
 
+@cache
+def with_port(car: str) -> mbs.System:
+    """A car whose road is asked of a partner: the same for all edges and answers."""
+    return mbs.compile(load(car).changed({"ports.road": "planes"}).model())
+
+
 def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[float, float, mbs.Simulation]:
     """A car that coasts up an edge: on a kerb, or with answers of a kind every `STEP`.
 
@@ -54,8 +61,8 @@ def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[fl
     as the length of the difference of both unit vectors; the car at the end.
     """
     made = load(car)
-    model = made.changed({"ports.road": "planes"}).model() if kind else made.model(KerbRoad(EDGE, edge, upper="after"))
-    s = mbs.Simulation(mbs.compile(model), pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
+    system = with_port(car) if kind else mbs.compile(made.model(KerbRoad(EDGE, edge, upper="after")))
+    s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
     radius, largest, turn = {"F": made.front.tyre.radius, "R": made.rear.tyre.radius}, 0.0, 0.0
     last = dict.fromkeys(WHEELS, UP)
     for _ in range(round(time / STEP)):
