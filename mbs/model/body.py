@@ -17,7 +17,16 @@ from mbs.model.flexibility import Flexibility
 from mbs.model.register import Register
 
 SAME_PLACE = 1e-6
-"""A point is one of a body, such as a node or a port, if it is no farther from it, m."""
+"""A point is one of a body, such as a node or a port, if it is no farther from it, m; see `same_place`."""
+
+
+def same_place(p: Vector, place: Vector, size: float) -> bool:
+    """Whether two points are one: `SAME_PLACE` apart or less, and by that part of what is smaller than 1 m.
+
+    `size`: of the body, m; the round-off of where the points lie is always admitted.
+    """
+    round_off = 8.0 * float(np.finfo(float).eps) * float(np.abs(place).max())
+    return bool(np.linalg.norm(p - place) <= max(SAME_PLACE * min(1.0, size), round_off))
 
 
 class Body:

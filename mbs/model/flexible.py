@@ -16,7 +16,7 @@ from mbs.common.checks import Vector, is_finite, shown, vector
 from mbs.common.errors import ModelError
 from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.modal_body import ModalBody
-from mbs.model.body import SAME_PLACE, Body
+from mbs.model.body import Body, same_place
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, Product
@@ -69,6 +69,7 @@ class FlexibleBody(Body):
             i.P, i.c, i.T, reduced.K, reduced.C, np.asarray(self.node_positions), reduced.node_rotations
         )
         self._interfaces: dict[int, Interface] = {}
+        self._extent = float(np.linalg.norm(reduced.node_positions, axis=1).max())
 
     @property
     def n_modes(self) -> int:
@@ -89,6 +90,10 @@ class FlexibleBody(Body):
     def node_positions(self) -> NDArray[np.float64]:
         """Nodes in earth axes in the reference configuration, shape (n, 3), m."""
         return np.asarray(self.com + self.reduced.node_positions @ self.axes.T)
+
+    def at_place(self, p: Vector, place: Vector) -> bool:
+        """Whether two points are one, for the size of the body."""
+        return same_place(p, place, self._extent)
 
     def amplitude(self, mode: int | str) -> Affine:
         """An amplitude as an expression. Result: m or rad for static modes."""
@@ -137,8 +142,9 @@ class FlexibleBody(Body):
         place = vector(position, 3, f"the point of {what} on flexible body '{self.name}'")
         gaps = np.linalg.norm(self.node_positions - place, axis=1)
         near = [*self._named(), int(np.argmin(gaps))]  # nodes may coincide: interfaces first
-        best = min(near, key=lambda k: (gaps[k] > SAME_PLACE, near.index(k) if gaps[k] <= SAME_PLACE else gaps[k]))
-        if gaps[best] > SAME_PLACE:
+        here = [k for k in near if self.at_place(place, self.node_positions[k])]
+        best = here[0] if here else near[-1]
+        if not here:
             raise ModelError(
                 f"Flexible body '{self.name}' has no node at {place.tolist()} for {what}; "
                 f"the nearest is '{self.reduced.node_names[best]}', {gaps[best]:.3g} m away."
@@ -151,14 +157,14 @@ class FlexibleBody(Body):
         `position`: earth axes in the reference configuration, m, shape (3,). Raises `ModelError`: no node is there.
         """
         place = vector(position, 3, f"a point of flexible body '{self.name}'")
-        if np.linalg.norm(place - self.com) <= SAME_PLACE:
+        if self.at_place(place, self.com):
             return AffineVector(tuple(Affine({self.start + k: 1.0}) for k in range(3)))
         return self.interface_at(position, "a point").point()
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
         """See `Body.carried`: of a node that has no coordinates."""
         place = vector(position, 3, f"a point of flexible body '{self.name}'")
-        if np.linalg.norm(place - self.com) <= SAME_PLACE:
+        if self.at_place(place, self.com):
             return None
         return self.interface_at(place, "a point").carried(place)
 
@@ -255,13 +261,13 @@ class Interface(Body):
         if self._point is None:
             # from the origin of the frame, so that the rows lose no digits far from that of the earth
             self._point = self._frame(0) + self._moved("", self.com - self.owner.com, self.translation)
-        arm = np.zeros(3) if position is None else vector(position, 3, f"a point of interface '{self.name}'") - self.com
-        return self._point if np.linalg.norm(arm) <= SAME_PLACE else self._point + self.vector(arm)
+        place = self.com if position is None else vector(position, 3, f"a point of interface '{self.name}'")
+        return self._point if self.owner.at_place(place, self.com) else self._point + self.vector(place - self.com)
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
         """See `Body.carried`: of the node itself, where it has no coordinates."""
         place = vector(position, 3, f"a point of interface '{self.name}'")
-        if self._point is not None or np.linalg.norm(place - self.com) > SAME_PLACE or not np.any(self.translation):
+        if self._point is not None or not self.owner.at_place(place, self.com) or not np.any(self.translation):
             return None
         bent = self._bent(self.com - self.owner.com, self.translation)
         return *(self._frame(i) for i in range(4)), AffineVector(tuple(bent))

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
-from mbs.model.body import SAME_PLACE, Body
+from mbs.model.body import Body, same_place
 from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors
 
@@ -52,6 +52,6 @@ class PortedBody(Body):
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:
-            if np.linalg.norm(p - place) <= SAME_PLACE:
+            if same_place(p, place, float(np.linalg.norm(place - self.com))):
                 return free
         return super().point(p)

@@ -6,7 +6,7 @@ import functools
 import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,6 +53,13 @@ class Register:
         self._undo: list[Callable[[], None]] | None = None
         self._looks: list[Callable[[], None]] = []
         self._drawings: list[weakref.ref[Callable[[], object]]] = []
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        # Functions in joints and looks would go on writing into the model they were made for.
+        raise TypeError(
+            f"Model '{self.name}' cannot be copied or pickled: its parts hold functions of this one model. Build it "
+            "again by the function that made it, or copy the System that compile(model) gives."
+        )
 
     @property
     def gravity(self) -> Vector:

@@ -253,12 +253,20 @@ class BuiltCar(CarContent):
 
 
 def checked_car(
-    kind: type[C], data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False
+    kind: type[C],
+    data: Mapping[str, Any],
+    folder: Path,
+    what: str,
+    *,
+    at_rest: bool = True,
+    warn: bool = False,
+    stacklevel: int = 4,
 ) -> C:
     """The car that the content of a file describes.
 
     `kind`: class of the car; `folder`: where its tables lie; `at_rest`: whether the car must be seen to come to rest;
-    `warn`: whether to warn of what is odd. Raises `CarFileError`: it does not describe a car.
+    `warn`: whether to warn of what is odd; `stacklevel`: of the warning, by default of who calls `mbs.vehicle.load`.
+    Raises `CarFileError`: it does not describe a car.
     """
     data, converted = of_this_version(data, what)
     try:
@@ -280,7 +288,7 @@ def checked_car(
         raise CarFileError(_told(what, faults))
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
         own = {name: port for name, port in data["ports"].items() if name != "tyre"}
-        checked_car(kind, {**data, "ports": own}, folder, what, warn=warn)
+        checked_car(kind, {**data, "ports": own}, folder, what, warn=warn, stacklevel=stacklevel + 1)
         return car
     if not at_rest:
         return car
@@ -303,7 +311,7 @@ def checked_car(
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         for sentence in (*converted, *misfit, *car_oddities(car, rest)):
-            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=4)
+            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
     return car
 
 

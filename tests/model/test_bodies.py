@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -119,3 +122,14 @@ def test_gravity_may_be_changed_and_is_checked():
     with pytest.raises(ModelError, match="gravity of model 'moon' has shape"):
         model.gravity = (0, 0, -9.81)
     assert model.gravity.tolist() == [0.0, -1.62]
+
+
+@pytest.mark.parametrize("copied", [pickle.dumps, copy.deepcopy, copy.copy])
+def test_a_model_is_not_copied_its_system_is(copied):
+    m, body = spatial_body()
+    with pytest.raises(TypeError, match="Model 'one body' cannot be copied or pickled: its parts hold functions"):
+        copied(m)
+    if copied is not copy.copy:
+        with pytest.raises(TypeError, match="Model 'one body' cannot be copied"):
+            copied(body)
+    assert copied(compile(m))

@@ -96,3 +96,15 @@ def test_the_loader_refuses_wrong_integers(place, value):
     arrays["sen_int"][first + place] = value
     with pytest.raises(KernelError, match="sen"):
         LoadedSystem(System(arrays, system.meta).to_bytes())
+
+
+@pytest.mark.parametrize("size", [1e-5, 1.0, 100.0])
+def test_points_of_a_small_body_are_not_taken_for_its_ports(size):
+    m = Model("small")
+    offset = np.array([0.3, -0.2, 0.1])
+    body = m.body("beam", mass=1.0, com=offset, inertia=np.full(3, size**2))
+    end = offset + np.array([size, 0.0, 0.0])
+    ports = m.ported(body, {"end": end})
+    beside = offset + np.array([1.01 * size, 0.0, 0.0])
+    assert ports.point(end + 1e-15).components == ports.point(end).components
+    assert ports.point(beside).components == body.point(beside).components != ports.point(end).components

@@ -248,9 +248,11 @@ def test_what_is_odd_is_told_and_made(case):
     assert load("prototype").changed(changes).name == "prototype"
 
 
-def test_a_user_is_warned_of_what_is_odd(copied):
+@pytest.mark.parametrize("ports", ["", '\n[ports]\ntyre = "hub"\n'])
+def test_a_user_is_warned_of_what_is_odd(copied, ports):
     file = copied()
-    file.write_text(file.read_text(encoding="utf-8").replace("stiffness = 12360.0", "stiffness = 9000.0"), "utf-8")
+    text = file.read_text(encoding="utf-8").replace("stiffness = 12360.0", "stiffness = 9000.0")
+    file.write_text(text + ports, "utf-8")
     with pytest.warns(CarWarning, match=r"car\.toml: at rest the front wheels stand 0\.\d+ m higher") as caught:
         load(file)
     assert caught[0].filename == __file__
