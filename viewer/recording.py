@@ -15,6 +15,7 @@ from viewer.thinning import chosen_times, largest_gap_of_motion
 
 MOST_TIMES = 5001  # 10 s in steps of 2 ms
 _TURN = 2.0 * np.pi
+_NAMED = 4  # columns with the same gaps; the others are counted
 _LARGEST = 1e30  # of a pose; pictures and glTF hold floats of 32 bits
 
 
@@ -184,13 +185,18 @@ class Recording:
         return frame | {"start": [first[:3], first[3:]]}
 
     def _note_gaps(self, names: Any) -> None:
-        gaps = {n: (bad.sum(), self.t[bad.argmax()]) for n in names if (bad := ~np.isfinite(self.columns[n])).any()}
-        for count, begin in dict.fromkeys(gaps.values()):
-            name, *others = [n for n in gaps if gaps[n] == (count, begin)]
-            who = f"columns '{name}' and {len(others)} more have each" if others else f"column '{name}' has"
+        gaps: dict[bytes, list[str]] = {}
+        for name in names:
+            if (bad := ~np.isfinite(self.columns[name])).any():
+                gaps.setdefault(bad.tobytes(), []).append(name)
+        for mask, who in gaps.items():
+            bad = np.frombuffer(mask, bool)
+            more = f" and {len(who) - _NAMED} more" if len(who) > _NAMED else ""
+            listed = ", ".join(f"'{name}'" for name in who[:_NAMED]) + more
             self.notes.append(
-                f"The {who} {count} of {len(self.t)} values that are no numbers, the first at {begin:g} s; there is "
-                "nothing drawn for them."
+                f"The column{'s' * (len(who) > 1)} {listed} {'have each' if len(who) > 1 else 'has'} {bad.sum()} of "
+                f"{len(self.t)} values that are no numbers, the first at {self.t[bad.argmax()]:g} s; there is nothing "
+                "drawn for them."
             )
 
     def _cut(self, name: str) -> None:

@@ -113,7 +113,7 @@ class BodyVocabulary(ModelCore):
             )
         if point is not None:
             drawn = self.expressions(point, f"The {what}").value(self.drawn())
-            if not same_place(drawn, place, float(np.linalg.norm(place - body.com))):
+            if not same_place(drawn, place, body.size_about(place)):
                 raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
             carrier = point
         else:  # the origin of a floating frame is no material point, a node is

@@ -25,7 +25,7 @@ def same_place(p: Vector, place: Vector, size: float) -> bool:
 
     `size`: of the body, m; the round-off of where the points lie is always admitted.
     """
-    round_off = 8.0 * float(np.finfo(float).eps) * float(np.abs(place).max())
+    round_off = 8.0 * float(np.finfo(float).eps) * max(size, float(np.abs([p, place]).max()))
     return bool(np.linalg.norm(p - place) <= max(SAME_PLACE * min(1.0, size), round_off))
 
 
@@ -156,6 +156,11 @@ class Body:
         return AffineVector(
             tuple([_affine([(i, origin), (i + 3, x), (i + 6, y), (i + 9, z[0])]) for i in (s, s + 1, s + 2)])
         )
+
+    def size_about(self, place: Vector) -> float:
+        """How large the body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m."""
+        turns = float(np.sqrt(np.trace(self.second_moment) / self.mass)) if self.mass else 0.0
+        return max(turns, float(np.linalg.norm(place - self.com))) or 1.0
 
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
         """Add a rigidly attached mass.

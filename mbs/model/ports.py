@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import Affine, AffineVector
@@ -52,6 +51,6 @@ class PortedBody(Body):
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:
-            if same_place(p, place, float(np.linalg.norm(place - self.com))):
+            if same_place(p, place, self.size_about(place)):
                 return free
         return super().point(p)

@@ -289,6 +289,8 @@ def checked_car(
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
         own = {name: port for name, port in data["ports"].items() if name != "tyre"}
         checked_car(kind, {**data, "ports": own}, folder, what, warn=warn, stacklevel=stacklevel + 1)
+        for sentence in converted if warn else ():
+            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
         return car
     if not at_rest:
         return car

@@ -104,7 +104,8 @@ def test_points_of_a_small_body_are_not_taken_for_its_ports(size):
     offset = np.array([0.3, -0.2, 0.1])
     body = m.body("beam", mass=1.0, com=offset, inertia=np.full(3, size**2))
     end = offset + np.array([size, 0.0, 0.0])
-    ports = m.ported(body, {"end": end})
+    ports = m.ported(body, {"end": end, "centre": offset})
     beside = offset + np.array([1.01 * size, 0.0, 0.0])
     assert ports.point(end + 1e-15).components == ports.point(end).components
+    assert ports.point(offset + 1e-15).components == ports.point(offset).components != body.point(offset).components
     assert ports.point(beside).components == body.point(beside).components != ports.point(end).components

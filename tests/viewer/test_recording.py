@@ -105,7 +105,7 @@ def test_columns_with_the_same_gaps_are_told_in_one_sentence() -> None:
     gaps, others = (np.where(end < TIMES, np.nan, 1.0) for end in (0.5, 1.0))
     notes = full(**{"body.x": gaps, "body.y": gaps, "body.z": others}).notes
     assert [note.partition(" values")[0] for note in notes] == [
-        "The columns 'body.x' and 1 more have each 15 of 21",
+        "The columns 'body.x', 'body.y' have each 15 of 21",
         "The column 'body.z' has 10 of 21",
     ]
 

@@ -47,8 +47,15 @@ class Compliance:
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
     """Compliance of both axles at the drawing, in SI units.
 
-    `fidelity`: of the chassis; by default its flexible frame with all static modes, where the car has one. Raises
-    `ModelError`: the car has no frame for the fidelity.
+    Parameters
+    ----------
+    fidelity : Fidelity, int or str, optional
+        Of the chassis; by default its flexible frame with all static modes, where the car has one.
+
+    Raises
+    ------
+    ModelError
+        The car has no frame for the fidelity.
     """
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)

@@ -1,4 +1,4 @@
-"""A rack by angle that is asked for by a port, has a table or friction, or moves suspensions without links."""
+"""A rack or arm by angle that is asked for by a port, has a table or friction, or moves suspensions without links."""
 
 from __future__ import annotations
 

@@ -10,8 +10,6 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.elements.coordinate_friction import CoordinateFriction
-from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.ends import End
 from mbs.model.joints.joint import Joint
 from mbs.model.mechanism import Mechanism
@@ -30,11 +28,12 @@ from mbs.vehicle.quantities import (
 )
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
+from mbs.vehicle.steering.driven_rack import column_friction
 from mbs.vehicle.steering.driver import WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
 from mbs.vehicle.steering.four_bar import FourBar
 from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import Steered
-from mbs.vehicle.steering.steering_section import COLUMN_STICK, SteeringSection
+from mbs.vehicle.steering.steering_section import SteeringSection
 
 LEAST_ARM, LEAST_LINK = 0.03, 0.1  # m
 LEAST_SINE = math.sin(math.radians(10.0))  # of angles that must stay open
@@ -215,9 +214,7 @@ class PitmanArm(SteeringSection):
             unit="rad",
         )
         if self.friction > 0.0:
-            wheel = DriveVocabulary.shaft(m, "steering wheel")
-            DriveVocabulary.drive(m, "steering column", wheel.affine * (1.0 / self.ratio), arm)
-            m.add(CoordinateFriction(self.friction, *COLUMN_STICK).record("steering friction", wheel.affine))
+            column_friction(m, arm, 1.0 / self.ratio, self.friction)
 
         def outputs() -> None:
             text = "angle of the Pitman arm, positive where it steers to the left"

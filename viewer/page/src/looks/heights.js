@@ -136,7 +136,7 @@ export function slickName(factor) {
 export function surfaceOf(scene) {
   const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
   if (terrain === undefined) {
-    const grid = (scene.roads ?? []).find(({ kind, frictions }) => kind === "grid" && frictions !== undefined);
+    const grid = (scene.roads ?? []).find(({ kind, frictions, axes }) => kind === "grid" && frictions !== undefined && axes === undefined); // else not along x and y
     if (grid === undefined) return () => "asphalt";
     const frictions = floats(grid.frictions);
     return (x, y) => slickName(frictions[nearest(grid, x, y)]);
