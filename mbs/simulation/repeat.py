@@ -63,6 +63,8 @@ class Repeats:
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
         Names of what is compared, by unit.
+    parts : int
+        By what the step is divided for the repeat with half of what was really made.
     unresolved : float
         The missed share above which steps do not resolve what changes the velocities.
     has_order : bool
@@ -131,7 +133,8 @@ class Repeats:
     def coarse(self) -> bool:
         """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
 
-        Where one misses as much as the one with four times its step, no step does: a guide whose rate jumps.
+        Where one misses as much as the one with four times its step, or as the run itself where that was not made, no
+        step does: a guide whose rate jumps.
         """
         missed = {parts: self._missed(run) for parts, run in self._finer.items()}
         own = self._missed(self.run)

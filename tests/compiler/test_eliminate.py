@@ -8,6 +8,7 @@ import pytest
 from mbs import ModelError
 from mbs.common.affine import Affine
 from mbs.compiler.eliminate import eliminate
+from mbs.compiler.polynomial import cleaned
 
 ROUND_OFF = 1e-10
 
@@ -66,3 +67,15 @@ def test_locked_coordinates_stay():
     assert 2 in result.remaining
     with pytest.raises(ModelError, match="guide"):
         eliminate(3, [("a", Affine({2: 1.0}, -0.3))], {2}, set())
+
+
+@pytest.mark.parametrize(("apart", "left"), [(1e-8, 0), (1e-12, 1)])
+def test_an_equation_is_another_until_its_difference_is_round_off(apart, left):
+    equations = [("a", Affine({0: 1.0, 1: -1.0})), ("b", Affine({0: 1.0, 1: apart - 1.0}))]
+    result = eliminate(2, equations, set(), set())
+    assert (len(result.remaining), result.redundant) == (left, left)
+
+
+@pytest.mark.parametrize(("coefficient", "terms"), [(1e-8, 1), (1e-12, 0)])
+def test_a_row_is_one_until_it_is_round_off_of_what_was_added(coefficient, terms):
+    assert len(cleaned({(0, -1): coefficient}, largest=(0.0, 1.0, 0.0))) == terms

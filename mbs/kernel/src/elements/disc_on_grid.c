@@ -64,7 +64,7 @@ static nearby at(const profile *p, double s) {
   return n;
 }
 
-/* Between two places where the distance falls and rises: false position with the weights of Anderson and Bjorck (BIT 13,
+/* Between two places where the distance falls and rises: false position with a weight after Anderson and Bjorck (BIT 13,
  * 1973, 253-264), and a half where three places have not halved the bracket. */
 static nearby refined(const profile *p, nearby low, nearby high) {
   double a = low.s, b = high.s, fa = low.rate, fb = high.rate, width = b - a;

@@ -18,7 +18,6 @@
 
 enum { MOST_CELLS = 400 }; /* looked at for a top */
 #define OVERSHOOT 0.35     /* a bicubic patch leaves the range of its values by less than this part of it */
-#define LEFT 0.5           /* the same of a patch whose slopes are limited: those of both directions add up */
 enum { AROUND = 6 };       /* points along a side of what slopes at the corners of a cell depend on */
 
 static int cell_of(double s, int n) { return s >= (double)(n - 1) ? n - 2 : s > 0.0 ? (int)s : 0; }
@@ -170,7 +169,7 @@ static void fill(const ali3_grid *g, ali3_cell *cell, int i0, int j0) {
       low = cell->z[i][j] < low ? cell->z[i][j] : low;
       high = cell->z[i][j] > high ? cell->z[i][j] : high;
     }
-  cell->least = low - LEFT * (high - low), cell->most = high + LEFT * (high - low);
+  cell->least = low - OVERSHOOT * (high - low), cell->most = high + OVERSHOOT * (high - low);
   if (!may_be_limited(g, (const double (*)[4])cell->z)) return;
   double around[AROUND][AROUND];
   block(g, i0 - 1, j0 - 1, AROUND, around[0]);
