@@ -75,7 +75,7 @@ def eliminate(
     >>> [(dict(e.terms), e.constant) for e in found.expressions]
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
-    rows = [_significant(e.terms, first, length) for _, e in equations]
+    rows = [dict(e.terms) for _, e in equations]
     largest = [_sizes(row, first, length) for row in rows]  # of each row, ever
     constants = [e.constant for _, e in equations]
     scale = max([1.0, *(abs(c) for c in constants)])
@@ -179,9 +179,3 @@ def _sizes(row: Mapping[int, float], first: set[int], length: float) -> tuple[fl
     return tuple(
         max((abs(v) * (unit if j in first else 1.0) for j, v in row.items()), default=0.0) for unit in (1.0, length)
     )
-
-
-def _significant(row: Mapping[int, float], first: set[int], length: float) -> dict[int, float]:
-    """Without coefficients that are round-off of its largest."""
-    one, other = (DROP * size for size in _sizes(row, first, length))
-    return {j: v for j, v in row.items() if abs(v) > one or abs(v) * (length if j in first else 1.0) > other}

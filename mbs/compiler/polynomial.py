@@ -101,13 +101,14 @@ def cleaned(p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0
     """Without coefficients that are round-off of the largest, for coordinates of 1 m and for those of `size`, m.
 
     Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
-    `largest`: what was added up, of each degree; all that is left of it may be round-off.
+    `largest`: what was added up, of each degree; all that is left of it, or beside `size`, may be round-off.
     """
     kept: set[Monomial] = set()
     for unit in {1.0, size}:
         by_degree = (1.0, unit, unit * unit)
         sizes = {m: abs(v) * by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
-        left, added = max(sizes.values(), default=0.0), max(v * w for v, w in zip(largest, by_degree, strict=True))
+        left = max(sizes.values(), default=0.0)
+        added = max(min(1.0, size) * min(by_degree), *(v * w for v, w in zip(largest, by_degree, strict=True)))
         if left > VANISHED * added:
             kept.update(m for m, v in sizes.items() if v > DROP * left)
     return {m: v for m, v in p.items() if m in kept}
