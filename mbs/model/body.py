@@ -158,7 +158,13 @@ class Body:
         )
 
     def size_about(self, place: Vector) -> float:
-        """How large the body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m."""
+        """How large the body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m.
+
+        Parameters
+        ----------
+        place : ndarray, shape (dimension,)
+            Earth axes in the reference configuration, m.
+        """
         turns = float(np.sqrt(np.trace(self.second_moment) / self.mass)) if self.mass else 0.0
         return max(turns, float(np.linalg.norm(place - self.com))) or 1.0
 
