@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from math import prod
+
 import numpy as np
 
 from mbs.common.checks import Vector
+from mbs.common.errors import ModelError
+from mbs.compiler.polynomial import RowTerms
 from mbs.model.body import Body
 from mbs.model.mechanism import Mechanism
 
 SPIN = 0.1
 """Radius of a wheel in parts of the length: its spin has no lever of its own."""
+EPS = float(np.finfo(float).eps)
+FAR = 1e-8
+"""Round-off of a square, in parts of that of the length, that moves a point by as much of the length."""
 SMALL = 1e-3
 """Length of a model, m, below which tolerances of the compiler are those of this length in parts of it."""
 
@@ -29,6 +37,26 @@ def drawn_length(model: Mechanism) -> float:
     widest = max((2.0 * _gyration(body) for body in model.bodies), default=0.0)
     found = max(extent, widest)
     return found if found > 0.0 else 1.0
+
+
+def check_near(model: Mechanism, rows: Sequence[RowTerms], kinds: Sequence[str], length: float) -> None:
+    """Raises `ModelError`: the model is drawn so far from the origin that squares of its coordinates lose its shape.
+
+    `kinds`: of the coordinates z of the rows; `length`: of the model as drawn, m.
+    """
+    points = [p for body in (model.ground, *model.bodies) for p in _points(body)]
+    far = max((float(np.linalg.norm(p)) for p in points), default=0.0)
+    if far <= max(1.0, length):
+        return
+    sizes = [far if kind == "point" else 1.0 for kind in kinds]
+    for row in rows:
+        largest = max((abs(v) * prod(sizes[i] for i in m if i >= 0) for m, v in row.main.items()), default=0.0)
+        if EPS * largest > FAR * length**2:
+            raise ModelError(
+                f"The model '{model.name}' lies {far:.3g} m from the origin, {far / length:.3g} times its length: the "
+                f"squares of coordinates that '{row.name}' needs are good to {EPS * largest:.2g} m2 there. Draw it "
+                "nearer to the origin."
+            )
 
 
 def fineness(length: float) -> float:

@@ -16,7 +16,7 @@ from mbs.compiler.armatures import armature_arrays
 from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
-from mbs.compiler.extent import coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
+from mbs.compiler.extent import check_near, coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
 from mbs.compiler.flexible import (
     deformation_metric,
     flexible_arrays,
@@ -119,6 +119,7 @@ def compiled(
         row.switch = -1 if switch is None else switch.index
     candidates += left
     candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
+    check_near(model, candidates, [natural.info[k].kind for k in remaining], size)
     rows, dependent = independent_rows(candidates, joints_of_bodies(model), size)
     if not remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")

@@ -117,3 +117,27 @@ def test_a_slide_that_swings_has_two_freedoms(size):
     m.revolute("pin", m.ground, arm, point=(0.0, 0.0, 0.0), axis=(1.0, 0.2, 0.0))
     m.prismatic("slide", arm, block, axis=(0.0, 0.0, 1.0))
     assert compile(m).report["degrees_of_freedom"] == 2
+
+
+def test_a_loop_that_is_drawn_too_far_from_the_origin_is_refused() -> None:
+    """At 5e6 m it ran, with a point 2.5e6 m away from where it was drawn; at 1e5 m no joint was named."""
+    ends = []
+    for far in (0.0, 1e2, 1e3):
+        ends.append(simulate(compile(_four_bar_at(far)), 0.4, 0.001, progress=False)["y"][-1] - far)
+    assert ends == pytest.approx([ends[0]] * 3, abs=1e-9)
+    for far in (1e4, 1e5, 5e6):
+        with pytest.raises(ModelError, match=r"lies .* m from the origin, .* Draw it nearer"):
+            compile(_four_bar_at(far))
+
+
+def _four_bar_at(far: float) -> Model:
+    m = Model("four-bar", dimension=2)
+    at = np.array([far, far])
+    a = m.body("a", mass=1.0, com=at + [0.0, 0.25], inertia=0.02)
+    b = m.body("b", mass=2.0, com=at + [0.5, 0.5], inertia=0.2)
+    c = m.body("c", mass=1.0, com=at + [1.1, 0.25], inertia=0.03)
+    joints = ((m.ground, a, [0.0, 0.0]), (a, b, [0.0, 0.5]), (b, c, [1.0, 0.5]), (c, m.ground, [1.2, 0.0]))
+    for k, (first, second, point) in enumerate(joints):
+        m.revolute(str(k), first, second, point=at + point)
+    m.sense_position("y", b, at + [0.5, 0.5], "y")
+    return m
