@@ -8,6 +8,9 @@ import pytest
 import mbs
 from benchmarks.methods import random_honesty, random_machines
 from benchmarks.references.masses_on_a_line import INSTANTS, Friction, Link, Machine, motion
+from benchmarks.references.newton_euler import NoReferenceError
+
+MOST = 4  # draws of a kind, of which the first with a reference is taken
 
 
 def test_a_mass_comes_back_from_a_wall_as_half_a_sine():
@@ -42,16 +45,26 @@ def test_a_braked_mass_slides_to_rest():
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", random_machines.KINDS)
 def test_the_engine_in_fine_steps_moves_as_the_reference(kind):
-    d = random_machines.KINDS[kind](np.random.default_rng([5, 0]))
-    found, n = motion(d), 1000
+    d, found = next(filter(None, map(_with_reference, (random_machines.KINDS[kind],) * MOST, range(MOST))))
+    n = 1000
     system = mbs.compile(random_machines.model_of(d))
     run = mbs.simulate(system, d.span, d.span / INSTANTS / n, every=n, estimate_error=False, progress=False)
     for i in set(range(len(d.masses))) - set(d.driven):
         assert np.abs(run[f"x{i}"] - found[:, i]).max() < 1e-3 * np.ptp(found[:, i])
 
 
+def _with_reference(draw, number):
+    """A machine and its motion; None: its contacts leave the two references more than a ten-thousandth apart."""
+    machine = draw(np.random.default_rng([5, number]))
+    try:
+        return machine, motion(machine)
+    except NoReferenceError:
+        return None
+
+
 @pytest.mark.slow
 def test_machines_are_judged():
     rows = list(random_honesty.rows_of(101, [0, 1], "machines"))
+    assert len(rows) == 4  # each in steps and under a tolerance
     assert {r["class"] for r in rows} <= set(random_machines.KINDS)
     assert {r["verdict"] for r in rows} <= {"right", "wrong, told"}
