@@ -132,12 +132,12 @@ def test_a_loop_that_is_drawn_too_far_from_the_origin_is_refused() -> None:
 
 def _four_bar_at(far: float) -> Model:
     m = Model("four-bar", dimension=2)
-    at = np.array([far, far])
-    a = m.body("a", mass=1.0, com=at + [0.0, 0.25], inertia=0.02)
-    b = m.body("b", mass=2.0, com=at + [0.5, 0.5], inertia=0.2)
-    c = m.body("c", mass=1.0, com=at + [1.1, 0.25], inertia=0.03)
+    at = [far, far]
+    a = m.body("a", mass=1.0, com=np.add(at, [0.0, 0.25]), inertia=0.02)
+    b = m.body("b", mass=2.0, com=np.add(at, [0.5, 0.5]), inertia=0.2)
+    c = m.body("c", mass=1.0, com=np.add(at, [1.1, 0.25]), inertia=0.03)
     joints = ((m.ground, a, [0.0, 0.0]), (a, b, [0.0, 0.5]), (b, c, [1.0, 0.5]), (c, m.ground, [1.2, 0.0]))
     for k, (first, second, point) in enumerate(joints):
-        m.revolute(str(k), first, second, point=at + point)
-    m.sense_position("y", b, at + [0.5, 0.5], "y")
+        m.revolute(str(k), first, second, point=np.add(at, point))
+    m.sense_position("y", b, np.add(at, [0.5, 0.5]), "y")
     return m
