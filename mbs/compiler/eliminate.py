@@ -13,13 +13,12 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
+from mbs.compiler.polynomial import VANISHED
 
 PIVOT_THRESHOLD = 0.1
 """A pivot is at least this part of the largest entry of its row."""
 DROP = 1e-12
 """A sum smaller than this part of its terms is a zero."""
-VANISHED = 1e-10
-"""An equation with no coefficient left above this part of its largest ever has become empty."""
 CONSISTENT = 1e-9
 """Largest mismatch, relative to the size of the constants (at least 1 m), of a redundant linear equation."""
 
@@ -76,7 +75,7 @@ def eliminate(
     [({0: 1.0}, -0.5), ({0: 1.0}, 0.0), ({0: 2.0}, 0.0)]
     """
     rows = [dict(e.terms) for _, e in equations]
-    largest = [_sizes(row, first, length) for row in rows]  # of each row, ever
+    largest: list[tuple[float, ...]] = [(0.0, 0.0)] * len(rows)  # of each row, as long as it is not solved
     constants = [e.constant for _, e in equations]
     scale = max([1.0, *(abs(c) for c in constants)])
     users: list[set[int]] = [set() for _ in range(n)]
@@ -102,6 +101,7 @@ def eliminate(
     def offer(i: int) -> bool:
         """Queue an unsolved row; an empty one is checked. True if it was redundant."""
         now = _sizes(rows[i], first, length)
+        largest[i] = tuple(map(max, largest[i], now))
         if rows[i] and all(size <= VANISHED * most for size, most in zip(now, largest[i], strict=True)):
             for j in rows[i]:
                 users[j].discard(i)
@@ -151,7 +151,6 @@ def eliminate(
                     del other[j]
                     users[j].discard(k)
             constants[k] -= f * constants[i]
-            largest[k] = tuple(map(max, largest[k], _sizes(other, first, length)))
             if k not in solved and offer(k):
                 empty.add(k)
         users[pivot] = {i}

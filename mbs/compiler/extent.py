@@ -32,7 +32,7 @@ def drawn_length(model: Mechanism) -> float:
 
     A single body without joints has twice its radius of gyration; where nothing has an extent the length is 1 m.
     """
-    points = [p for body in (model.ground, *model.bodies) for p in _points(body)]
+    points = _all_points(model)
     extent = float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
     widest = max((2.0 * _gyration(body) for body in model.bodies), default=0.0)
     found = max(extent, widest)
@@ -44,8 +44,7 @@ def check_near(model: Mechanism, rows: Sequence[RowTerms], kinds: Sequence[str],
 
     `kinds`: of the coordinates z of the rows; `length`: of the model as drawn, m.
     """
-    points = [p for body in (model.ground, *model.bodies) for p in _points(body)]
-    far = max((float(np.linalg.norm(p)) for p in points), default=0.0)
+    far = max((float(np.linalg.norm(p)) for p in _all_points(model)), default=0.0)
     if far <= max(1.0, length):
         return
     sizes = [far if kind == "point" else 1.0 for kind in kinds]
@@ -80,6 +79,10 @@ def unit_vectors(model: Mechanism, numbers: list[int]) -> list[bool]:
     return [k in axes for k in numbers]
 
 
+def _all_points(model: Mechanism) -> list[Vector]:
+    return [p for body in (model.ground, *model.bodies) for p in _points(body)]
+
+
 def _points(body: Body) -> list[Vector]:
     if body.flexibility is not None:
         return list(body.flexibility.nodes)
@@ -88,6 +91,4 @@ def _points(body: Body) -> list[Vector]:
 
 
 def _gyration(body: Body) -> float:
-    if body.is_point or body.flexibility is not None or not body.mass:
-        return 0.0
-    return float(np.sqrt(np.trace(body.second_moment) / body.mass))
+    return 0.0 if body.is_point or body.flexibility is not None else body.gyration

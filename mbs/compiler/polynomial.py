@@ -18,7 +18,8 @@ RateTerms = dict[tuple[int, int], float]
 DROP = 1e-12
 """A coefficient smaller than this part of the largest of its row is a zero."""
 VANISHED = 1e-10
-"""A row of which nothing is larger than this part of what was added up is none; far from the origin more is left."""
+"""A row of which nothing is larger than this part of what was added up, or of its largest ever, is none; far from the
+origin more is left."""
 
 
 @dataclass

@@ -18,7 +18,7 @@ from mbs.common.checks import (
     vector,
 )
 from mbs.common.errors import ModelError
-from mbs.model.body import Body, Ground, same_place
+from mbs.model.body import Body, Ground, same_place, size_about
 from mbs.model.carried import Payload, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.inertia import inertia_matrix
@@ -113,7 +113,7 @@ class BodyVocabulary(ModelCore):
             )
         if point is not None:
             drawn = self.expressions(point, f"The {what}").value(self.drawn())
-            if not same_place(drawn, place, body.size_about(place)):
+            if not same_place(drawn, place, size_about(body, place)):
                 raise ModelError(f"The {what} is at {place.tolist()}, but its point is drawn at {drawn.tolist()}.")
             carrier = point
         else:  # the origin of a floating frame is no material point, a node is

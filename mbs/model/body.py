@@ -29,6 +29,11 @@ def same_place(p: Vector, place: Vector, size: float) -> bool:
     return bool(np.linalg.norm(p - place) <= max(SAME_PLACE * min(1.0, size), round_off))
 
 
+def size_about(body: Body, place: Vector) -> float:
+    """How large a body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m."""
+    return max(body.gyration, float(np.linalg.norm(place - body.com))) or 1.0
+
+
 class Body:
     """A rigid body; made by `Model.body`.
 
@@ -157,16 +162,10 @@ class Body:
             tuple([_affine([(i, origin), (i + 3, x), (i + 6, y), (i + 9, z[0])]) for i in (s, s + 1, s + 2)])
         )
 
-    def size_about(self, place: Vector) -> float:
-        """How large the body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m.
-
-        Parameters
-        ----------
-        place : ndarray, shape (dimension,)
-            Earth axes in the reference configuration, m.
-        """
-        turns = float(np.sqrt(np.trace(self.second_moment) / self.mass)) if self.mass else 0.0
-        return max(turns, float(np.linalg.norm(place - self.com))) or 1.0
+    @property
+    def gyration(self) -> float:
+        """Polar radius of gyration about the centre of mass, m; 0 without mass."""
+        return float(np.sqrt(np.trace(self.second_moment) / self.mass)) if self.mass else 0.0
 
     def add_mass(self, mass: float, centre: Vector, second_moment: NDArray[np.float64]) -> None:
         """Add a rigidly attached mass.

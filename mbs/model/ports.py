@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
-from mbs.model.body import Body, same_place
+from mbs.model.body import Body, same_place, size_about
 from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors
 
@@ -51,6 +51,6 @@ class PortedBody(Body):
         """
         p = vector(position, self.dimension, f"a point of body '{self.name}'")
         for place, free in self._points:
-            if same_place(p, place, self.size_about(place)):
+            if same_place(p, place, size_about(self, place)):
                 return free
         return super().point(p)

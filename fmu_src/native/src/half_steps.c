@@ -1,7 +1,7 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
- * what follows is made a second time, until both agree for 0.4 s or what that may cost is spent, with half of a short step and down to an eighth of a
- * long one: what both differ by is the error of the step. A run without either, or that has been told of one, pays
- * nothing. The other motion is a snapshot of the same instance. */
+ * what follows is made a second time, until both agree for 0.4 s or what that may cost is spent, with half of a short
+ * step and down to an eighth of a long one: what both differ by is the error of the step. A run without either, or that
+ * has been told of one, pays nothing. The other motion is a snapshot of the same instance. */
 #include <math.h>
 #include <string.h>
 
