@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
+from typing import Any
+from unittest.mock import patch
 
+from docutils import nodes
+from sphinx import addnodes
 from sphinx.application import Sphinx
 
 ROOT = Path(__file__).parents[2]
@@ -39,7 +44,37 @@ def _target(file: Path, link: str) -> str:
     return seen + mark + anchor
 
 
+def with_short_menu(app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: object) -> None:
+    """Make the menu from titles: Sphinx copies all headings and objects of each page for each page, and drops them."""
+    whole = context["toctree"]
+
+    def menu(**options: Any) -> str:
+        if not options.get("titles_only"):
+            return whole(**options)
+        with patch.object(app.env, "tocs", _titles(app)):
+            return whole(**options)
+
+    context["toctree"] = menu
+
+
+@cache
+def _titles(app: Sphinx) -> dict[str, nodes.bullet_list]:
+    return {page: _title(toc) for page, toc in app.env.tocs.items()}
+
+
+def _title(toc: nodes.bullet_list) -> nodes.bullet_list:
+    """What a menu of titles keeps of a page's contents."""
+    kept = toc.copy()
+    for entry in toc.children:
+        kept += nodes.list_item("", *(part.deepcopy() for part in entry[:1]))
+        below = [tree.deepcopy() for tree in entry.findall(addnodes.toctree)]
+        if below:
+            kept[-1] += nodes.bullet_list("", *below)
+    return kept
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Register the hook."""
+    """Register the hooks."""
     app.connect("source-read", with_file)
+    app.connect("html-page-context", with_short_menu, priority=400)  # before the theme asks for the menu
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -13,6 +13,7 @@ import pytest
 from benchmarks import fmu
 from benchmarks.car import road_port_cost
 from benchmarks.car.road_port_steps import ANSWER, answers, height
+from tests.vehicle.rigid_car import rigid_car
 
 SCENE = Path(__file__).parents[2] / "examples" / "motor_pendulum.py"
 
@@ -53,6 +54,6 @@ def test_cars_on_a_road_of_their_own_and_at_road_ports_make_the_steps_that_are_c
         return 500 + (1300 if "ported" in command[-3] else 1000) * int(command[-1])
 
     monkeypatch.setattr(road_port_cost, "instructions", counted)
-    rows = road_port_cost.measure("prototype", 2, tmp_path)
+    rows = road_port_cost.measure(str(rigid_car("hatchback", tmp_path / "hatchback")), 2, tmp_path)
     assert [row["own road"] for row in rows] == [1000, 1000]
     assert [row["ratio"] for row in rows] == [1.3, 1.3]

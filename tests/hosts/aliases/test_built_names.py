@@ -16,7 +16,6 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
-from hosts.fmu.built_fmu import build_fmu
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
@@ -24,6 +23,7 @@ from hosts.run.command import main as run
 from hosts.view.recorded import read_table
 from hosts.view.view_sources import RunWishes, recordings_of
 from tests.hosts.plant.conftest import Made
+from tests.in_process import build_fmu
 
 NAMES = (
     *("chassis.x", "chassis.yaw", "chassis.roll", "chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "sideslip"),
@@ -67,7 +67,7 @@ def ported_fmu(made_once: Made, names: str | None) -> Path:
     """The rigid prototype with ports, under the names of another program or ours."""
     options = ("--car", "prototype", "--fidelity", "0", "--ports", "torque,brakes,road,forces")
     options += () if names is None else ("--names", names)
-    return next(made_once(f"ported_{names}", lambda folder: build_fmu("a car", options, folder)).glob("*.fmu"))
+    return next(made_once(f"ported_{names}", lambda folder: build_fmu(folder, *options)).glob("*.fmu"))
 
 
 def ported(fmu: Path, names: str | None) -> Result:

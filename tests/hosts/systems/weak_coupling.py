@@ -7,12 +7,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 from matplotlib.figure import Figure
 from pythonfmu import FmuBuilder
 
 import mbs
+from hosts.fmu import built_fmu
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.systems import CoupledFmus
 from hosts.systems.coupled import Inputs, Order
@@ -20,6 +22,7 @@ from mbs.vehicle import load
 from tests.hosts.systems import trailer
 from tests.hosts.systems.fmus.second_road import ANSWER
 from tests.hosts.systems.fmus.second_tyres import READ
+from tests.in_process import build_fmu
 from tests.vehicle import test_road_port
 from tests.vehicle.rigid_car import rigid_car
 from tests.vehicle.second_tyres import HUB
@@ -90,8 +93,12 @@ def partner_fmu(name: str) -> Path:
 
 @cache
 def car_fmu(car: str, ports: str | None) -> Path:
-    """The car without its flexible frame, with its ports; kept."""
-    with tempfile.TemporaryDirectory() as folder:
+    """The car without its flexible frame, with its ports; kept, and built in this process."""
+
+    def build(what: str, options: tuple[str, ...], place: Path) -> None:
+        build_fmu(place, *options)
+
+    with tempfile.TemporaryDirectory() as folder, patch.object(built_fmu, "build_fmu", build):
         file = rigid_car(car, Path(folder) / car)
         return fmu_of_car(str(file), lambda text: None, ports=ports)
 
