@@ -99,7 +99,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
 
 
 def check_begin(first: float, last: float, path: Path) -> None:
-    """Refuse a table with times, s, before 0 or so large, as since 1970, that they cannot tell one row from the next."""
+    """Refuse a table with times, s, before 0 or so large, as those since 1970, that rows are not told apart."""
     if first < 0.0:
         raise HostError(f"{path} begins at {first:g} s; a run begins at 0: add {-first:g} s to all its times.")
     if last > _LATEST:

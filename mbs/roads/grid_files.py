@@ -115,9 +115,8 @@ def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[floa
     off = np.abs(values - (values[0] + spacing * np.arange(len(values))))
     k = int(np.argmax(off))
     if not off[k] <= REGULAR * spacing + 1e-12 * float(np.abs(values).max()):
-        raise RoadFileError(
-            f"{path}: the coordinates {name} are not regular: {values[k]:.12g} should be {values[0] + spacing * k:.12g}."
-        )
+        meant = values[0] + spacing * k
+        raise RoadFileError(f"{path}: the coordinates {name} are not regular: {values[k]:.12g} should be {meant:.12g}.")
     return float(values[0]), spacing
 
 
