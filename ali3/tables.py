@@ -40,8 +40,8 @@ class Row(NamedTuple):
 class TextTable:
     """A table of text, read once from its beginning.
 
-    Empty lines and lines that begin with ``#`` are left out. Cells are divided by semicolons, tabs or commas, whichever
-    the first line has; behind semicolons a comma may be the decimal mark. A cell in quotation marks may hold
+    Empty lines and lines that begin with ``#`` are left out. Cells are divided by semicolons, tabs or commas, the first
+    of these that the first line has; but for commas a comma may be the decimal mark. A cell in quotation marks may hold
     the mark, not the end of a line. All lines have as many cells as the first.
 
     Parameters
@@ -95,7 +95,7 @@ class TextTable:
         bare = re.sub(r'"[^"]*"', "", self._first[1])  # a name in quotation marks may have any mark
         mark = next((mark for mark in _MARKS if mark in bare), None)
         self._mark = mark if mark is not None or headed is not False else " "
-        self.decimal = "," if self._mark == ";" else ""
+        self.decimal = "," if self._mark in (";", "\t") else ""
         cells = self._cells(*self._first)
         self.width = len(cells)
         if headed or (headed is None and not is_number(cells[0], self.decimal)):

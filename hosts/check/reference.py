@@ -23,7 +23,7 @@ from hosts.common.options import Wishes
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.manoeuvre_table import read_table
+from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.run_with_bar import run_with_bar
@@ -170,6 +170,7 @@ def _read(
     columns = {n: values[:, k] for k, n in enumerate(table.names) if n in outputs}
     if not columns:
         raise HostError(f"{file} has no column that is an output of {fmu.path.name}; there is nothing to compare.")
+    check_begin(values[0, 0], values[-1, 0], file)
     if not values[-1, 0] > 0.0:
         raise HostError(f"{file} ends at {values[-1, 0]:g} s; a reference goes on after 0 s.")
     return driven, values[:, 0], columns, [n for n in table.names[1:] if n not in drives | outputs]
@@ -187,8 +188,6 @@ def _step(fmu: Fmu, driven: Manoeuvre, times: NDArray[np.float64], file: Path) -
 def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
     if not step > 0.0:
         raise HostError(f"The step is {step:g} s; it must be positive.")
-    if times[0] < 0.0:
-        raise HostError(f"{file} begins at {times[0]:g} s; a run begins at 0: add {-times[0]:g} s to all its times.")
     off = np.abs(times / step - np.round(times / step))
     worst = int(np.argmax(off))
     if off[worst] > _ROUND_OFF:

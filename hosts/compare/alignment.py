@@ -58,9 +58,12 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     pairs = [(s, c) for s, c in pairs if not is_constant(s.values) and not is_constant(c(s.time))]
     if not pairs:
         return Alignment(*5 * (math.nan,), "no signal moves in both")
-    coarse, peak, other = _coarse(pairs, longest)
+    coarse, peak, other, level = _coarse(pairs, longest)
     if peak < _LEAST_CORRELATION:
         return Alignment(*4 * (math.nan,), peak, f"at best the signals correlate by {peak:.2f}: no delay can be told")
+    if level:
+        words = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
+        return Alignment(*4 * (math.nan,), peak, words)
     fine = _fine(pairs, coarse, drift)
     if drift and not fine.has_drift:  # which has taken a part of the delay
         alone = _fine(pairs, coarse, False)
@@ -72,8 +75,11 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     return replace(fine, note=note)
 
 
-def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[float, float, float | None]:
-    """Delay at whole samples, mean correlation there, and another delay that is nearly as good."""
+def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[float, float, float | None, bool]:
+    """Delay at whole samples, mean correlation there, another delay that is nearly as good, and whether all are.
+
+    The last is judged where the log is too short for all delays that were to be looked for.
+    """
     begin, end = min(s.time[0] for s, _ in pairs), max(s.time[-1] for s, _ in pairs)
     interval = max(min(s.interval for s, _ in pairs), (end - begin) / _MOST_POINTS)
     lags = np.zeros(0)
@@ -93,7 +99,8 @@ def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[floa
     peaks, _ = sp.find_peaks(total)
     rivals = [k for k in peaks if abs(lags[k] - lags[best]) > 2 and total[k] > total[best] - _AMBIGUOUS]
     rival = float(interval * lags[min(rivals, key=lambda k: abs(lags[k]))]) if rivals else None
-    return float(interval * lags[best]), float(total[best]), rival
+    level = bool(lags[-1] < int(longest / interval) and total.min() > total[best] - _AMBIGUOUS)
+    return float(interval * lags[best]), float(total[best]), rival, level
 
 
 def _correlations(

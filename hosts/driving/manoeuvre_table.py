@@ -13,10 +13,12 @@ from ali3.tables import HEADING, TextTable
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
-from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.run_record import record_of, rows_before_jumps
 from hosts.driving.state_file import read_state
 
+# s: later times, as double numbers, may be farther apart than `ON_TIME`.
+_LATEST = ON_TIME * 2.0**52
 # What a page says of a table whose oldest rows it has forgotten.
 _CUT = re.compile("the first .* s are not in this table")
 
@@ -51,10 +53,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
     if not rows:
         raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
-    if rows[0][0] < 0.0:
-        raise HostError(
-            f"{path} begins at {rows[0][0]:g} s; a run begins at 0: add {-rows[0][0]:g} s to all its times."
-        )
+    check_begin(rows[0][0], rows[-1][0], path)
     record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
     step, given = record.step, dict[str, Value]()
@@ -97,6 +96,17 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     return Manoeuvre(
         path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step
     )
+
+
+def check_begin(first: float, last: float, path: Path) -> None:
+    """Refuse a table with times, s, before 0 or so large, as those since 1970, that rows are not told apart."""
+    if first < 0.0:
+        raise HostError(f"{path} begins at {first:g} s; a run begins at 0: add {-first:g} s to all its times.")
+    if last > _LATEST:
+        raise HostError(
+            f"{path} goes from {first:.15g} to {last:.15g} s; a run begins at 0 and ends before {_LATEST:.2g} s: take "
+            "the first time from all, and write them in s."
+        )
 
 
 def _assign(given: dict[str, Value], parts: Iterable[str], where: str) -> None:

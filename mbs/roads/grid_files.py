@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ali3.errors import reason
 from ali3.extras import missing_package
 from ali3.reading import check_file
-from ali3.tables import Row, TextTable, is_number
-from ali3.words import one_line
+from ali3.tables import HEADING, Row, TextTable, is_number
+from ali3.words import brief, one_line
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
 
@@ -78,6 +78,9 @@ def _table(file: Path) -> Grid:
     begins = [row.line for row in rows if not is_number(row.cells[0], table.decimal)]
     if not begins or begins[0] != rows[0].line:
         return Grid(np.array([table.numbers(row) for row in rows]))
+    corner = HEADING.fullmatch(rows[0].cells[0])
+    if corner and corner["unit"] != "m":
+        raise RoadFileError(f"{file}: its first cell is {brief(corner[0])}; coordinates and heights must be in m.")
     if len(begins) > 2:
         raise RoadFileError(f"{file}, line {begins[2]} begins a third table; there are heights and frictions.")
     second = begins[1] if len(begins) > 1 else math.inf
@@ -112,9 +115,8 @@ def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[floa
     off = np.abs(values - (values[0] + spacing * np.arange(len(values))))
     k = int(np.argmax(off))
     if not off[k] <= REGULAR * spacing + 1e-12 * float(np.abs(values).max()):
-        raise RoadFileError(
-            f"{path}: the coordinates {name} are not regular: {values[k]:g} should be {values[0] + spacing * k:g}."
-        )
+        meant = values[0] + spacing * k
+        raise RoadFileError(f"{path}: the coordinates {name} are not regular: {values[k]:.12g} should be {meant:.12g}.")
     return float(values[0]), spacing
 
 

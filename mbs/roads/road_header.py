@@ -72,9 +72,11 @@ class Header:
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
-        """The header as it stands in the file."""
+        """The header as it stands in the file. Raises `RoadFileError` where no reader takes it."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
+        if problem := _problem(int(self.kind), self.nx, self.ny, *tile, self.real):
+            raise RoadFileError(f"The road cannot be written: {problem}.")
         data = bytearray(HEADER.pack(MAGIC, self.version, 0, *fields, *tile, *self.real, 0.0))
         data[12:16] = struct.pack("<I", zlib.crc32(data[CHECKED_FROM:]))
         return bytes(data)
@@ -107,8 +109,8 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
     """What is wrong with the numbers of a header, as the kernel judges them; empty if nothing is."""
     if not RoadType.PLANE <= kind <= RoadType.GRID:
         return f"{kind} is no kind of road"
-    if not all(abs(x) <= ROAD_FARTHEST for x in real):
-        return "a number in its header is not finite or beyond 1e8"
+    if wrong := [x for x in real if not abs(x) <= ROAD_FARTHEST]:
+        return f"a number in its header, {wrong[0]:g}, is not finite or beyond 1e8"
     if not 0.0 <= real[3 if kind == RoadType.PLANE else 4] <= ROAD_FRICTION:
         return f"its friction lies outside 0 to {ROAD_FRICTION:g}"
     if kind == RoadType.KERB and not (real[2] > 0.0 and real[3] in (-1.0, 1.0)):

@@ -90,7 +90,7 @@ def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
     lines = [f"grid of {heights.shape[0]} x {heights.shape[1]} points"]
     for k, name in enumerate("xy"):
         last = road.origin[k] + road.spacing[k] * (heights.shape[k] - 1)
-        lines.append(f"{name}: {road.origin[k]:g} to {last:g} m, every {road.spacing[k]:g} m")
+        lines.append(f"{name}: {road.origin[k]:.9g} to {last:.9g} m, every {road.spacing[k]:g} m")
     slope = max(float(np.abs(np.diff(heights, axis=k)).max()) / road.spacing[k] for k in range(2))
     lines.append(f"heights: {heights.min():.4g} to {heights.max():.4g} m, steepest {100.0 * slope:.3g} %")
     lines.append(f"frictions: {frictions.min():g} to {frictions.max():g}")

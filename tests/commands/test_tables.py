@@ -22,6 +22,7 @@ def table(folder: Path, text: str | bytes, **options: bool) -> TextTable:
     [
         "time [s],u [m/s]\n0,1.5\n-2e-3,.25\n",
         "\ufefftime [s];u [m/s]\r\n0;1,5\r\n-2e-3;,25\r\n",
+        "time [s]\tu [m/s]\n0\t1,5\n-0,002\t,25\n",
         "# of a logger\n\n time [s] \tu [m/s]\n0\t1.5\n # between\n-0.002\t+0.25",
         '"time [s]","u [m/s]"\n"0", "1.5"\n-0.002,0.25\n\n',
     ],
@@ -72,7 +73,7 @@ def test_a_table_without_names(tmp_path: Path) -> None:
         ("a,b\n1,-inf\n", "t.csv, line 2, column 'b': '-inf' is not a finite number."),
         ("a,b\n1,1e999\n", "t.csv, line 2, column 'b': '1e999' is not a finite number."),
         ("a;b\n1;1.234,5\n", "t.csv, line 2, column 'b': '1.234,5' is not a number."),
-        ("a\tb\n1\t1,5\n", "t.csv, line 2, column 'b': '1,5' is not a number."),
+        ("a\tb\n1\t1,5,5\n", "t.csv, line 2, column 'b': '1,5,5' is not a number."),
         ('a,b\n1,"2\n', "t.csv, line 2: this is no line of a CSV file: unexpected end of data."),
         (f"a\n{1001 * '1'}\n", "t.csv, line 2: a cell has 1001 characters; a number or a name has at most 1000."),
         (b"a\n1\0\n", "t.csv is no text: there is a zero byte in line 2."),

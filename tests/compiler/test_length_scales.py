@@ -34,6 +34,19 @@ def test_the_period_of_a_pendulum_is_that_of_the_closed_form(size):
         assert np.ptp(run["x"]) / size == pytest.approx(2.0 * np.sin(SWING), abs=1e-4)
 
 
+@pytest.mark.parametrize("size", [1e7, 1e8])
+def test_a_start_that_closes_to_round_off_is_one(size):
+    """2e-16 of 1e8 m is more than the nanometre to which smaller things are closed."""
+    m = Model("pendulum", dimension=2, gravity=(0.0, -9.81))
+    com = (0.6 * size, -0.8 * size)
+    rod = m.body("rod", mass=1.0, com=com, inertia=size**2 / 12.0)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    m.sense_position("x", rod, com, "x")
+    period = 4.0 * np.sqrt(13.0 / 12.0 * size / 9.81) * ellipk(np.sin(np.arctan2(0.6, 0.8) / 2.0) ** 2)
+    run = simulate(compile(m), 0.5 * period, period / 4000.0)
+    assert run["x"][-1] / size == pytest.approx(-0.6, abs=1e-6)
+
+
 def test_a_stated_length_is_that_of_errors_only():
     """What is round-off in a condition follows from the drawing."""
     model, other = slider_crank.build(), slider_crank.build()

@@ -186,6 +186,11 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
         ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
         ('"time","bob.x"\n0,0\n', (), "a reference goes on after 0 s"),
         ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is no communication"),
+        (
+            '"time","bob.x"\n1.7e12,0\n1700000003000,0\n',
+            (),
+            "goes from 1700000000000 to 1700000003000 s; a run begins at 0",
+        ),
         ('"time","bob.x"\n-2,0\n1,0\n', (), "begins at -2 s; a run begins at 0: add 2 s to all its times"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--bound", "bob.z=1"), "--bound bob.z:"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters does not go with --reference"),

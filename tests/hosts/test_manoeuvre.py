@@ -109,6 +109,10 @@ def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:
         ('"time","u","u"\n0,0,0\n', r"has the column 'u' twice"),
         ('"time [s]","u"\n0,0\n1,1\n', r"the heading 'time \[s\]' has a unit; here it is 'time' alone"),
         ('"time","u [kN]"\n0,0\n1,1\n', r"the heading 'u \[kN\]' has a unit; here it is 'u' alone"),
+        (
+            '"time","u"\n1.7e9,0\n1700000003,1\n',
+            r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends before",
+        ),
         ('"time","u"\n-1,0\n1,1\n', r"begins at -1 s; a run begins at 0: add 1 s to all its times"),
         ('"time"\n0\n', r"the heading is 'time'; it must be"),
         ('"time","u"\n', r"holds no values"),

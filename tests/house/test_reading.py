@@ -10,21 +10,21 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 42214,
+    "build": 42239,
     "build --kernel": 283,
-    "car": 15976,
+    "car": 15979,
     "run": 3597,
-    "run, all of it": 7767,
+    "run, all of it": 7777,
     "view": 631,
     "simulator": 8115,
-    "simulator, all of it": 14627,
+    "simulator, all of it": 14637,
     "check": 3341,
-    "check --reference": 5412,
+    "check --reference": 5421,
     "catalogue": 7705,
-    "compare": 8905,
+    "compare": 8912,
     "study": 5442,
-    "study --run": 7575,
-    "study, all of it": 14050,
+    "study --run": 7585,
+    "study, all of it": 14060,
     "road": 543,
 }
 """Lines; a command that needs fewer takes its number down with it."""

@@ -475,3 +475,12 @@ def test_writing_refuses_what_no_road_has(tmp_path):
     with pytest.raises(ValueError, match="friction of .* is 90"):
         write_road(PlaneRoad(friction=90.0), tmp_path / "a.road")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_a_road_that_no_reader_takes_is_not_written(tmp_path, shared):
+    with pytest.raises(
+        RoadFileError, match=r"cannot be written: a number in its header, 1e\+12, is not finite or beyond"
+    ):
+        write_road(GridRoad((1e12, 0.0), (1.0, 1.0), np.zeros((2, 2)), 0.9), tmp_path / "far.road", shared=shared)
+    assert not [*tmp_path.iterdir()]

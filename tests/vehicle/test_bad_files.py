@@ -54,6 +54,10 @@ def test_keys_of_another_kind_are_told_as_such():
     assert any(line.startswith("front.suspension.points.lower_ball_joint belongs to another kind") for line in lines)
 
 
+def test_a_drive_that_gives_nothing_is_a_drive():
+    assert told({"drive.efficiency": 0.0}) == []
+
+
 @pytest.mark.parametrize("name", CAR_NAMES)
 def test_cars_of_the_package_have_nothing_odd(name):
     assert told({}, name) == []

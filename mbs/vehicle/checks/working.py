@@ -54,9 +54,10 @@ def working_ranges(car: CarContent) -> Ranges:
         weight, more = (sum(part) for part in zip(*loads.values(), strict=True))
         torque = weight * sum(radii) / 2.0  # of all wheels together that brakes or drives with 1 g
         _put(found, car.brakes, "torque", *(0.5 * part * torque for part in BRAKED))  # that of one side
-        shares = [part * torque / (car.drive.torque_ratio * car.drive.max_torque) for part in DRIVEN]
-        for name in {"max_torque", "ratio", "ratio_factor"} & set(type(car.drive).model_fields):
-            _put(found, car.drive, name, *(getattr(car.drive, name) * share for share in shares))
+        if driven := car.drive.torque_ratio * car.drive.max_torque:  # none with an efficiency of 0
+            for name in {"max_torque", "ratio", "ratio_factor"} & set(type(car.drive).model_fields):
+                value = getattr(car.drive, name)
+                _put(found, car.drive, name, *(value * part * torque / driven for part in DRIVEN))
         _of_air(found, car.aerodynamics, loads)
         _put(found, car.chassis, "mass", 0.0, car.chassis.mass + more / GRAVITY)
         for payload in car.payload.values():

@@ -51,6 +51,9 @@ NEEDED = (
 """Of each line there must be one; the first that is there is used."""
 OPTIONAL = ("spring_length", "damper_length", "anti_roll_bar_angle")
 LARGEST = {"m": 3.0, "rad": 1.6}
+STEEPEST = {"m": 1.0, "rad": 10.0}
+"""Per m of travel; more is no motion of a wheel but a wrong cell."""
+GEARED, LEVERED = 20.0, 10.0  # times as much over the travel of a rack; in springs and bars
 SAME = 1e-9  # m: two places of a table that are one
 FINEST = 200  # parts of a coordinate; a table with more is thinned
 COARSEST = {TRAVEL: 0.0125, RACK: 0.0065, OTHER: 0.0125}  # m: a table with farther points gets some between them
@@ -105,6 +108,7 @@ def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     _check_sides(what, given, columns)
     second_name = seconds[0] if seconds else ""
     made = _grid(what, travel, columns.pop(second_name, None), second_name, columns)
+    _check_rates(what, made)
     return replace(made, left_out=tuple(n for n in given if n not in used))
 
 
@@ -207,6 +211,22 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
             grid = values[order].reshape(len(along), len(across))
             found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
     return CurveTable(*evens, second_name, found)
+
+
+def _check_rates(what: str, table: CurveTable) -> None:
+    """No place or angle of a wheel jumps from one point of the table to the next."""
+    for axis, (name, points) in enumerate(((TRAVEL, table.travel), (table.second_name, table.second))):
+        for column, values in table.columns.items() if len(points) > 1 else ():
+            unit, rates = COLUMNS[_base(column)], np.abs(np.diff(values, axis=axis)) / np.diff(points).mean()
+            steepest = STEEPEST[unit] * (GEARED if name == RACK else 1.0)
+            if _base(column) in OPTIONAL:
+                steepest *= LEVERED
+            if rates.max() > steepest:
+                at = points[np.unravel_index(np.argmax(rates), rates.shape)[axis]]
+                raise CarFileError(
+                    f"{what}, column {column} changes by {rates.max():.3g} {unit} per m of {name} near a {name} of "
+                    f"{at:.3g} m; at most {steepest:g} {unit}/m is taken for a motion."
+                )
 
 
 def _points(values: Array) -> Array:

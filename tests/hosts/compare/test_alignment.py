@@ -71,6 +71,16 @@ def test_what_cannot_be_told_is_said(curve: Curve) -> None:
     assert flat.note == "no signal moves in both"
 
 
+@pytest.mark.parametrize("bend", [0.0, 1e-3])
+def test_a_log_too_short_and_straight_tells_no_delay(bend: float) -> None:
+    """The rest of another start is enough to move the best delay by samples: of 0.3 s it is none of the log."""
+    t = np.arange(0.0, 0.295, 0.01)
+    curve = simulated(20.0 - 0.5 * t + 0.1 * t**2, t)
+    found = align([(Signal("y", "y", "1", t, curve(t) + bend * np.exp(-t / 0.03)), curve)], 1.0)
+    assert math.isnan(found.delay)
+    assert "so short a log" in found.note
+
+
 def test_of_a_periodic_signal_the_smallest_delay_is_taken_and_the_other_named() -> None:
     t = np.arange(0.0, END, 0.01)
     wave = simulated(np.sin(2.0 * np.pi * 2.0 * t), t)

@@ -1,6 +1,7 @@
 /* The first row has the y of the columns behind a cell that is no number, the first column the x of the rows; another
- * row that begins with no number begins the frictions. Cells are parted by commas, semicolons, behind which the decimal
- * mark may be a comma, or tabs; lines that begin with # are left out. Independent of the locale. */
+ * row that begins with no number begins the frictions. Cells are parted by semicolons, tabs or commas, the first of these
+ * that the first row has; but for commas the decimal mark may be a comma. Lines that begin with # are left out.
+ * Independent of the locale. */
 #include "road_table.h"
 
 #include <math.h>
@@ -62,7 +63,7 @@ static int number(const reader *r, const char *p, const char *end, double *value
   int power = 0, given = 0, exponent = 0, negative_exponent;
   const int negative = p < end && *p == '-';
   if (p < end && (*p == '-' || *p == '+')) p++;
-  for (int behind = 0; digit(p, end) || (!behind && p < end && (*p == '.' || (*p == ',' && r->mark == ';'))); p++) {
+  for (int behind = 0; digit(p, end) || (!behind && p < end && (*p == '.' || (*p == ',' && r->mark != ','))); p++) {
     if (!digit(p, end)) {
       behind = 1;
       continue;
@@ -121,11 +122,16 @@ static int count(reader *r, ali3_road_table *t) {
   double value;
   int64_t rows[2] = {0, 0};
   if (!next_line(r, &line, &line_end)) return refuse(r, "it is empty");
-  r->mark = memchr(line, ';', (size_t)(line_end - line)) != NULL   ? ';'
-            : memchr(line, ',', (size_t)(line_end - line)) != NULL ? ','
-                                                                   : '\t';
-  const char *cell = line;
-  if (number(r, cell, cell_end(r, &cell, line_end, &next), &value))
+  r->mark = memchr(line, ';', (size_t)(line_end - line)) != NULL    ? ';'
+            : memchr(line, '\t', (size_t)(line_end - line)) != NULL ? '\t'
+                                                                    : ',';
+  const char *cell = line, *corner_end = cell_end(r, &cell, line_end, &next);
+  const size_t corner = (size_t)(corner_end - cell);
+  if (memchr(cell, '[', corner) != NULL && corner_end[-1] == ']' &&
+      (corner < 3 || memcmp(corner_end - 3, "[m]", 3) != 0))
+    return refuse(r, "its first cell is '%.*s'; coordinates and heights must be in m", (int)(corner < 40 ? corner : 40),
+                  cell);
+  if (number(r, cell, corner_end, &value))
     return refuse(r, "its first cell is a number, so that it has no coordinates; make a road file of it by: ali3 road "
                      "INPUT OUTPUT.road --spacing DX DY");
   t->ny = 0;
@@ -156,7 +162,7 @@ static int regular(const reader *r, const double *v, int64_t n, char name, doubl
   for (int64_t k = 0; k < n; k++) {
     const double expected = v[0] + step * (double)k;
     if (!(fabs(v[k] - expected) <= REGULAR * step + 1e-12 * (fabs(v[0]) + fabs(v[n - 1]))))
-      return refuse(r, "its coordinates %c are not regular: %.9g should be %.9g", name, v[k], expected);
+      return refuse(r, "its coordinates %c are not regular: %.12g should be %.12g", name, v[k], expected);
   }
   *first = v[0];
   *spacing = step;

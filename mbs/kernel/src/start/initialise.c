@@ -22,7 +22,7 @@
 
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double CLOSED = 1e-12; /* violation that needs no work, m */
-static const double ASSEMBLED = 1e-9; /* violation accepted when nothing better can be had, m */
+static const double ASSEMBLED = 1e-9; /* violation beyond round-off accepted when nothing better can be had, m */
 static const double LONGEST_STEP = 0.5; /* m or rad per iteration */
 static const double BENDING = 1.0; /* of K beside M when positions are closed, s^2: bodies turn rather than bend */
 static const double ROUND_OFF = 1e-13;
@@ -52,8 +52,8 @@ static ali3_status close_position(ali3_instance *in) {
     ali3_velocity_release(in, in->J);
     in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
     if (in->report.violation <= CLOSED) break;
-    if (iteration == POSITION_ITERATIONS) return in->report.violation <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
     if (!(in->report.violation < 1e300)) return ALI3_NOT_ASSEMBLED;
+    if (iteration == POSITION_ITERATIONS) return ali3_opening(S, in->Phi) <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
     const ali3_status status = factorise_metric(in, q);
     if (status != ALI3_OK) return status;
     for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
