@@ -18,7 +18,6 @@ class ConstantSteering:
         self.name = name
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         return {self.name: self.value}
 
 
@@ -44,6 +43,5 @@ class SteeringTable:
             )
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         # Times add up with rounding errors; a step must not be missed for them.
         return {self.name: float(np.interp(time + 1e-9, self.time, self.values))}
