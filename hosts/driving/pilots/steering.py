@@ -1,4 +1,4 @@
-"""Pilots that steer by a table, whatever the car does."""
+"""A pilot that steers by a table, whatever the car does."""
 
 from __future__ import annotations
 
@@ -8,17 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hosts.common.errors import HostError
-
-
-class ConstantSteering:
-    """Steering that does not change. `value`: in the unit of the input."""
-
-    def __init__(self, value: float, name: str = "steering") -> None:
-        self.value = value
-        self.name = name
-
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        return {self.name: self.value}
 
 
 class SteeringTable:
