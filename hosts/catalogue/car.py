@@ -18,6 +18,7 @@ from hosts.driving.run_checks import communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.variables import default_step
 
 __all__ = ["CarFacts", "Pilot", "TestedCar"]
 
@@ -101,15 +102,13 @@ class TestedCar:
         """What the FMU tells of its car; it is loaded once."""
         with Fmu(self.path) as opened:
             fmu = AliasedFmu(opened, self.aliases)
-            experiment = fmu.description.defaultExperiment
-            told = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
             return CarFacts(
                 tuple(fmu.names("input")),
                 tuple(fmu.names("output")),
                 tuple(fmu.names("parameter")),
                 {n: v.unit or "1" for n, v in fmu.variables.items()},
                 fmu.constants(),
-                told if self.step is None else self.step,
+                default_step(fmu.description) if self.step is None else self.step,
                 str(fmu.description.guid or fmu.description.instantiationToken or ""),
             )
 

@@ -165,7 +165,6 @@ class _Wheel:
         self.steering, self.angle = steering, angle
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         return {self.steering.name: self.steering.per_radian * self.angle(time)}
 
 

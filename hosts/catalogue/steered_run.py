@@ -63,7 +63,6 @@ class SteeredPilot:
         self._acts: dict[str, float] = {}
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         if not math.isfinite(self.begin):
             self._approaching(time, senses["speed"])
         if not self._coasting and (not math.isfinite(self.begin) or self.pedals is Pedals.HOLD_SPEED):

@@ -5,7 +5,8 @@ The elements and attributes are those that pytest writes (its schema ``xunit2``)
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -14,6 +15,7 @@ from xml.etree import ElementTree
 from ali3.files import whole_file
 
 _MOST = 10_000  # characters of a text
+_NOT_IN_XML = re.compile(r"[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 @dataclass(frozen=True)
@@ -60,11 +62,4 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
 
 def _text(words: str) -> str:
     """Without characters that XML does not have, and with an end."""
-    return "".join(_allowed(words[:_MOST]))
-
-
-def _allowed(words: str) -> Iterable[str]:
-    for c in words:
-        code = ord(c)
-        good = code in (9, 10, 13) or 32 <= code < 0xD800 or 0xE000 <= code < 0xFFFE or code > 0xFFFF
-        yield c if good else "?"
+    return _NOT_IN_XML.sub("?", words[:_MOST])

@@ -28,6 +28,7 @@ from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.run_with_bar import run_with_bar
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.variables import default_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 _WORST = 10
@@ -178,9 +179,7 @@ def _read(
 
 def _step(fmu: Fmu, driven: Manoeuvre, times: NDArray[np.float64], file: Path) -> float:
     """The communication step of the record or of the FMU, made such that the rows are communication points."""
-    experiment = fmu.description.defaultExperiment
-    usual = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
-    step, between = driven.step or usual, np.diff(times)
+    step, between = driven.step or default_step(fmu.description), np.diff(times)
     apart = float(np.median(between[between > 0.0])) if (between > 0.0).any() else float(times[-1])
     return apart / max(1, math.ceil(apart / step - _ROUND_OFF))
 

@@ -47,16 +47,19 @@ def _value(found: Found) -> tuple[str, str]:
 
 def fit_table(fit: Fit) -> str:
     """The fit for the terminal."""
-    lines = in_columns([FIT_COLUMNS, *fit_rows(fit)])
-    lines.append(
+    return "\n".join([*in_columns([FIT_COLUMNS, *fit_rows(fit)]), *result_words(fit)])
+
+
+def result_words(fit: Fit) -> list[str]:
+    """How good the fit is, and what led to it, a line each."""
+    residuals = (
         f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
         f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"
     )
-    lines += left_out_words(fit) + start_words(fit)
-    return "\n".join(lines)
+    return [residuals, *_left_out_words(fit), *_start_words(fit)]
 
 
-def left_out_words(fit: Fit) -> list[str]:
+def _left_out_words(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
     told = [
         f"{name} {with_unit(left, fit.units[name])} ({with_unit(fit.misfit[name], fit.units[name])} in the fit)"
@@ -66,7 +69,7 @@ def left_out_words(fit: Fit) -> list[str]:
     return [f"left of parts of the log that are left out in turn, to first order: {', '.join(told)}"] if told else []
 
 
-def start_words(fit: Fit) -> list[str]:
+def _start_words(fit: Fit) -> list[str]:
     """Where each of several searches began and led, a line each."""
     if len(fit.starts) < 2:
         return []

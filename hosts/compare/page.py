@@ -16,7 +16,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ali3.chart_style import BLUE, COLOURS, RED, STYLE
-from ali3.charts import save_pictures
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.log import Signal
@@ -114,8 +113,3 @@ def _over(axes: Axes, name: str, s: ComparedSignal) -> None:
     axes.set_xlabel("time, s")
     axes.margins(x=0)
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-
-
-def write_picture(figure: Figure, file: Path) -> None:
-    """Write the page as PNG, and as SVG beside it."""
-    save_pictures(figure, file.with_suffix(""))

@@ -11,7 +11,7 @@ from ali3.html_elements import document, element, picture, table
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
-from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, left_out_words, start_words
+from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
 from hosts.compare.windows import Bin
 from hosts.compare.words import common_sentence, unit_shown
 
@@ -51,14 +51,8 @@ def write_report(
             table("", _COLUMNS, _rows(after), "numbers"),
         ]
         parts += [element("h2", "Fit"), table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
-        parts.append(
-            element(
-                "p",
-                f"Residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; {fit.samples} "
-                f"samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}.",
-            )
-        )
-        parts += [element("p", f"{line}.") for line in left_out_words(fit) + start_words(fit)]
+        residuals, *others = result_words(fit)
+        parts += [element("p", f"{line}.") for line in (f"R{residuals[1:]}", *others)]
         parts.append(element("h3", "Correlation of the errors"))
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]

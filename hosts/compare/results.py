@@ -8,12 +8,13 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from ali3.charts import save_pictures
 from ali3.files import check_writable
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit_result import Fit
-from hosts.compare.page import comparison_figure, write_picture, write_summary
+from hosts.compare.page import comparison_figure, write_summary
 from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
 from hosts.compare.task import Task
@@ -59,7 +60,7 @@ def write_outcome(
     """Write all files of a comparison; gives those that were written."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
-    write_picture(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"])
+    save_pictures(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"].with_suffix(""))
     write_summary(outcome.before, outcome.after, title, paths["_summary.svg"].with_suffix(""))
     told = bins(outcome.best, task.scales)
     write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths)

@@ -32,7 +32,7 @@ from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
-from hosts.fmu.variables import Variable
+from hosts.fmu.variables import Variable, default_step
 
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
 _DEMAND = "steering_wheel_angle_demand"
@@ -199,8 +199,7 @@ def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Names
     """The step that was asked for; else that of the FMU, or of the log where that is longer, up to 10 ms."""
     if options.step is not None:
         return float(options.step)
-    experiment = fmu.description.defaultExperiment
-    own = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    own = default_step(fmu.description)
     finest = min((s.interval for s in inputs.values()), default=0.01)
     return own * max(1, math.floor(min(finest, 0.01) / own + 1e-6))
 

@@ -32,7 +32,6 @@ class PlannedCourse(Course):
     """Of x in m to y in m, slope and second derivative."""
 
     def path(self, x: float) -> tuple[float, float, float]:
-        """See `hosts.driving.course.Course.path`."""
         y, slope, bend = self.line(x)
         return y, slope, bend / (1.0 + slope**2) ** 1.5
 

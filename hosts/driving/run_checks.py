@@ -10,6 +10,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.variables import default_step
 
 # Bytes a run may record: more would fill the memory before the disk.
 _LARGEST_RECORD = 4e9
@@ -21,11 +22,10 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
     Raises `HostError` if it or the stop time is not positive, or if it is longer than the manoeuvre or so short that
     the record would not fit into the memory.
     """
-    experiment = fmu.description.defaultExperiment
     if step is None:
         step = manoeuvre.step
     if step is None:
-        step = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+        step = default_step(fmu.description)
     stop = manoeuvre.stop_time
     if not 0.0 < stop < math.inf:
         raise HostError(f"The stop time is {stop:g} s; it must be positive and finite.")

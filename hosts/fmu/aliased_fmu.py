@@ -67,7 +67,6 @@ class AliasedFmu:
         self._time = start_time
 
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
-        """See `Fmu.setter`."""
         chosen = self._chosen(names)
         set_theirs = self._fmu.setter([a.theirs for a in chosen])
         if all(map(_is_plain, chosen)) and not self._derivation.names:
@@ -82,7 +81,6 @@ class AliasedFmu:
 
     @property
     def follows_slopes(self) -> bool:
-        """See `Fmu.follows_slopes`."""
         return self._fmu.follows_slopes
 
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -132,14 +130,12 @@ class AliasedFmu:
         self._held |= {name: x for name, x in values.items() if name in self._held}
 
     def step(self, time: float, step: float) -> None:
-        """See `Fmu.step`."""
         self._fmu.step(time, step)
         self._hold({name: self._held[name] + slope * step for name, slope in self._slopes.items()})
         self._slopes = {}
         self._time = time + step
 
     def restore_bytes(self, content: bytes) -> None:
-        """See `Fmu.restore_bytes`."""
         self._fmu.restore_bytes(content)
 
     def start_values(self, names: Iterable[str]) -> NDArray[np.float64]:

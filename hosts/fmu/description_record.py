@@ -13,8 +13,7 @@ from hosts.fmu.variables import Variable, Variables
 def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
     """What `modelDescription.xml` says, as the page reads it."""
     experiment = description.defaultExperiment
-    times = {"startTime": "startTime", "stopTime": "stopTime", "stepSize": "stepSize"}
-    found = {key: getattr(experiment, name, None) for key, name in times.items()}
+    found = {name: getattr(experiment, name, None) for name in ("startTime", "stopTime", "stepSize")}
     references = {v.name: int(v.valueReference) for v in description.modelVariables}
     return {
         "modelName": description.modelName,

@@ -33,8 +33,6 @@ from hosts.fmu.instance import Instance, State
 from hosts.fmu.scalars import TEXTS, Place, element_names, scalars
 from hosts.fmu.variables import Variables
 
-_NOT_COMPUTED = "logNotComputed"
-
 
 class StepRefusedError(Exception):
     """The FMU refused a communication step."""
@@ -125,10 +123,6 @@ class Fmu(Closing):
         """Names of the real and whole parameters that may be set between steps."""
         return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
 
-    def places(self, names: Iterable[str]) -> list[Place]:
-        """Where the values of scalars stand."""
-        return [self._places[n] for n in names]
-
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """Set start values and leave initialisation mode; `StartRefusedError` if the FMU cannot start with them."""
         settable = {n for n, v in self.variables.items() if v.causality in ("parameter", "input")}
@@ -163,7 +157,7 @@ class Fmu(Closing):
         numbers = [k for k, kind in enumerate(kinds) if kind in ("Real", "Integer")]
         whole = [k for k in numbers if kinds[k] == "Integer"]
         others = [k for k in range(len(kinds)) if k not in numbers]
-        set_numbers = self._instance.setter(self.places(names[k] for k in numbers))
+        set_numbers = self._instance.setter([self._places[names[k]] for k in numbers])
 
         def set_values(values: Sequence[float]) -> None:
             for k in whole:
@@ -186,7 +180,7 @@ class Fmu(Closing):
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """A function that sets first derivatives by the time of real inputs, for the next step only."""
         slave, count = self._slave, len(names)
-        references = (c_uint32 * count)(*(place.reference for place in self.places(names)))
+        references = (c_uint32 * count)(*(self._places[n].reference for n in names))
         orders, buffer = (c_int32 * count)(*count * [1]), (c_double * count)()
 
         def set_slopes(slopes: Sequence[float]) -> None:
@@ -209,7 +203,7 @@ class Fmu(Closing):
 
     def reader(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
         """A function that writes the values of real and whole variables into an array; references are prepared once."""
-        return self._instance.reader(self.places(names))
+        return self._instance.reader([self._places[n] for n in names])
 
     def step(self, time: float, step: float) -> None:
         """One communication step; `StepRefusedError` if the FMU refuses it."""
@@ -279,5 +273,5 @@ class Fmu(Closing):
         return self.messages[-1] if self.messages else ""
 
     def _log(self, status: int, category: str, message: str) -> None:
-        if status > 0 and message and category != _NOT_COMPUTED:
+        if status > 0 and message and category != "logNotComputed":
             self.messages.append(shortened(message))

@@ -214,6 +214,12 @@ def _start(text: Any, kind: str) -> Value | None:
     return float(text) if kind == "Real" else int(text)
 
 
+def default_step(description: ModelDescription) -> float:
+    """The communication step that an FMU asks for, s; 0.01 where it tells none."""
+    experiment = description.defaultExperiment
+    return float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+
+
 def kind_words(kind: str) -> str:
     """A kind with its article."""
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
 from hosts.common.errors import HostError
+from hosts.common.numbers import or_null
 from hosts.common.units import conversion
 from hosts.measures.limit_entry import LimitEntry
 from hosts.measures.measure import Limit
@@ -60,12 +61,8 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
 
 def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Any]:
     """Limits by the columns of measures for JSON, with None where there is no limit; see `limits_of`."""
-
-    def end(value: float) -> float | None:
-        return value if math.isfinite(value) else None
-
     return {
-        column: {"min": end(limit.lowest), "max": end(limit.highest), "unit": columns[column]}
+        column: {"min": or_null(limit.lowest), "max": or_null(limit.highest), "unit": columns[column]}
         for column, limit in limits_of(entries, columns, source).items()
     }
 

@@ -42,11 +42,9 @@ class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
             self._made.append(partial(_raised, error))
 
     def step(self, action: Floats) -> Any:
-        """See `gymnasium.Env.step`."""
         return self._made.pop(0)() if self._made else self._advance(action)
 
     def reset(self, **options: Any) -> Any:
-        """See `gymnasium.Env.reset`."""
         return self._made.pop(0)() if self._made else self._start(**options)
 
     def _advance(self, action: Floats) -> Any:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from hosts.driving.driver import Driver
-    from hosts.driving.result import Result
     from hosts.driving.simulated_fmu import SimulatedFmu
     from hosts.run.other_names import OtherNames
 
@@ -126,7 +125,12 @@ def _run(options: argparse.Namespace) -> int:
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
         if other is not None:
             other.derive(result, every)
-    of_course, gates = ((), None) if driver is None else _of_course(result, driver)
+    of_course: Sequence[tuple[str, str]] = ()
+    gates: NDArray[np.float64] | None = None
+    if driver is not None:
+        from hosts.run.course_result import course_result
+
+        of_course, gates = course_result(result, driver)
     rows = summary(result, step, of_course)
     write_csv(result, table)
     names = None if other is None else other.names
@@ -134,13 +138,6 @@ def _run(options: argparse.Namespace) -> int:
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
-
-
-def _of_course(result: Result, driver: Driver) -> tuple[Sequence[tuple[str, str]], NDArray[np.float64]]:
-    """Rows of the summary, and the gates that are drawn."""
-    from hosts.run.course_result import gate_edges, passed
-
-    return passed(result, driver), gate_edges(driver)
 
 
 def _words(name: str) -> str:

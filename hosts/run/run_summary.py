@@ -35,7 +35,7 @@ _ERROR = "solver.energy_error"
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
     """Rows of the summary table; those whose variables the FMU lacks are left out.
 
-    `step`: communication step, s; `course`: rows of `hosts.run.course_result.passed`, where a driver followed a course.
+    `step`: communication step, s; `course`: rows of `course_result`, where a driver followed a course.
     Returns what and how much.
     """
     rows: list[tuple[str, str]] = []

@@ -47,19 +47,15 @@ class AliasedCar:
         self.constants = {**car.constants, **aliases.constants}
 
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
-        """See `Car.want`."""
         self._car.want(self._aliases.inputs(values))
 
     def command(self, name: str, value: float = 0.0) -> None:
-        """See `Car.command`."""
         self._car.command(name, value)
 
     def restart(self, changes: Mapping[str, Value]) -> None:
-        """See `Car.restart`."""
         self._car.restart(self._aliases.values(changes))
 
     def latest(self) -> Moment:
-        """See `Car.latest`."""
         moment = self._car.latest()
         values = moment.values if self._plain else (moment.values - self._offsets) / self._factors
         if self._derivation.names:
@@ -67,9 +63,7 @@ class AliasedCar:
         return moment if values is moment.values else replace(moment, values=values)
 
     def events(self) -> list[Event]:
-        """See `Car.events`."""
         return self._car.events()
 
     def step_times(self) -> StepTimes:
-        """See `Car.step_times`."""
         return self._car.step_times()

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
-from ali3.bars import bar as bar_of
+from ali3.bars import bar
 from hosts.common.errors import HostError
 from hosts.driving.driver import Driver, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
@@ -84,9 +84,7 @@ def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | No
     return Held() if wild is None else WildDriver(wild, car.inputs)
 
 
-def run_headless(
-    car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None], bar: bool = True
-) -> bool:
+def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None]) -> bool:
     """Drive for a simulated time; False where a step was refused.
 
     Parameters
@@ -97,8 +95,6 @@ def run_headless(
         Simulated time.
     tell : callable
         Takes kind and text of what there is to be said.
-    bar : bool
-        Whether a progress bar is shown, where there is a terminal.
 
     Raises
     ------
@@ -110,7 +106,7 @@ def run_headless(
     car.command("step", max(1, round(seconds / car.step)))
     last, since = -1, time.monotonic()
     try:
-        with bar_of(total=seconds, disable=not bar, bar_format=_BAR) as progress:
+        with bar(total=seconds, bar_format=_BAR) as progress:
             while True:
                 moment = car.latest()
                 for event in car.events():

@@ -21,10 +21,11 @@ from websockets.exceptions import ConnectionClosed
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.simulator import protocol
+from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.connected_page import ConnectedPage
 from hosts.simulator.guard import Guard
 from hosts.simulator.hands import Hands
-from hosts.simulator.server_needs import Content, DrivenCar, ShownDevices
+from hosts.simulator.server_needs import Content, ShownDevices
 from hosts.simulator.web import MOST_PAGES, Web
 
 FRAME_PERIOD = 1 / 120
@@ -47,7 +48,7 @@ class Server:
 
     def __init__(
         self,
-        car: DrivenCar,
+        car: AliasedCar,
         hands: Hands,
         content: Content,
         guard: Guard,

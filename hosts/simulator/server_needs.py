@@ -1,36 +1,12 @@
-"""What the server needs: a car, devices, and what it hands out."""
+"""What the server needs of devices, and what it hands out."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from hosts.common.numbers import Value
-
-if TYPE_CHECKING:
-    from hosts.simulator.car import Event, Moment
-    from hosts.simulator.step_times import StepTimes
-
-
-class DrivenCar(Protocol):
-    """What the server needs of a car; see `hosts.simulator.car.Car`."""
-
-    @property
-    def inputs(self) -> tuple[str, ...]: ...
-
-    @property
-    def step(self) -> float: ...
-
-    def command(self, name: str, value: float = 0.0) -> None: ...
-
-    def restart(self, changes: Mapping[str, Value]) -> None: ...
-
-    def latest(self) -> Moment: ...
-
-    def events(self) -> list[Event]: ...
-
-    def step_times(self) -> StepTimes: ...
 
 
 class ShownDevices(Protocol):

@@ -76,7 +76,7 @@ def _keeps_limits(folder: Path) -> bool:
     from hosts.study.folder import read_record
 
     if (read_record(folder) or {}).get("limits"):
-        from hosts.study.limits_told import tell_limits
+        from hosts.study.limits import tell_limits
 
         return tell_limits(folder)
     for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more

@@ -20,7 +20,6 @@ class IsolatedBench:
         self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path))
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        """See `Bench.run`."""
         outcome = self._bench.do((job, values, seed), limit=self._limit)
         if not isinstance(outcome, Lost):
             return outcome

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import binomtest
 
+from ali3.columns import in_columns
 from ali3.files import whole_file, write_text
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
@@ -206,3 +207,15 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
         pd.DataFrame(rows).to_csv(made, index=False)
     write_text(record, json.dumps(rows, indent=1, allow_nan=False) + "\n")
     return [table, record]
+
+
+def tell_limits(folder: Path) -> bool:
+    """Print and write the shares of a study that has limits; whether all runs keep them."""
+    from hosts.study.store import read_study
+
+    frame = read_study(folder)
+    found = shares(frame)
+    lines = in_columns([("limits", "", "within", "share", "95 %"), *share_rows(found, frame.attrs)])
+    print("\n".join([*lines, *share_notes(found, frame.attrs)]))
+    print(f"written: {' and '.join(map(str, write_shares(found, folder)))}")
+    return all(share.outside == 0 for share in found)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
+from hosts.common.numbers import Value, or_null
 from hosts.fmu.variables import Variable
 from hosts.study.study_file import ParameterEntry
 
@@ -72,12 +72,11 @@ class Parameter:
 
     def record(self) -> dict[str, Any]:
         """The parameter as JSON."""
-        low, high = (None if math.isnan(x) else x for x in (self.low, self.high))
         return {
             "kind": self.kind,
             "unit": self.unit,
-            "low": low,
-            "high": high,
+            "low": or_null(self.low),
+            "high": or_null(self.high),
             "log": self.log,
             "values": list(self.values),
         }
@@ -92,7 +91,7 @@ def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str
     if entry.range is not None:
         if variable.kind not in ("Real", "Integer"):
             raise HostError(f"{where} has a range; it is of the kind {variable.kind}, so that it needs values.")
-        low, high = (_value(x, entry, variable, f"{where}.range") for x in entry.range)
+        low, high = (in_unit(x, entry.unit, variable, f"{where}.range") for x in entry.range)
         assert not isinstance(low, str)
         assert not isinstance(high, str)
         if entry.log and not low > 0.0:
@@ -101,15 +100,11 @@ def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str
             raise HostError(f"{where} is a whole number; list what it may be as values instead of log = true.")
         return Parameter(name, variable.kind, variable.unit, float(low), float(high), entry.log, (), entry.count)
     given = entry.values or []
-    values = tuple(_value(x, entry, variable, f"{where}.values[{k}]") for k, x in enumerate(given, start=1))
+    values = tuple(in_unit(x, entry.unit, variable, f"{where}.values[{k}]") for k, x in enumerate(given, start=1))
     if len(set(values)) < len(values):
         twice = next(x for k, x in enumerate(values) if x in values[:k])
         raise HostError(f"{where}.values has {variable.text(twice)} twice; each is run once.")
     return Parameter(name, variable.kind, variable.unit, values=values)
-
-
-def _value(given: Value, entry: ParameterEntry, variable: Variable, where: str) -> Value:
-    return in_unit(given, entry.unit, variable, where)
 
 
 def in_unit(given: Value, unit: str | None, variable: Variable, where: str) -> Value:

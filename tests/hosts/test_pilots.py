@@ -7,7 +7,7 @@ import pytest
 
 from hosts.common.errors import HostError
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import ConstantSteering, SteeringTable
+from hosts.driving.pilots.steering import SteeringTable
 from hosts.driving.pilots.together import Together
 
 
@@ -64,5 +64,5 @@ def test_a_wrong_table_is_told(time: list[float], values: list[float], words: st
 
 
 def test_the_later_pilot_wins() -> None:
-    pilots = Together(ConstantSteering(0.1), SpeedHolder(5.0), ConstantSteering(0.2))
+    pilots = Together(SteeringTable([0.0], [0.1]), SpeedHolder(5.0), SteeringTable([0.0], [0.2]))
     assert pilots.act(0.0, {"speed": 5.0}) == {"steering": 0.2, "throttle": 0.0, "brake": 0.0}

@@ -118,7 +118,7 @@ WAYS = {
         "variables under other names": "hosts.fmu.aliased_fmu",
         "columns of other names": "hosts.driving.derived_columns",
         "[limits]": "hosts.measures.limits",
-        "whether [limits] hold": "hosts.study.limits_told",
+        "whether [limits] hold": "hosts.study.limits",
         "[measures]": "hosts.study.measures.parse",
         "what measures are": "hosts.study.measures.study_measure",
         "[signals]": "hosts.study.signals",

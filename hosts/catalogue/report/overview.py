@@ -15,7 +15,7 @@ from hosts.catalogue.report.numbers import NONE, bounds, difference, unit_shown,
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
-from hosts.fmu.variables import Variables
+from hosts.fmu.variables import Variables, default_step
 from hosts.measures.measure import Measure
 
 if TYPE_CHECKING:
@@ -51,11 +51,9 @@ def _facts(car: TestedCar) -> dict[str, Content]:
         told = None
         model, guid, tool, step = str(error), NONE, NONE, NONE
     if told is not None:
-        experiment = told.defaultExperiment
-        default = float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
         model, guid = told.modelName or NONE, told.guid or NONE
         tool = ", ".join(filter(None, (told.generationTool, told.generationDateAndTime))) or NONE
-        step = f"{with_unit(default if car.step is None else car.step, 's')}"
+        step = f"{with_unit(default_step(told) if car.step is None else car.step, 's')}"
     names = len(car.aliases.aliases) + len(car.aliases.derived)
     return {
         "file": car.path.name,

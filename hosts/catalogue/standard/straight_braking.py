@@ -13,7 +13,7 @@ from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.common.wheels import WHEELS
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import ConstantSteering
+from hosts.driving.pilots.steering import SteeringTable
 from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
@@ -99,7 +99,7 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
     neutral = settings["neutral"] >= 0.5 and "selector" in car.facts.inputs
     near = max(0.005 * nominal, 0.05)
     pilot = Braking(
-        Together(ConstantSteering(0.0), SpeedHolder(nominal, gain=1.0, integral_gain=1.0)),
+        Together(SteeringTable([0.0], [0.0]), SpeedHolder(nominal, gain=1.0, integral_gain=1.0)),
         lambda time, senses: time >= SETTLED - 1e-9 and abs(senses["speed"] - nominal) <= near,
         settings["pedal"],
         settings["rise_time"],

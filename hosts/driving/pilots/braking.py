@@ -55,7 +55,6 @@ class Braking:
         return marks_of(self.before) + ([] if self._place is None else [line_across(*self._place)])
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         step, self._last = time - self._last, time
         if math.isnan(self.onset):
             if not self._held or not self.begins(time, senses):

@@ -61,7 +61,6 @@ class CourseFromHere:
         )
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         pedals = {"brake": 0.0, **self._speed_holder.act(time, senses)}
         if math.isnan(self.start):
             if not self.begins(time, senses):

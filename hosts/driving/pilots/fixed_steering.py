@@ -30,7 +30,6 @@ class FixedSteering:
         return marks_of(self.pilot)
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         acts = dict(self.pilot.act(time, senses))
         if self.value is None and time >= self.fixed_at - 1e-9 and self._count:
             self.value = self._sum / self._count

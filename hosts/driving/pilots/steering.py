@@ -1,4 +1,4 @@
-"""Pilots that steer by a table, whatever the car does."""
+"""A pilot that steers by a table, whatever the car does."""
 
 from __future__ import annotations
 
@@ -8,18 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hosts.common.errors import HostError
-
-
-class ConstantSteering:
-    """Steering that does not change. `value`: in the unit of the input."""
-
-    def __init__(self, value: float, name: str = "steering") -> None:
-        self.value = value
-        self.name = name
-
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
-        return {self.name: self.value}
 
 
 class SteeringTable:
@@ -44,6 +32,5 @@ class SteeringTable:
             )
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`."""
         # Times add up with rounding errors; a step must not be missed for them.
         return {self.name: float(np.interp(time + 1e-9, self.time, self.values))}

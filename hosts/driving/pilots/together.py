@@ -23,7 +23,6 @@ class Together:
         return [mark for pilot in self.pilots for mark in marks_of(pilot)]
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `Pilot.act`."""
         acts: dict[str, float] = {}
         for pilot in self.pilots:
             acts |= pilot.act(time, senses)

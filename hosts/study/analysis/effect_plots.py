@@ -20,7 +20,7 @@ MOST_POINTS = 2000
 
 def plot_main_effects(parameters: Sequence[Parameter], response: Response, effects: Sequence[MainEffect]) -> Figure:
     """Means with their intervals, on one scale."""
-    figure, axes = parameter_panels(parameters, f"mean of {response.title}", share_y=True)
+    figure, axes = parameter_panels(parameters, f"mean of {response.title}")
     for panel, parameter, effect in zip(axes, parameters, effects, strict=True):
         panel.axhline(float(response.values.mean()), color="#888888", linewidth=0.8)
         _with_interval(panel, parameter, (effect.at, effect.mean, effect.low, effect.high), BLUE)
@@ -29,7 +29,7 @@ def plot_main_effects(parameters: Sequence[Parameter], response: Response, effec
 
 def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffect]) -> Figure:
     """The measure of each run, its mean as a line, and failed runs as marks at the lower edge."""
-    figure, axes = parameter_panels(data.parameters, response.title, share_y=True)
+    figure, axes = parameter_panels(data.parameters, response.title)
     shown = drawn(len(response.rows), MOST_POINTS)
     # A few runs are to be seen, many are not to become one patch.
     size, alpha = (
@@ -52,7 +52,7 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
 
 def plot_failed(data: StudyData) -> Figure:
     """The share of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
-    figure, axes = parameter_panels(data.parameters, "failed runs, %", share_y=True)
+    figure, axes = parameter_panels(data.parameters, "failed runs, %")
     for k, panel in enumerate(axes):
         at, *shares = failed_share(data.x[:, k], data.failed)
         share, low, high = (100.0 * part for part in shares)

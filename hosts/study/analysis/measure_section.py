@@ -40,13 +40,11 @@ def measure_section(
     `number`: of the response, for the names of its pictures; `numbers`: to which the effects are added, a row a
     parameter.
     """
-    if len(response.values) == 1:
-        words = f"One run yields it: {response.values[0]:.6g} {response.unit if response.unit != '1' else ''}".strip()
-        return [element("h2", response.title), paragraph(f"{words}.", "note")]
     if not response.varies:
-        least = float(response.values.min())
-        words = f"It is {least:.6g} {response.unit if response.unit != '1' else ''}".strip()
-        words += " in all runs, but for rounding: nothing that was varied changes it."
+        value = f"{response.values.min():.6g} {response.unit if response.unit != '1' else ''}".strip()
+        words = f"It is {value} in all runs, but for rounding: nothing that was varied changes it."
+        if len(response.values) == 1:
+            words = f"One run yields it: {value}."
         return [element("h2", response.title), paragraph(words, "note")]
     effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
     indices = indices_of(data, response)

@@ -18,15 +18,12 @@ _COLUMNS = 4
 _ROW = 2.5
 
 
-def parameter_panels(parameters: Sequence[Parameter], label: str, share_y: bool) -> tuple[Figure, list[Axes]]:
-    """A figure with labelled axes.
-
-    `label`: of the vertical axes; `share_y`: whether these have one scale, so that panels can be compared.
-    """
+def parameter_panels(parameters: Sequence[Parameter], label: str) -> tuple[Figure, list[Axes]]:
+    """A figure with axes that are labelled, the vertical ones with `label`; these have one scale, to be compared."""
     columns = min(_COLUMNS, max(len(parameters), 2))
     rows = -(-len(parameters) // columns)
     figure, grid = plt.subplots(
-        rows, columns, figsize=(WIDTH, 0.4 + _ROW * rows), sharey=share_y, squeeze=False, layout="constrained"
+        rows, columns, figsize=(WIDTH, 0.4 + _ROW * rows), sharey=True, squeeze=False, layout="constrained"
     )
     axes = list(grid.flat)
     for panel in axes[len(parameters) :]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -56,6 +55,8 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     """The report of a frame of runs; see `write_report`."""
     if not len(frame):
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
+    import pandas as pd
+
     from ali3.bars import bar as bar_of
 
     data = study_data(frame)
@@ -79,12 +80,6 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     write_study_slide(data, None if main is None else indices_of(data, main), folder)
     file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
     write_text(file, document(f"Study {data.about['study']}", body))
-    _write_numbers(rows, numbers)
+    with whole_file(rows) as made:
+        pd.DataFrame(numbers).to_csv(made, index=False)
     return [file, rows.parent]
-
-
-def _write_numbers(file: Path, rows: Sequence[dict[str, object]]) -> None:
-    import pandas as pd
-
-    with whole_file(file) as made:
-        pd.DataFrame(rows).to_csv(made, index=False)

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from ali3.charts import save_pictures
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
-from hosts.compare.page import comparison_figure, write_picture, write_summary
+from hosts.compare.page import comparison_figure, write_summary
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
 from hosts.compare.words import common_sentence, common_words, table, with_unit
@@ -86,7 +87,7 @@ def test_the_picture_has_no_rating_that_is_none(comparison: Comparison, tmp_path
     lines = figure.axes[0].get_lines()
     assert max(lines[0].get_ydata()) == pytest.approx(np.degrees(1.0), rel=1e-3)
     assert max(lines[1].get_ydata()) == pytest.approx(np.degrees(1.01), rel=1e-3)
-    write_picture(figure, tmp_path / "a.b.png")
+    save_pictures(figure, tmp_path / "a.b")
     assert sorted(f.name for f in tmp_path.iterdir()) == ["a.b.png", "a.b.svg"]
     plt.close(figure)
 

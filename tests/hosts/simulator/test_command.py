@@ -169,7 +169,7 @@ def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
     (tmp_path / "turn.csv").write_text(TURN)
     manoeuvre = load_manoeuvre(str(tmp_path / "turn.csv"))
     with started(fmus["sledge"]) as car:
-        assert run_headless(car, headless_driver(car, manoeuvre, None), 0.8, lambda *_: None, bar=False)
+        assert run_headless(car, headless_driver(car, manoeuvre, None), 0.8, lambda *_: None)
         moment = car.latest()
         assert (moment.count, moment.running) == (160, False)
         assert value(car, "throttle") == pytest.approx(0.8, abs=0.1)  # it is read some milliseconds before its step
@@ -181,7 +181,7 @@ def test_a_driver_without_sense_moves_them_too(fmus):
     wanted = WildDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
     assert any(wanted.values())
     with started(fmus["sledge"]) as car:
-        assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None, bar=False)
+        assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None)
         assert {name: value(car, name) for name in wanted} == wanted
 
 
@@ -253,13 +253,13 @@ def test_an_alias_file_gives_it_our_names(renamed, told, tmp_path):
         assert car.inputs == ("steering", "throttle", "brake")
         assert (car.units["chassis.x"], car.units["speed"]) == ("", "m/s")
         car.want({"steering": (0.6, math.inf), "throttle": (1.0, math.inf)})
-        assert run_headless(car, headless_driver(car, None, None), 1.0, lambda *_: None, bar=False)
+        assert run_headless(car, headless_driver(car, None, None), 1.0, lambda *_: None)
         x, y = value(car, "chassis.x"), value(car, "chassis.y")
         assert value(car, "steering") == pytest.approx(0.6)
         speed = value(car, "speed")
     with started(renamed) as plain:
         plain.want({"StrAng": (0.3, math.inf), "Acc_ped": (1.0, math.inf)})
-        assert run_headless(plain, headless_driver(plain, None, None), 1.0, lambda *_: None, bar=False)
+        assert run_headless(plain, headless_driver(plain, None, None), 1.0, lambda *_: None)
         assert value(plain, "X") == pytest.approx(0.001 * x)
         assert value(plain, "chassis.y") == y
         assert value(plain, "speed") == speed
