@@ -79,7 +79,10 @@ def test_a_longer_repeat_that_is_refused_does_not_overrule_a_finer_one(refused: 
             raise mbs.SimulationError("it did not converge", 0.0, Status.NOT_CONVERGED)
         return mbs.simulate(system, 1.0, h, every=every, progress=False, estimate_error=False), []
 
-    repeats = Repeats(system, march(0.02, 1, float, False, 0), march, 0.02, 1, float)
+    def update(_: float) -> None:
+        pass
+
+    repeats = Repeats(system, march(0.02, 1, update, False, 0), march, 0.02, 1, update)
     known = repeats.finer(4)
     if 8 in refused:
         with pytest.raises(mbs.SimulationError, match="did not converge"):
