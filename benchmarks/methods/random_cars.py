@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import mbs
 from mbs.elements.road import KerbRoad
 from mbs.results.accuracy import differences, judged_sensors
+from mbs.simulation.prepared_system import length_of
 from mbs.vehicle import load as load_car
 
 Array = NDArray[np.float64]
@@ -70,7 +71,7 @@ class Drive:
         except mbs.SimulationError as refused:
             raise NoReferenceError(str(refused)) from refused
         groups = judged_sensors(self.system)
-        apart = max(differences(other, fine, groups)[0].values())
+        apart = max(differences(other, fine, groups, length=length_of(self.system))[0].values())
         if not apart <= AGREE:
             raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
         return {n: fine[n] for names in groups.values() for n in names}

@@ -14,6 +14,7 @@ import mbs
 from benchmarks.methods import random_cars, random_machines, random_mechanisms
 from benchmarks.references import masses_on_a_line, newton_euler
 from mbs.results.accuracy import WRONG_ERROR, extent, judged_sensors
+from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
 STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)  # s
@@ -105,11 +106,11 @@ def _both(
     t = np.linspace(0.0, span, newton_euler.INSTANTS + 1)
     steps = max(1, round(span / newton_euler.INSTANTS / h))
     fixed = span / newton_euler.INSTANTS / steps  # the nearest step that ends at the instants
-    units = {"m": list(truth)}
+    units, length = {"m": list(truth)}, length_of(system)
     yield case | _judged(
         f"{h:g} s",
         lambda: mbs.simulate(system, span, fixed, every=steps, progress=False),
-        lambda run: (_of_range(run, truth, units), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
+        lambda run: (_of_range(run, truth, units, length), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
     )
     yield case | _judged(
         f"tolerance {tolerance:g}",
@@ -127,12 +128,16 @@ def _car(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     except random_cars.NoReferenceError as none:
         yield case | {"asked": "reference", "verdict": "none", "reason": str(none)}
         return
-    units = judged_sensors(drive.system)
+    units, length = judged_sensors(drive.system), length_of(drive.system)
     for h in random_cars.STEPS:
         yield case | _judged(
             f"{h:g} s",
             lambda h=h: drive.run(h=h),  # type: ignore[misc]
-            lambda run: (_of_range(run, truth, units), run.accuracy.error if run.accuracy else None, WRONG_ERROR),
+            lambda run: (
+                _of_range(run, truth, units, length),
+                run.accuracy.error if run.accuracy else None,
+                WRONG_ERROR,
+            ),
         )
     t = np.linspace(0.0, drive.span, len(next(iter(truth.values()))))
     yield case | _judged(
@@ -165,11 +170,13 @@ def _judged(
     return row | {"verdict": verdict, "error": error, "told": told, "warnings": said, "method": method, "steps": steps}
 
 
-def _of_range(run: mbs.Trajectory, truth: Mapping[str, Array], units: Mapping[str, Sequence[str]]) -> float:
-    """Largest error over the largest range in a unit, as runs judge themselves."""
+def _of_range(
+    run: mbs.Trajectory, truth: Mapping[str, Array], units: Mapping[str, Sequence[str]], length: float
+) -> float:
+    """Largest error over the largest range in a unit, as runs of a model with this length, m, judge themselves."""
     worst = 0.0
     for unit, names in units.items():
-        size = extent(unit, [truth[n] for n in names])
+        size = extent(unit, [truth[n] for n in names], length)
         if size > 0.0:
             worst = max(worst, *(float(np.abs(run[n] - truth[n]).max()) / size for n in names))
     return worst

@@ -152,14 +152,17 @@ class Repeats:
         """After a finer run: by one of twice its step where none was made, then, where the last one is coarse, or what
         the last two differ by may change the verdict, by the next ones, down to a 16th of the step.
 
-        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. Raises
-        `SimulationError`: one does not end.
+        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. One of twice its
+        step that does not end is passed over. Raises `SimulationError`: one finer than all others does not end.
         """
         parts, last = max(self._finer), known
         if parts == self.parts:
             parts, known = 2 * parts, self.finer(2 * parts)
         else:
-            self._finer[parts // 2] = self._again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
+            try:
+                self._finer[parts // 2] = self._again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
+            except SimulationError:  # says nothing against the finer one that ended
+                parts, last, known = 2 * parts, known, self.finer(2 * parts)
         while True:
             first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
             if parts > 2 * self.parts:
