@@ -19,7 +19,7 @@ static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order
 static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
-enum { MOST_LATE = 64 }; /* communication steps that may wait */
+enum { MOST_LATE = 512 }; /* communication steps that may wait */
 
 /* Nothing is made twice. */
 static void rest(slave_half_steps *t) {
