@@ -247,8 +247,7 @@ static slave_status tell(slave *s, const ali3_report *r, double now, bool ended)
   const slave_half_steps *t = &s->half_steps;
   const bool told = slave_event_told(r), waits = t->n_late > 0;
   slave_status status = SLAVE_OK;
-  if (waits) now = t->late[t->first].end; /* what comes later may differ by more */
-  if (t->apart > 0.0 && (ended || (told && !waits) || now > t->time + LATER)) status = judge(s, r);
+  if (t->apart > 0.0 && (ended || told || now > t->time + LATER)) status = judge(s, r);
   if (s->event_said || !t->alone || !told || ((t->left > 0.0 || waits) && !ended)) return status;
   return slave_say_event(s, r);
 }
