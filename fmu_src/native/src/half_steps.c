@@ -17,30 +17,51 @@ static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre
 static const int64_t MOST = 8; /* parts of a step */
 static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
 static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
+/* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
+static const int64_t ROOM = 7;
+enum { MOST_LATE = 512 }; /* communication steps that may wait */
+
+/* Whether all is made twice that may be of what was driven up to a step. */
+static bool spent(const slave_half_steps *t, const slave_late_step *step) {
+  return t->spent > FREE + SHARE * step->driven;
+}
 
 /* From the state that is there now nothing is made twice, but for a start. */
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
-  t->alone = t->alone || t->left > 0.0 || t->apart > 0.0;
-  t->left = t->apart = 0.0;
+  t->alone = t->alone || t->left > 0.0 || t->n_late > 0 || t->apart > 0.0;
+  t->left = t->apart = t->sure = 0.0;
+  t->n_late = 0;
+  t->made = 0;
   t->begins = s->made.n == 0;
-  t->abrupt = ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.abrupt_steps : 0;
+  if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
+  t->abrupt = report.abrupt_steps;
+  t->iterations = report.iterations;
 }
 
-/* Work of one block: the snapshot of this motion at the end of the step, that of the other, forces of both, inputs. */
+static size_t inputs_of(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
+
+/* How many forces are compared, of tyres all or their loads only. */
+static size_t forces_of(const slave *s, bool all) { return (size_t)ali3_contact_forces(s->fidelity.kernel, all, NULL); }
+
+/* Work of one block: snapshots of this motion at the end of the step and where the other one begins, and of the other, its forces, inputs,
+ * parameters; of each step that waits inputs and both kinds of forces. */
 static bool allocate(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  const size_t size = ali3_snapshot_size(s->fidelity.system),
-               n = (size_t)ali3_contact_forces(s->fidelity.kernel, 1, NULL);
-  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
+  const size_t size = ali3_snapshot_size(s->fidelity.system), n = forces_of(s, true), nu = inputs_of(s),
+               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + n + forces_of(s, false);
   if (t->end != NULL) return true;
-  t->end = s->memory.allocate(1, 2 * size + (2 * n + (size_t)(2 * z.nu + z.np)) * sizeof(double));
+  t->end = s->memory.allocate(1, 3 * size + (n + 2 * nu + np + MOST_LATE * each) * sizeof(double) +
+                                     MOST_LATE * sizeof(slave_late_step));
   if (t->end == NULL) return false;
   t->other = (unsigned char *)t->end + size;
-  t->force = (double *)((unsigned char *)t->other + size);
-  t->input = t->force + 2 * n;
-  t->parameter = t->input + 2 * z.nu;
+  t->start = (unsigned char *)t->other + size;
+  t->late = (slave_late_step *)((unsigned char *)t->start + size);
+  t->force = (double *)(t->late + MOST_LATE);
+  t->input = t->force + n;
+  t->parameter = t->input + 2 * nu;
+  for (size_t i = 0; i < MOST_LATE; i++) t->late[i].number = t->parameter + np + i * each;
   return true;
 }
 
@@ -69,49 +90,139 @@ static int64_t parts_of(double h) {
   return n;
 }
 
-/* The communication step from the state of `other`, with inputs and parameters of the one that was made. */
-static ali3_status make(slave *s) {
+/* One inner step of the communication step that waits longest, by the other motion, which the kernel has; parameters are
+ * those of all that wait, slopes those of the present one, which does not wait if it has them. */
+static ali3_status make(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
-  ali3_instance *kernel = s->fidelity.kernel;
-  const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
-  const int64_t n = parts_of(s->made.h);
-  const double h = s->made.h / (double)n;
-  slave_look_at_step(s, t->parameter, t->input);
-  slave_inputs_at(s, 0.0, t->input);
-  ali3_snapshot_restore(kernel, t->other);
-  t->jumped = t->jumped || jumps(s, t->input);
-  ali3_status status = slave_set_step(s, t->parameter, t->input);
-  for (int64_t k = 1; k <= n * s->made.n && status == ALI3_OK; k++) {
-    memcpy(t->input + z.nu, t->input, (size_t)z.nu * sizeof(double));
-    slave_inputs_at(s, (double)k * h, t->input + z.nu);
-    status = ali3_run(kernel, h, 1, t->input + z.nu, 1, NULL, NULL, NULL);
+  const size_t nu = inputs_of(s);
+  const double h = step->h / (double)parts_of(step->h);
+  memcpy(t->input, step->number, nu * sizeof(double));
+  if (t->made++ == 0) {
+    t->jumped = t->jumped || jumps(s, t->input);
+    const ali3_status status = slave_set_step(s, t->parameter, t->input);
+    if (status != ALI3_OK) return status;
   }
-  return status;
+  if (step->sloped) slave_inputs_at(s, (double)t->made * h, t->input);
+  return ali3_run(s->fidelity.kernel, h, 1, t->input, 1, NULL, NULL, NULL);
 }
 
-/* The other motion through the communication step, which ends at `now`; the kernel comes back to this one. Returns the
- * difference, N. */
-static double follow(slave *s, double now) {
+/* Before the first inner step of one that waited. Returns whether it is made: up to SPAN after the last abrupt one or
+ * the last after which both differed, unless what that may cost is spent. */
+static bool begin(slave *s, const slave_late_step *step) {
+  slave_half_steps *t = &s->half_steps;
+  const bool rests = !(t->left > 0.0);
+  t->started = t->started && !step->starts;
+  if (step->span > 0.0 && (spent(t, step) || (rests && !step->starts))) {
+    t->alone = true;
+  } else if (step->span > 0.0) {
+    if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
+    t->jumped = t->jumped && !rests;
+    t->alone = t->alone && !rests;
+    t->left = fmax(t->left, step->span);
+  }
+  return t->left > 0.0;
+}
+
+/* What both motions differ by at the end of a communication step. */
+static void compare(slave *s, const slave_late_step *step) {
+  slave_half_steps *t = &s->half_steps;
+  const double length = (double)step->n * step->h;
+  const double *own = step->number + inputs_of(s) + (t->jumped ? forces_of(s, true) : 0);
+  const int32_t n = ali3_contact_forces(s->fidelity.kernel, !t->jumped, t->force);
+  double apart = 0.0;
+  for (int32_t i = 0; i < n; i++) apart = fmax(apart, fabs(t->force[i] - own[i]));
+  if (apart > t->apart) {
+    t->apart = apart;
+    t->time = step->end;
+    t->h = step->h;
+  }
+  t->left -= length;
+  if (apart > AGREED * WRONG * step->largest && !spent(t, step)) t->left = fmax(t->left, SPAN);
+  t->spent += length;
+}
+
+static int64_t iterations(const slave *s) {
+  ali3_report report;
+  return ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.iterations : 0;
+}
+
+/* One inner step of the other motion, which the kernel has, in the communication step that waits longest, unless that one
+ * is not made twice. Returns the iterations. */
+static int64_t follow(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  const slave_late_step *step = t->late + t->first;
+  int64_t cost = 0;
+  if (t->made > 0 || begin(s, step)) {
+    const int64_t before = iterations(s);
+    const bool good = make(s, step) == ALI3_OK;
+    cost = iterations(s) - before;
+    if (good && t->made < parts_of(step->h) * step->n) return cost;
+    if (good) {
+      compare(s, step);
+    } else {
+      t->left = 0.0;
+      t->alone = true;
+    }
+  }
+  t->made = 0;
+  t->first = (t->first + 1) % MOST_LATE;
+  t->n_late--;
+  return cost;
+}
+
+/* The other motion through steps that wait, down to `most` of them, and on while there is room for the iterations of a
+ * step of it beside those that were `made` in this call; the kernel comes back to this motion. */
+static void catch_up(slave *s, size_t most, int64_t made, int64_t room) {
   slave_half_steps *t = &s->half_steps;
   ali3_instance *kernel = s->fidelity.kernel;
+  if (t->n_late <= most && made + t->cost > room) return;
   ali3_snapshot_take(kernel, t->end);
-  const bool good = make(s) == ALI3_OK;
-  const int32_t n = ali3_contact_forces(kernel, !t->jumped, t->force);
-  if (good) ali3_snapshot_take(kernel, t->other);
-  ali3_snapshot_restore(kernel, t->end);
-  if (!good) {
-    t->left = 0.0;
-    t->alone = true;
-    return 0.0;
+  ali3_snapshot_restore(kernel, t->other);
+  while (t->n_late > 0 && (t->n_late > most || made + t->cost <= room)) {
+    const int64_t cost = follow(s);
+    made += cost;
+    if (cost > 0) t->cost = cost;
   }
-  ali3_contact_forces(kernel, !t->jumped, t->force + n);
-  double apart = 0.0;
-  for (int32_t i = 0; i < n; i++) apart = fmax(apart, fabs(t->force[i] - t->force[n + i]));
-  if (!(apart > t->apart)) return apart;
-  t->apart = apart;
-  t->time = now;
-  t->h = s->made.h;
-  return apart;
+  ali3_snapshot_take(kernel, t->other);
+  ali3_snapshot_restore(kernel, t->end);
+}
+
+/* The communication step that was made, to those that wait; parameters are those of all of them. `span`: s for which an
+ * abrupt one is followed, 0: it is none. */
+static void put_off(slave *s, double now, double span) {
+  slave_half_steps *t = &s->half_steps;
+  const double begin = now - (double)s->made.n * s->made.h;
+  const bool starts = span > 0.0 && !(begin < t->sure);
+  if (starts && t->n_late > 0 && t->started) catch_up(s, 0, 0, 0); /* `start` is still needed */
+  slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
+  double *own = step->number + inputs_of(s);
+  if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
+  t->started = starts || (t->started && t->n_late > 1);
+  if (span > 0.0) t->sure = fmax(t->sure, begin + span);
+  slave_look_at_step(s, t->parameter, step->number);
+  slave_inputs_at(s, 0.0, step->number);
+  ali3_contact_forces(s->fidelity.kernel, 1, own);
+  ali3_contact_forces(s->fidelity.kernel, 0, own + forces_of(s, true));
+  *step = (slave_late_step){.n = s->made.n,
+                            .h = s->made.h,
+                            .end = now,
+                            .span = span,
+                            .driven = t->driven,
+                            .largest = t->largest,
+                            .number = step->number,
+                            .sloped = s->made.sloped,
+                            .starts = starts};
+}
+
+/* Whether a parameter is another one than in the steps that wait. */
+static bool tuned(const slave *s) {
+  const int32_t np = ali3_system_sizes(s->fidelity.system).np;
+  bool same = true;
+  for (int32_t i = 0; i < np && same; i++) {
+    double is;
+    same = ali3_get_parameter(s->fidelity.kernel, i, &is) == ALI3_OK && is == s->half_steps.parameter[i];
+  }
+  return !same;
 }
 
 /* The largest difference, when what comes later has shown how large forces are. */
@@ -134,17 +245,19 @@ static slave_status judge(slave *s, const ali3_report *r) {
 /* What can be said by now, or when the run has `ended`. */
 static slave_status tell(slave *s, const ali3_report *r, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const bool told = slave_event_told(r);
+  const bool told = slave_event_told(r), waits = t->n_late > 0;
   slave_status status = SLAVE_OK;
   if (t->apart > 0.0 && (ended || told || now > t->time + LATER)) status = judge(s, r);
-  if (s->event_said || !t->alone || !told || (t->left > 0.0 && !ended)) return status;
+  if (s->event_said || !t->alone || !told || ((t->left > 0.0 || waits) && !ended)) return status;
   return slave_say_event(s, r);
 }
 
 /* What is not judged when the run ends. */
 void slave_half_steps_end(slave *s) {
   ali3_report report;
-  if (!s->event_said && ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK) tell(s, &report, 0.0, true);
+  if (s->event_said) return;
+  if (s->half_steps.n_late > 0) catch_up(s, 0, 0, 0);
+  if (ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK) tell(s, &report, 0.0, true);
 }
 
 /* After a good communication step whose start the fidelity keeps; before slopes are forgotten. */
@@ -154,26 +267,21 @@ slave_status slave_halve_steps(slave *s) {
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* tyres that are driven from the start on slip at once, where long steps miss it */
   const bool begins = t->begins && parts_of(s->made.h) == MOST && ali3_contact_forces(s->fidelity.kernel, 1, NULL) > 0,
-             abrupt = report.abrupt_steps > t->abrupt || begins, rests = !(t->left > 0.0);
+             abrupt = report.abrupt_steps > t->abrupt || begins;
+  const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
+  t->iterations = report.iterations;
   t->begins = false;
   if (begins && !(t->driven > 0.0)) t->spent = -START; /* beside what abrupt forces may cost */
   t->driven += length;
   t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
-  const bool spent = t->spent > FREE + SHARE * t->driven;
-  if (abrupt && (spent || !allocate(s))) {
-    t->alone = true;
-  } else if (abrupt) {
-    if (rests) memcpy(t->other, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
-    t->jumped = t->jumped && !rests;
-    t->alone = t->alone && !rests;
-    t->left = fmax(t->left, begins ? START : SPAN);
-  }
-  if (t->left > 0.0) {
-    t->left -= length;
-    t->spent += length;
-    if (follow(s, now) > AGREED * WRONG * t->largest && !spent) t->left = fmax(t->left, SPAN);
+  if (t->n_late > 0 && tuned(s)) catch_up(s, 0, 0, 0);
+  if (abrupt && !allocate(s)) t->alone = true;
+  if (t->end != NULL && (abrupt || t->left > 0.0 || t->n_late > 0)) {
+    const bool waits = parts_of(s->made.h) == 2 && !s->made.sloped;
+    put_off(s, now, abrupt ? (begins ? START : SPAN) : 0.0);
+    catch_up(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->made.n);
   }
   return tell(s, &report, now, false);
 }

@@ -123,13 +123,29 @@ typedef struct { /* the last good communication step, whose start the fidelity k
   bool sloped; /* along derivatives of the inputs, which are kept */
 } slave_made;
 
+typedef struct { /* a communication step that waits to be made a second time, see half_steps.c */
+  int64_t n; /* inner steps */
+  double h, end; /* s: one of them; time at its end */
+  double span; /* s from its start on for which the other motion follows, as it was abrupt; 0: it was not */
+  double driven, largest; /* those of slave_half_steps, then */
+  double *number; /* inputs; forces of tyres and contacts at its end: all, then those that are compared after a jump */
+  bool sloped, starts; /* inputs have slopes; the other motion starts here from `start` if it rests */
+} slave_late_step;
+
 typedef struct { /* of a motion that is made a second time with half the step, see half_steps.c */
-  void *end, *other; /* snapshots: this motion after the communication step, the other one; NULL: not needed yet */
-  double *force, *input, *parameter; /* work */
+  void *end, *other, *start; /* snapshots: this motion after the communication step, the other one, where it starts
+                                next; NULL: not needed yet */
+  double *force, *input, *parameter; /* work; parameters of the steps that wait */
+  slave_late_step *late; /* communication steps that wait, a ring of n_late from first on */
+  size_t first, n_late;
+  double sure; /* s: time up to which the other motion will go at least */
+  int64_t made; /* inner steps of the other motion in the one that waits longest */
+  int64_t iterations, cost; /* of this motion so far; of the other one in its last step */
   double left, spent, driven; /* s: of the time that is made twice, 0: nothing is; made twice so far; of all steps */
   double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
   double largest; /* of the forces at communication points, N: within steps there may be larger ones */
   int64_t abrupt; /* abrupt steps that were seen */
+  bool started; /* a step that waits may need `start` */
   bool begins; /* no step was made since the start */
   bool jumped; /* an input has, since it began */
   bool alone; /* not all of an abrupt change was made twice: what steps tell themselves holds */

@@ -22,6 +22,7 @@ static const double IN_LINE = 0.25; /* square of the largest sine of a ring whos
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
 static const double MOST_TURNED =
     0.2; /* sine of a triad in a controlled step past a place where branches may be near */
+static const double SAFE = 0.65, APART_AGAIN = 0.25; /* of MOST_TURNED; of a step that ends elsewhere than its parts */
 enum { FEW = 4, MANY = 8, LOOKS = 8 };
 
 enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
@@ -162,8 +163,8 @@ static void left_modes(ali3_instance *in, double t) {
 }
 
 /* How far the controlled step turns a triad that changes its sign on the way where its ring is nearly in line: the change
- * of its sine, 0 where none does. */
-static double passed(ali3_instance *in, double h) {
+ * of its sine, 0 where none does. *look: the eighth of the step in which it does, from 1 on. */
+static double passed(ali3_instance *in, double h, int *look) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
   int32_t found = -1;
@@ -180,6 +181,7 @@ static double passed(ali3_instance *in, double h) {
             (in_line(in, in->sine_before, k, first, end) || in_line(in, in->mode_sine, k, first, end)))
           found = k;
     }
+    *look = n;
   }
   if (found < 0) return 0.0;
   ali3_mode_angles(in, in->now.q);
@@ -187,12 +189,19 @@ static double passed(ali3_instance *in, double h) {
 }
 
 /* Whether the accepted step of in->origin, in->centre and in->now may have jumped where branches are near: it turns a
- * ring too far to know, or ends elsewhere than in shorter parts. The whole and its halves may have jumped alike. */
-bool ali3_branch_jumped(ali3_instance *in, const ali3_measure *measure, double t, double h) {
+ * ring too far to know, or ends elsewhere than in shorter parts. The whole and its halves may have jumped alike. Returns
+ * the share of the step that may be made: one that turns the ring as far as it may, or ends before it is in line; 1: all
+ * of it. */
+double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double t, double h) {
   const int32_t nq = in->system->size.nq;
-  if (!watches(in)) return false;
-  const double turned = passed(in, h);
-  if (turned == 0.0 || turned > MOST_TURNED) return turned > 0.0;
+  int look = 0;
+  if (!watches(in)) return 1.0;
+  const double turned = passed(in, h, &look);
+  if (turned == 0.0) return 1.0;
+  if (turned > MOST_TURNED) {
+    const double far_enough = SAFE * MOST_TURNED / turned;
+    return far_enough * LOOKS > look ? far_enough : fmax(far_enough, (look - 1.0) / LOOKS);
+  }
   const ali3_report whole = in->report;
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, &in->origin);
@@ -207,7 +216,7 @@ bool ali3_branch_jumped(ali3_instance *in, const ali3_measure *measure, double t
   in->iterations_before = whole.iterations;
   ali3_balance_restore(&in->report, &whole);
   in->t_now = t + h;
-  return apart;
+  return apart ? APART_AGAIN : 1.0;
 }
 
 /* After a controlled step, whose halves have shown already that no other branch is near enough to be jumped to. */

@@ -189,12 +189,12 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
       continue;
     }
     const double part = error * c->span / (c->tolerance * tried);
-    int verdict = judge(c, &seen, tried, error, tried <= 1.5 * least);
-    if (verdict == ACCEPT && tried > 1.5 * least && ali3_branch_jumped(in, measure, t, tried)) {
-      verdict = REJECT;
+    const int verdict = judge(c, &seen, tried, error, tried <= 1.5 * least);
+    const double share = verdict == ACCEPT && tried > 1.5 * least ? ali3_branch_share(in, measure, t, tried) : 1.0;
+    if (share < 1.0) {
       seen.rejected = true;
       c->rejected++;
-      c->h = fmax(least, AFTER_FAILURE * tried);
+      c->h = fmax(least, share * tried);
       take_back(in, &before);
       continue;
     }

@@ -17,7 +17,7 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure);
 
 /* branch_watch.c */
-bool ali3_branch_jumped(ali3_instance *in, const ali3_measure *measure, double t, double h);
+double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double t, double h);
 
 /* dense_output.c */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to);
