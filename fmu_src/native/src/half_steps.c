@@ -45,8 +45,8 @@ static size_t inputs_of(const slave *s) { return (size_t)ali3_system_sizes(s->fi
 /* How many forces are compared, of tyres all or their loads only. */
 static size_t forces_of(const slave *s, bool all) { return (size_t)ali3_contact_forces(s->fidelity.kernel, all, NULL); }
 
-/* Work of one block: snapshots of this motion at the end of the step and where the other one begins, and of the other, its forces, inputs,
- * parameters; of each step that waits inputs and both kinds of forces. */
+/* Work of one block: snapshots of this motion at the end of the step and where the other one begins, and of the other,
+ * its forces, inputs, parameters; of each step that waits inputs and both kinds of forces. */
 static bool allocate(slave *s) {
   slave_half_steps *t = &s->half_steps;
   const size_t size = ali3_snapshot_size(s->fidelity.system), n = forces_of(s, true), nu = inputs_of(s),

@@ -3,7 +3,8 @@
  * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
  * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes
  * its sign is repeated in 4 parts and, where these do not change it, in 8: where these agree with each other and not with
- * it, the step has jumped. On the smooth branch all three agree. The state and what the step left behind are those of the whole step. */
+ * it, the step has jumped. On the smooth branch all three agree. The state and what the step left behind are those of
+ * the whole step. */
 #include <math.h>
 #include <string.h>
 
