@@ -22,6 +22,7 @@ from benchmarks.references.newton_euler import (
     motion,
 )
 from mbs.results.accuracy import judged_sensors
+from mbs.simulation.prepared_system import length_of
 
 
 def pendulum(dimension: int) -> Drawing:
@@ -116,6 +117,7 @@ def told_and_true(seed, number, h):
     with pytest.warns(mbs.AccuracyWarning):
         run = drive.run(h=h)
     fine, units = drive.run(h=1e-4, estimate_error=False), judged_sensors(drive.system)
-    error = random_honesty._of_range(run, {n: fine[n] for names in units.values() for n in names}, units)
+    truth = {n: fine[n] for names in units.values() for n in names}
+    error = random_honesty._of_range(run, truth, units, length_of(drive.system))
     assert error > 0.05
     return run, error
