@@ -123,6 +123,10 @@ class Fmu(Closing):
         """Names of the real and whole parameters that may be set between steps."""
         return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
 
+    def places(self, names: Iterable[str]) -> list[Place]:
+        """Where the values of scalars stand."""
+        return [self._places[n] for n in names]
+
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """Set start values and leave initialisation mode; `StartRefusedError` if the FMU cannot start with them."""
         settable = {n for n, v in self.variables.items() if v.causality in ("parameter", "input")}
@@ -157,7 +161,7 @@ class Fmu(Closing):
         numbers = [k for k, kind in enumerate(kinds) if kind in ("Real", "Integer")]
         whole = [k for k in numbers if kinds[k] == "Integer"]
         others = [k for k in range(len(kinds)) if k not in numbers]
-        set_numbers = self._instance.setter([self._places[names[k]] for k in numbers])
+        set_numbers = self._instance.setter(self.places(names[k] for k in numbers))
 
         def set_values(values: Sequence[float]) -> None:
             for k in whole:
@@ -180,7 +184,7 @@ class Fmu(Closing):
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """A function that sets first derivatives by the time of real inputs, for the next step only."""
         slave, count = self._slave, len(names)
-        references = (c_uint32 * count)(*(self._places[n].reference for n in names))
+        references = (c_uint32 * count)(*(place.reference for place in self.places(names)))
         orders, buffer = (c_int32 * count)(*count * [1]), (c_double * count)()
 
         def set_slopes(slopes: Sequence[float]) -> None:
@@ -203,7 +207,7 @@ class Fmu(Closing):
 
     def reader(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
         """A function that writes the values of real and whole variables into an array; references are prepared once."""
-        return self._instance.reader([self._places[n] for n in names])
+        return self._instance.reader(self.places(names))
 
     def step(self, time: float, step: float) -> None:
         """One communication step; `StepRefusedError` if the FMU refuses it."""
