@@ -41,8 +41,8 @@ class TextTable:
     """A table of text, read once from its beginning.
 
     Empty lines and lines that begin with ``#`` are left out. Cells are divided by semicolons, tabs or commas, the first
-    of these that the first line has; but for commas a comma may be the decimal mark. A cell in quotation marks may hold
-    the mark, not the end of a line. All lines have as many cells as the first.
+    of these that the first line has; unless commas divide them, a comma may be the decimal mark. A cell in quotation
+    marks may hold the mark, not the end of a line. All lines have as many cells as the first.
 
     Parameters
     ----------

@@ -99,9 +99,9 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
 
 
 def check_begin(first: float, last: float, path: Path) -> None:
-    """Refuse a table with times, s, before 0 or so large, as those since 1970, that rows are not told apart."""
+    """Refuse a table with times, s, before 0 or so large, as those since 1970, that rows cannot be told apart."""
     if first < 0.0:
-        raise HostError(f"{path} begins at {first:g} s; a run begins at 0: add {-first:g} s to all its times.")
+        raise HostError(f"{path} begins at {first:.15g} s; a run begins at 0: add {-first:.15g} s to all its times.")
     if last > _LATEST:
         raise HostError(
             f"{path} goes from {first:.15g} to {last:.15g} s; a run begins at 0 and ends before {_LATEST:.2g} s: take "

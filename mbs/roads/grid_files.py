@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from ali3.errors import reason
 from ali3.extras import missing_package
 from ali3.reading import check_file
-from ali3.tables import HEADING, Row, TextTable, is_number
+from ali3.tables import Row, TextTable, is_number
 from ali3.words import brief, one_line
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
@@ -78,9 +79,9 @@ def _table(file: Path) -> Grid:
     begins = [row.line for row in rows if not is_number(row.cells[0], table.decimal)]
     if not begins or begins[0] != rows[0].line:
         return Grid(np.array([table.numbers(row) for row in rows]))
-    corner = HEADING.fullmatch(rows[0].cells[0])
-    if corner and corner["unit"] != "m":
-        raise RoadFileError(f"{file}: its first cell is {brief(corner[0])}; coordinates and heights must be in m.")
+    corner = rows[0].cells[0]
+    if re.search(r"\[[^\[\]]*\]$", corner) and not corner.endswith("[m]"):
+        raise RoadFileError(f"{file}: its first cell is {brief(corner)}; coordinates and heights must be in m.")
     if len(begins) > 2:
         raise RoadFileError(f"{file}, line {begins[2]} begins a third table; there are heights and frictions.")
     second = begins[1] if len(begins) > 1 else math.inf

@@ -28,7 +28,7 @@ def read_car(kind: type[C], car: str | Path) -> C:
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
     path = file_of(car)
-    if path.suffix == ".fmu":
+    if path.suffix.lower() == ".fmu":
         raise CarFileError(f"{path} is an FMU; a car is the name of one, a folder with a file {FILE}, or such a file.")
     found = checked_car(kind, read_toml(path, CarFileError), path.parent, str(path), warn=True)
     if found.front.suspension.stop_left_out or None in (found.front.stops, found.rear.stops):

@@ -140,6 +140,17 @@ def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: Ho
     assert [m for m in driven.messages if WORDS in m]
 
 
+def test_a_run_that_starts_before_0_is_told_the_same(prototype_fmu: Path, host: HostMaker) -> None:
+    told = []
+    for start in (0.0, -10.0):
+        driven = host(prototype_fmu).start(FALL | {"step_size": EVERY}, start)
+        for k in range(round(SPAN / EVERY)):
+            driven.step(start + k * EVERY, EVERY)
+        told += [re.search(r"about (\d+) N", m)[1] for m in driven.messages if WORDS in m]
+    assert len(told) == 2
+    assert told[0] == told[1]
+
+
 def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMaker) -> None:
     """Back in the fall after the other motion had begun: the same is told as without."""
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})

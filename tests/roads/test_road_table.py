@@ -139,6 +139,8 @@ def test_a_state_is_bound_to_the_text(tmp_path, loaded):
         (GOOD.replace("1.1", "2e5"), "its height at row 2, column 2 of the points is 200000"),
         (GOOD.replace("-3,", "-5,"), "coordinates x do not ascend"),
         (GOOD.replace("x", "x [ft]"), "first cell is 'x [ft]'; coordinates and heights must be in m"),
+        (GOOD.replace("x", "x[ft]"), "first cell is 'x[ft]'; coordinates and heights must be in m"),
+        (GOOD.replace("x", '"[ft]"'), "first cell is '\"[ft]'; coordinates and heights must be in m"),
         ("x,0,1\n500000,1,1\n500000.333,1,1\n500000.667,1,1\n", "not regular: 500000.333 should be 500000.3335"),
         ("x,0,1,5\n0,1,2,3\n1,1,2,3\n", "coordinates y are not regular: 1 should be 2.5"),
         (GOOD + GOOD.replace("1.1", "-0.1"), "its friction at row 2, column 2 of the points is -0.1"),

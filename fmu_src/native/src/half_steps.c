@@ -1,7 +1,8 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
- * what follows is made a second time, until both agree for 0.4 s or what that may cost is spent, with half of a short
- * step and down to an eighth of a long one: what both differ by is the error of the step. A run without either, or that
- * has been told of one, pays nothing. The other motion is a snapshot of the same instance. */
+ * what follows is made a second time, until both agree for 0.4 s or its budget is spent, with half of a short step and
+ * down to an eighth of a long one: what both differ by is the error of the step. A run without either, or that has been
+ * told of one, pays nothing. The other motion is a snapshot of the same instance; of short steps it makes the dear ones
+ * later, in cheaper calls. */
 #include <math.h>
 #include <string.h>
 
@@ -31,8 +32,10 @@ void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
   t->alone = t->alone || t->left > 0.0 || t->n_late > 0 || t->apart > 0.0;
-  t->left = t->apart = t->sure = 0.0;
+  t->left = t->apart = 0.0;
+  t->sure = -HUGE_VAL; /* a run may start at any time */
   t->n_late = 0;
+  t->cost = 0;
   t->made = 0;
   t->begins = s->made.n == 0;
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
@@ -175,7 +178,10 @@ static int64_t follow(slave *s) {
 static void catch_up(slave *s, size_t most, int64_t made, int64_t room) {
   slave_half_steps *t = &s->half_steps;
   ali3_instance *kernel = s->fidelity.kernel;
-  if (t->n_late <= most && made + t->cost > room) return;
+  if (t->n_late <= most && made + t->cost > room) {
+    if (t->cost > 0) t->cost--; /* of one dear step, others may be cheaper */
+    return;
+  }
   ali3_snapshot_take(kernel, t->end);
   ali3_snapshot_restore(kernel, t->other);
   while (t->n_late > 0 && (t->n_late > most || made + t->cost <= room)) {
@@ -192,7 +198,7 @@ static void catch_up(slave *s, size_t most, int64_t made, int64_t room) {
 static void put_off(slave *s, double now, double span) {
   slave_half_steps *t = &s->half_steps;
   const double begin = now - (double)s->made.n * s->made.h;
-  const bool starts = span > 0.0 && !(begin < t->sure);
+  const bool starts = span > 0.0 && !(begin < t->sure - 0.5 * (now - begin)); /* the other clock has other round-off */
   if (starts && t->n_late > 0 && t->started) catch_up(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
   double *own = step->number + inputs_of(s);
@@ -237,9 +243,9 @@ static slave_status judge(slave *s, const ali3_report *r) {
   return slave_say(
       s, SLAVE_WARNING,
       "At %.4g s a tyre, a contact or a stop had changed a force too quickly for the step: made again with "
-      "1/%.0f of it, forces are off by about %.0f N, %.2g %% of the largest at communication points. Run again "
+      "1/%.0f of it, forces are off by %s %.0f N, %.2g %% of the largest at communication points. Run again "
       "with a step_size of %.2g s. This is said once.",
-      t->time, n, off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
+      t->time, n, t->n_late > 0 ? "at least" : "about", off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
 }
 
 /* What can be said by now, or when the run has `ended`. */

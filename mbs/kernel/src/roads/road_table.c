@@ -1,6 +1,6 @@
 /* The first row has the y of the columns behind a cell that is no number, the first column the x of the rows; another
  * row that begins with no number begins the frictions. Cells are parted by semicolons, tabs or commas, the first of these
- * that the first row has; but for commas the decimal mark may be a comma. Lines that begin with # are left out.
+ * that the first row has; unless it is a comma, the decimal mark may be one. Lines that begin with # are left out.
  * Independent of the locale. */
 #include "road_table.h"
 
@@ -126,6 +126,7 @@ static int count(reader *r, ali3_road_table *t) {
             : memchr(line, '\t', (size_t)(line_end - line)) != NULL ? '\t'
                                                                     : ',';
   const char *cell = line, *corner_end = cell_end(r, &cell, line_end, &next);
+  if (corner_end > cell && corner_end[-1] == '"') corner_end--;
   const size_t corner = (size_t)(corner_end - cell);
   if (memchr(cell, '[', corner) != NULL && corner_end[-1] == ']' &&
       (corner < 3 || memcmp(corner_end - 3, "[m]", 3) != 0))
