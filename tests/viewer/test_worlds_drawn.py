@@ -119,6 +119,21 @@ def test_an_edge_between_two_surfaces_of_one_channel_is_as_soft_as_others_and_wh
     assert 0.6 * wanted < soft < 1.6 * wanted
 
 
+@pytest.mark.parametrize("quality", ["draft", "low"])
+def test_where_four_surfaces_meet_there_is_no_fifth(drawn, quality):
+    """Paint, ice and concrete, which share channels with three of the four, are brighter than all of these."""
+    ground = level(0.0)
+    four = np.array([[NAMES.index("asphalt"), NAMES.index("grass")], [NAMES.index("wet"), NAMES.index("gravel")]])
+    classes = np.kron(four, np.ones((40, 40), int))
+    surface = {"origin": [-39.5, -39.5], "spacing": [1, 1], "shape": [80, 80], "classes": octets(classes)}
+    made = world(roads=[ground | {"surface": ground["surface"] | surface}], shapes=[], extent=2.0)
+    drawn.show(made, at(0, 0, 0), camera="top", quality=quality)
+    seen = drawn.picture().mean(axis=2)
+    x, y = (round(value) for value in drawn.project((0.0, 0.0, 0.0)))
+    squares = [seen[y + 50 * i - 15 :, x + 50 * j - 15 :][:30, :30].mean() for i in (-1, 1) for j in (-1, 1)]
+    assert seen[y - 4 : y + 5, x - 4 : x + 5].mean() == pytest.approx(np.mean(squares), rel=0.25)
+
+
 def test_the_ground_is_as_high_as_its_points(drawn):
     """Of a ball whose middle lies on the ground the upper half is seen, of one below the ground nothing."""
     drawn.show(world(shapes=[ball(radius=0.5)], extent=12.0), camera="side")

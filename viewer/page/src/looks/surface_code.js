@@ -39,14 +39,16 @@ float detail = 1.0 + smoothstep(0.01, 0.06, reach) * inversesqrt(1.0 - 2.0 * ove
 `;
 
 /**
- * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them:
- * two that share a channel are halves at a quarter, and there the one goes over into the other as channels do. Where
- * four surfaces meet in a point, and hold a quarter each, half of it shows those that share their channels.
+ * Shares of asphalt, grass, wet, gravel above zero, of dirt, paint, ice, concrete below it, where coverage.js halves them.
+ * All shares are one together. What is missing, were no two of one channel here, is 1.5 times the lesser of such two; so
+ * `upper` knows a quarter of one surface from halves of two, and the one goes over into the other as channels do.
  * Seen flatly a lane is far longer than wide: without the card's own remedy it is looked up finer than it asks for.
  * @param {string} at @param {string} sharper
  */
 const sharesAt = (at, sharper) => `vec4 code = (texture2D(aShares, ${at}, ${sharper}) * 255.0 - 128.0) / 127.0;
-vec4 upper = smoothstep(0.1, 0.4, code);
+vec4 one = max(code, 0.0);
+float missing = max(1.0 - dot(one - 2.0 * min(code, 0.0), vec4(1.0)), 0.0);
+vec4 upper = smoothstep(0.4, 0.6, (code + missing / 3.0) / max(one + missing, 1e-3));
 code = min(code, 2.0 * code);`;
 
 /** Place in the picture of the shares. */
