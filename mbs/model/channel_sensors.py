@@ -13,10 +13,12 @@ from mbs.kernel.header.enumerations import GuideType, SensorType, SolverValue
 from mbs.model.guides import owned_guide
 from mbs.model.inputs import owned_input
 from mbs.model.joints.joint import Joint
+from mbs.model.mechanism import Mechanism
 from mbs.model.reactions import guide_terms
 from mbs.model.records import Guide, Input
+from mbs.model.sensed import sensed_joints
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import RATE_UNITS, SensorBase, order_number
+from mbs.model.sensors import RATE_UNITS, order_number
 
 SOLVER = tuple(value.name.lower() for value in SolverValue)
 SOLVER_UNITS = {SolverValue.VIOLATION: "m", SolverValue.RESIDUAL: "m", SolverValue.ENERGY_ERROR: "J"}
@@ -34,11 +36,11 @@ GUIDE_READINGS = {
 }
 
 
-class ChannelSensorVocabulary(SensorBase):
+class ChannelSensorVocabulary(Mechanism):
     """What can be read beside motion and forces."""
 
     def sense_constant(
-        self,
+        self: Mechanism,
         name: str,
         value: float,
         *,
@@ -64,7 +66,7 @@ class ChannelSensorVocabulary(SensorBase):
         return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
 
     def sense_input(
-        self, name: str, input: Input, *, scale: float = 1.0, unit: str = "", description: str = ""
+        self: Mechanism, name: str, input: Input, *, scale: float = 1.0, unit: str = "", description: str = ""
     ) -> Sensor:
         """An input as it is used, within its limits, by default in its own unit.
 
@@ -81,7 +83,7 @@ class ChannelSensorVocabulary(SensorBase):
         return self._sense(name, unit, description, SensorType.INPUT, integers=integers, whole=channel.whole)
 
     def sense_guide(
-        self,
+        self: Mechanism,
         name: str,
         guide: Guide,
         kind: str = "motion",
@@ -119,7 +121,7 @@ class ChannelSensorVocabulary(SensorBase):
         motion, factor = owned_guide(self, guide, f"The {what}"), number(scale, f"The scale of {what}")
         k = order_number(order, 2 if kind == "motion" else 0, what)
         if kind == "force":
-            return self._guide_force(name, motion, joints, factor, unit, description)
+            return _guide_force(self, name, motion, joints, factor, unit, description)
         if joints is not None:
             raise ModelError(f"The {what} reads the {kind} of a guide; joints are for its force.")
         if kind == "excess" and motion.type != GuideType.OF_TWO_INPUTS:
@@ -127,26 +129,6 @@ class ChannelSensorVocabulary(SensorBase):
         integers = [motion.index, k] if kind == "motion" else [motion.index]
         unit = self._unit(unit, RATE_UNITS.get(motion.unit, (motion.unit,) * 3)[k])
         return self._sense(name, unit, description, GUIDE_READINGS[kind], integers=integers, reals=[factor])
-
-    def _guide_force(
-        self, name: str, guide: Guide, joints: Sequence[Joint] | None, factor: float, unit: str, description: str
-    ) -> Sensor:
-        asked = self.joints if joints is None else self._joints(name, "joints", joints)
-        terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, guide.index)]
-        by_table = [g.index for g in self.guides if g.type == GuideType.BY_TABLE and g.input == guide.index]
-        terms += [
-            replace(t, weight=factor * t.weight, slope=g)
-            for g in by_table
-            for joint in asked
-            for t in guide_terms(joint, g)
-        ]
-        if not terms:
-            raise ModelError(
-                f"The sensor '{name}' asks for the force of guide '{guide.name}', which none of its joints follows."
-            )
-        unit = self._unit(unit, {"m": "N", "rad": "N.m"}.get(guide.unit, "1"))
-        kind = SensorType.REACTION_BY_TABLE if by_table else GUIDE_READINGS["force"]
-        return self._sense(name, unit, description, kind, terms=terms)
 
     def sense_solver(self, name: str, kind: str, *, description: str = "") -> Sensor:
         """What the solver says about itself.
@@ -163,7 +145,7 @@ class ChannelSensorVocabulary(SensorBase):
         unit, whole = SOLVER_UNITS.get(value, "1"), value in SOLVER_WHOLE
         return self._sense(name, unit, description, SensorType.SOLVER, integers=[value], whole=whole)
 
-    def notice(self, sensor: Sensor, text: str) -> Sensor:
+    def notice(self: Mechanism, sensor: Sensor, text: str) -> Sensor:
         """Let a run say a sentence when a sensor is not zero, so that users need not look at every output.
 
         `Trajectory.notices` has the sentence with the first time and the largest value; the run goes on.
@@ -186,3 +168,30 @@ class ChannelSensorVocabulary(SensorBase):
         with_notice = replace(sensor, notice=checked_text(text, f"The notice of sensor '{sensor.name}'"))
         self.sensors = [with_notice if s is sensor else s for s in self.sensors]
         return with_notice
+
+
+def _guide_force(
+    model: Mechanism,
+    name: str,
+    guide: Guide,
+    joints: Sequence[Joint] | None,
+    factor: float,
+    unit: str,
+    description: str,
+) -> Sensor:
+    asked = model.joints if joints is None else sensed_joints(model, name, "joints", joints)
+    terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, guide.index)]
+    by_table = [g.index for g in model.guides if g.type == GuideType.BY_TABLE and g.input == guide.index]
+    terms += [
+        replace(t, weight=factor * t.weight, slope=g)
+        for g in by_table
+        for joint in asked
+        for t in guide_terms(joint, g)
+    ]
+    if not terms:
+        raise ModelError(
+            f"The sensor '{name}' asks for the force of guide '{guide.name}', which none of its joints follows."
+        )
+    unit = model._unit(unit, {"m": "N", "rad": "N.m"}.get(guide.unit, "1"))
+    kind = SensorType.REACTION_BY_TABLE if by_table else GUIDE_READINGS["force"]
+    return model._sense(name, unit, description, kind, terms=terms)

@@ -33,8 +33,6 @@ class ModelCore(Register):
         self.step = 0.01
         self.joints: list[Joint] = []
         self.elements: list[ElementRecord] = []
-        # Name and description of a sensor of the work of all elements that come from now on; it comes with the first.
-        self.book_of_added: tuple[str, str] | None = None
         self.tabled: list[TabledBody | TabledNumber] = []
         self.inertias: dict[int, float] = {}  # with those of `armatures`, as drawn
         self.armatures: list[Armature] = []

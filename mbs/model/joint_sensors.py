@@ -17,8 +17,8 @@ from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.mechanism import Mechanism
 from mbs.model.reactions import Term, folded
+from mbs.model.sensed import component_number, sensed_joint, sensed_joints
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import component_number
 
 
 class JointSensorVocabulary(Mechanism):
@@ -66,7 +66,7 @@ class JointSensorVocabulary(Mechanism):
             The joint has no such force or moment.
         """
         one_of(kind, ("force", "moment"), f"The kind of sensor '{name}'")
-        found = self._joint(name, joint)
+        found = sensed_joint(self, name, joint)
         if not isinstance(on, str) or on not in ("first", "second"):
             raise ModelError(f"The sensor '{name}' asks for the {kind} on {shown(on)}; it must be 'first' or 'second'.")
         if kind == "moment" and not (found.type == "drive" and found.equations[0].kind == "drive"):
@@ -111,7 +111,7 @@ class JointSensorVocabulary(Mechanism):
         along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")
         factor = number(scale, f"The scale of sensor '{name}'")
         terms = []
-        for joint in self._joints(name, "rods", rods):
+        for joint in sensed_joints(self, name, "rods", rods):
             if joint.ends is None or not joint.ends.rod or body not in joint.ends.bodies:
                 raise ModelError(
                     f"{what} needs rods that end on '{body.name}'; '{joint.name}' ({joint.type}) does not."

@@ -12,17 +12,14 @@ from mbs.model.air import AirVocabulary
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
 from mbs.model.body import Body
-from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.coordinate import Coordinate
-from mbs.model.force_sensors import ForceSensorVocabulary
 from mbs.model.guides import GuideVocabulary
 from mbs.model.inputs import new_input
 from mbs.model.link_vocabulary import LinkVocabulary
-from mbs.model.motion_sensors import MotionSensorVocabulary
-from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import ParameterVocabulary
 from mbs.model.records import Armature, Input
 from mbs.model.road_vocabulary import RoadVocabulary
+from mbs.model.sensors import SensorVocabulary
 from mbs.model.spin import SpinVocabulary
 from mbs.model.springs import SpringVocabulary
 
@@ -32,10 +29,7 @@ class Mechanism(
     SpringVocabulary,
     AirVocabulary,
     RoadVocabulary,
-    MotionSensorVocabulary,
-    OrientationSensorVocabulary,
-    ForceSensorVocabulary,
-    ChannelSensorVocabulary,
+    SensorVocabulary,
     SpinVocabulary,
     GuideVocabulary,
     ParameterVocabulary,

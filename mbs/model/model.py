@@ -8,15 +8,21 @@ from numpy.typing import ArrayLike
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
+from mbs.model.channel_sensors import ChannelSensorVocabulary
+from mbs.model.constants import ConstantVocabulary
 from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.drive_vocabulary import DriveVocabulary
+from mbs.model.energy_sensors import EnergySensorVocabulary
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.more_guides import MoreGuidesVocabulary
+from mbs.model.motion_sensors import MotionSensorVocabulary
+from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.point_mass import PointMass
+from mbs.model.renamed_sensors import RenamedSensors
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
@@ -27,7 +33,13 @@ class Model(
     JointVocabulary,
     TableVocabulary,
     ForceVocabulary,
+    MotionSensorVocabulary,
+    OrientationSensorVocabulary,
+    EnergySensorVocabulary,
+    ChannelSensorVocabulary,
     JointSensorVocabulary,
+    ConstantVocabulary,
+    RenamedSensors,
     FlexibleVocabulary,
     ContactVocabulary,
     MoreGuidesVocabulary,

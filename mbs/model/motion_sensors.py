@@ -1,8 +1,6 @@
-"""Sensors of motion: points, vectors, coordinates and guides, and their rates."""
+"""Sensors of points and coordinates, and their rates."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,12 +11,16 @@ from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
+from mbs.model.mechanism import Mechanism
+from mbs.model.sensed import component_number
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import RATE_UNITS, SIGNALS, SensorBase, component_number, order_number, spatial
+from mbs.model.sensors import RATE_UNITS, order_number, spatial
+
+SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_RATE)
 
 
-class MotionSensorVocabulary(SensorBase):
-    """What can be read of places, vectors and coordinates."""
+class MotionSensorVocabulary(Mechanism):
+    """What can be read of places and coordinates."""
 
     def sense_position(
         self,
@@ -68,44 +70,8 @@ class MotionSensorVocabulary(SensorBase):
         signals = [s for part in (*parts, axis) for s in spatial(part)]
         return self._sense(name, unit, description, type, signals, integers=[k])
 
-    def sense_vector(
-        self,
-        name: str,
-        vector: AffineVector,
-        axes: Sequence[AffineVector] = (),
-        *,
-        order: int = 0,
-        unit: str = "",
-        description: str = "",
-    ) -> Sensor:
-        """Length of a vector v, its component along a moving axis, or its direction in two of them.
-
-        Without axes the length: the distance of two points, the speed of one. With one axis ``a . v``; with two, square
-        to each other, ``atan2(b . v, a . v)``, rad: of a velocity the side-slip angle.
-
-        Parameters
-        ----------
-        vector : AffineVector
-            Such as ``body.point(p)`` or ``body_1.point(p) - body_2.point(q)``, m.
-        axes : sequence of AffineVector
-            At most two unit vectors of a body, such as ``body.vector((1, 0, 0))``.
-        order : {0, 1, 2}
-            The vector itself, its rate in the earth or, along one axis only, its second rate.
-        """
-        what = f"sensor '{name}'"
-        if not isinstance(axes, (list, tuple)) or len(axes) > 2:
-            raise ModelError(f"The axes of {what} must be a list of at most two vectors, not {shown(axes)}.")
-        v, *along = (self.expressions(given, f"The {what}") for given in (vector, *axes))
-        k = order_number(order, 2 if len(along) == 1 else 1, what)
-        unit = self._unit(unit, "rad" if len(along) == 2 else RATE_UNITS["m"][k])
-        if not along:
-            return self._sense(name, unit, description, SensorType.NORM, v.components, integers=[k, len(v)])
-        type = SensorType.COMPONENT if len(along) == 1 else SensorType.DIRECTION
-        signals = [s for part in (v, *along) for s in spatial(part)]
-        return self._sense(name, unit, description, type, signals, integers=[k])
-
     def sense_coordinate(
-        self,
+        self: Mechanism,
         name: str,
         coordinate: Coordinate | Affine,
         *,

@@ -11,11 +11,13 @@ from mbs.elements.spin_angle import SpinAngle
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.carried import Spin
+from mbs.model.mechanism import Mechanism
+from mbs.model.sensed import component_number
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import SensorBase, component_number, order_number, spatial
+from mbs.model.sensors import order_number, spatial
 
 
-class OrientationSensorVocabulary(SensorBase):
+class OrientationSensorVocabulary(Mechanism):
     """What can be read of the orientation. A body is a rigid one, a node of a flexible one or the frame of it."""
 
     def sense_rotation(

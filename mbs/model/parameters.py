@@ -1,4 +1,4 @@
-"""Numbers of a System that are set without compiling it again, and constants, which only its users need."""
+"""Numbers of a System that are set without compiling it again."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
 from mbs.model.carried import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
 from mbs.model.core import ModelCore
-from mbs.model.records import Armature, Constant, Guide, Parameter
+from mbs.model.records import Armature, Guide, Parameter
 from mbs.model.spin import STEEPEST
 
 _OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
@@ -251,27 +251,3 @@ class ParameterVocabulary(ModelCore):
         parameter = Parameter(name, start, low, high, unit, description, places, tunable, span)
         self.parameters.append(parameter)
         return parameter
-
-    def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
-        """A number about the model that its users need and its equations do not, such as a wheelbase.
-
-        An FMU has it as a constant; it is no output and takes no part in a run.
-
-        Parameters
-        ----------
-        name : str
-            Unique, such as ``vehicle.wheelbase``.
-        value : float
-            Finite, in `unit`.
-        unit : str
-            SI unit.
-        """
-        what = f"constant {shown(name)}"
-        constant = Constant(
-            self.unique("constant", name),
-            number(value, f"The value of {what}"),
-            text(unit, f"The unit of {what}"),
-            text(description, f"The description of {what}", lines=True),
-        )
-        self.constants.append(constant)
-        return constant

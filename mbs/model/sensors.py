@@ -3,29 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NoReturn
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import flag, shown, text, whole
+from mbs.common.checks import flag, number, shown, text, whole
 from mbs.common.errors import ModelError
+from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import Term
 from mbs.model.sensor import Sensor
 
-COMPONENTS = {"x": 0, "y": 1, "z": 2}
-SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_RATE)
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
-
-
-def component_number(component: str, dimension: int, what: str) -> int:
-    """Number of a component. `dimension`: 2 or 3."""
-    k = COMPONENTS.get(component, -1) if isinstance(component, str) else -1
-    if not 0 <= k < dimension:
-        names = "'x' or 'y'" if dimension == 2 else "'x', 'y' or 'z'"
-        raise ModelError(f"The component of {what} is {shown(component)}; it must be {names}.")
-    return k
 
 
 def order_number(order: int, most: int, what: str) -> int:
@@ -38,42 +27,13 @@ def spatial(v: AffineVector) -> list[Affine]:
     return [*v.components, *([Affine()] * (3 - len(v)))]
 
 
-RENAMED = {
-    "sense_velocity": "sense_position(..., order=1)",
-    "sense_acceleration": "sense_position(..., order=2)",
-    "sense_norm": "sense_vector(name, vector)",
-    "sense_component": "sense_vector(name, vector, [axis])",
-    "sense_direction": "sense_vector(name, point, [axis_1, axis_2], order=1)",
-    "sense_quaternion": 'sense_rotation(name, body, "w")',
-    "sense_angular_rate": "sense_rotation(name, body, component, order=1)",
-    "sense_yaw": 'sense_angle(name, body, "yaw")',
-    "sense_pitch": 'sense_angle(name, body, "pitch")',
-    "sense_roll": 'sense_angle(name, body, "roll")',
-    "sense_angle_between": "sense_angle(name, (a, b, c))",
-    "sense_spin_angle": "sense_angle(name, spin)",
-    "sense_recovery": "sense_coordinate(name, body.combination(weights))",
-    "sense_guide_excess": 'sense_guide(name, guide, "excess")',
-    "sense_guide_force": 'sense_guide(name, guide, "force")',
-    "sense_joint_force": "sense_joint(name, joint, component)",
-    "sense_joint_moment": 'sense_joint(name, joint, component, "moment")',
-    "sense_work": 'sense_energy(name, "work", elements)',
-}
-"""Calls of earlier versions, and what they are now."""
-
-
-class SensorBase(BodyVocabulary):
+class SensorVocabulary(BodyVocabulary):
     """What the ``sense_...`` methods of a model have in common.
 
     Each registers one output under a name that is unique among the sensors, and returns its `Sensor`. Values are in SI
     units; `unit` and `description` only tell files, plots and hosts what they are. `scale` is a factor on the value.
     A vector, point, body or joint must be one of this model.
     """
-
-    if not TYPE_CHECKING:  # for mypy a name that is not there stays an error
-
-        def __getattr__(self, name: str) -> NoReturn:
-            more = f"; it is now {RENAMED[name]}" if name in RENAMED else ""
-            raise AttributeError(f"A model has no {name!r}{more}.", name=name, obj=self)
 
     def _unit(self, unit: str, default: str) -> str:
         """The unit that was given, else the default."""
@@ -114,14 +74,88 @@ class SensorBase(BodyVocabulary):
         self.sensors.append(sensor)
         return sensor
 
-    def _joint(self, name: str, joint: Joint | str) -> Joint:
-        found = self.joint_named(joint) if isinstance(joint, str) else joint
-        if not isinstance(found, Joint) or found not in self.joints:
-            raise ModelError(f"The sensor '{name}' needs a joint of model '{self.name}', got {shown(joint)}.")
-        self.remember(found)
-        return found
+    def sense_element(
+        self,
+        name: str,
+        element: ElementRecord | str,
+        output: str,
+        *,
+        scale: float = 1.0,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """An output of a force element, such as the force of a spring, by default with its unit and description.
 
-    def _joints(self, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:
-        if not isinstance(given, (list, tuple)) or not given:
-            raise ModelError(f"The {argument} of sensor '{name}' must be a list of joints, not {shown(given)}.")
-        return [self._joint(name, joint) for joint in given]
+        Parameters
+        ----------
+        element : ElementRecord or str
+            A force element of this model or its name.
+        output : str
+            Name of one of its outputs.
+        scale : float
+            Factor on it.
+        """
+        element_name = element.name if isinstance(element, ElementRecord) else element
+        if not isinstance(element_name, str) or not isinstance(output, str):
+            raise ModelError(
+                f"The sensor '{name}' needs a force element, or its name, and the name of an output, got "
+                f"{shown(element)} and {shown(output)}."
+            )
+        factor = number(scale, f"The scale of sensor '{name}'")
+        for index, record in enumerate(self.elements):
+            if record.name == element_name:
+                for k, out in enumerate(record.outputs):
+                    if out.name == output:
+                        return self._sense(
+                            name,
+                            self._unit(unit, out.unit),
+                            self._unit(description, out.description),
+                            SensorType.ELEMENT_OUTPUT,
+                            integers=[index, k],
+                            reals=[factor],
+                            whole=out.whole and factor == 1.0,
+                            display_unit=out.display_unit if isinstance(unit, str) and not unit else "",
+                        )
+                known = ", ".join(o.name for o in record.outputs) or "none"
+                raise ModelError(
+                    f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {known}."
+                )
+        raise ModelError(
+            f"The sensor '{name}' asks for element {shown(element_name)}, but the model has no such element."
+        )
+
+    def sense_vector(
+        self,
+        name: str,
+        vector: AffineVector,
+        axes: Sequence[AffineVector] = (),
+        *,
+        order: int = 0,
+        unit: str = "",
+        description: str = "",
+    ) -> Sensor:
+        """Length of a vector v, its component along a moving axis, or its direction in two of them.
+
+        Without axes the length: the distance of two points, the speed of one. With one axis ``a . v``; with two, square
+        to each other, ``atan2(b . v, a . v)``, rad: of a velocity the side-slip angle.
+
+        Parameters
+        ----------
+        vector : AffineVector
+            Such as ``body.point(p)`` or ``body_1.point(p) - body_2.point(q)``, m.
+        axes : sequence of AffineVector
+            At most two unit vectors of a body, such as ``body.vector((1, 0, 0))``.
+        order : {0, 1, 2}
+            The vector itself, its rate in the earth or, along one axis only, its second rate.
+        """
+        what = f"sensor '{name}'"
+        if not isinstance(axes, (list, tuple)) or len(axes) > 2:
+            raise ModelError(f"The axes of {what} must be a list of at most two vectors, not {shown(axes)}.")
+        v, *along = (self.expressions(given, f"The {what}") for given in (vector, *axes))
+        k = order_number(order, 2 if len(along) == 1 else 1, what)
+        unit = self._unit(unit, "rad" if len(along) == 2 else RATE_UNITS["m"][k])
+        if not along:
+            return self._sense(name, unit, description, SensorType.NORM, v.components, integers=[k, len(v)])
+        type = SensorType.COMPONENT if len(along) == 1 else SensorType.DIRECTION
+        signals = [s for part in (v, *along) for s in spatial(part)]
+        return self._sense(name, unit, description, type, signals, integers=[k])

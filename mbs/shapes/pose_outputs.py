@@ -6,10 +6,10 @@ import re
 
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
-def pose_outputs(model: Mechanism) -> None:
+def pose_outputs(model: Model) -> None:
     """Add position and quaternion of every body, and the angle of every wheel that is not a body.
 
     The names are `body.NAME.x` to `.z`, m, of the centre of mass as drawn, `body.NAME.qw` to `.qz`, scalar first, and
@@ -39,7 +39,7 @@ def pose_outputs(model: Mechanism) -> None:
                 _amplitudes(model, body, sensed)
 
 
-def _amplitudes(model: Mechanism, body: FlexibleBody, sensed: set[str]) -> None:
+def _amplitudes(model: Model, body: FlexibleBody, sensed: set[str]) -> None:
     stem = _stem(body.name, sensed, ("mode_1",))
     for k, mode in enumerate(body.reduced.mode_names):
         row = [float(j == k) for j in range(body.n_modes)]
@@ -60,7 +60,7 @@ def _stem(name: str, taken: set[str], parts: tuple[str, ...]) -> str:
     return stem
 
 
-def _position(model: Mechanism, called: str, body: Body, stem: str) -> None:
+def _position(model: Model, called: str, body: Body, stem: str) -> None:
     place = body.point(body.com)
     for k, c in enumerate("xyz"):
         name, text = f"{stem}.{c}", f"{c} of the centre of mass of {called} as drawn, earth"
@@ -70,7 +70,7 @@ def _position(model: Mechanism, called: str, body: Body, stem: str) -> None:
             model.sense_constant(name, 0.0, unit="m", description=text)
 
 
-def _orientation(model: Mechanism, called: str, body: Body, stem: str) -> None:
+def _orientation(model: Model, called: str, body: Body, stem: str) -> None:
     for k, c in enumerate("wxyz"):
         name = f"{stem}.q{c}"
         text = f"q{c} of the orientation of {called} since the drawing, scalar first (qw), to earth axes"

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
@@ -19,7 +19,7 @@ from mbs.model.ends import End
 from mbs.model.mechanism import Mechanism
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of, stress_outputs
+from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.mount import rigid_chassis
@@ -27,35 +27,29 @@ from mbs.vehicle.chassis.written import write_inertia
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import settled
 from mbs.vehicle.checks.working import working_ranges
-from mbs.vehicle.constants import vehicle_constants
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import FORMS, NAME_WORDS
-from mbs.vehicle.outputs import (
-    chassis_outputs,
-    health_outputs,
-    lever_outputs,
-    steering_work,
-    used_inputs,
-    wheel_outputs,
-    wheel_poses,
-    work_outputs,
-)
-from mbs.vehicle.port_parts import force_ports, port_outputs, road_ports, torque_ports, wind_port
+from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within
 from mbs.vehicle.schema_version import of_this_version
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
 
+if TYPE_CHECKING:
+    from mbs.model.model import Model
+
 MOST_FAULTS = 8
 
 
 M = TypeVar("M", bound=Mechanism)
 C = TypeVar("C", bound="BuiltCar")
+Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
+"""Adds what a car reports. Its arguments: the car but for its drawing, its steering, its wheels by name."""
 
 
 class BuiltCar(CarContent):
@@ -93,13 +87,15 @@ class BuiltCar(CarContent):
     def build(
         self,
         m: Mechanism,
+        outputs: Outputs,
         road: Road | RoadOfFile | None = None,
         fidelity: Fidelity = Fidelity.RIGID,
         drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
         """Add the car to an empty model (`empty`); the arguments are those of `Car.model`.
 
-        `drive`: adds what drives the x coordinate of the chassis' reference point, m; the selector is then in neutral.
+        `outputs`: adds what the car reports; `drive`: adds what drives the x coordinate of the chassis' reference
+        point, m; the selector is then in neutral.
         """
         if not fidelity.rigid and not self.steering.on_flexible_chassis:
             raise ModelError(
@@ -115,8 +111,21 @@ class BuiltCar(CarContent):
 
             tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with m.together():
-            self._build(b, road, flexible, fidelity, drive)
+            self._build(b, outputs, road, flexible, fidelity, drive)
         return b
+
+    def reported(
+        self,
+        m: Model,
+        road: Road | RoadOfFile | None = None,
+        fidelity: Fidelity = Fidelity.RIGID,
+        drive: Callable[[Affine], object] | None = None,
+    ) -> CarBuilder:
+        """`build` with all that an FMU of the car reports, which its drawing follows."""
+        from mbs.vehicle.outputs import car_outputs
+
+        frame = self.flexible_frame if self.has_frame else None
+        return self.build(m, partial(car_outputs, m, self, frame, fidelity), road, fidelity, drive)
 
     @property
     def offered(self) -> tuple[Fidelity, ...]:
@@ -133,6 +142,7 @@ class BuiltCar(CarContent):
     def _build(
         self,
         b: CarBuilder,
+        outputs: Outputs,
         road: Road | RoadOfFile | None,
         flexible: FlexibleFrame | None,
         fidelity: Fidelity,
@@ -161,7 +171,10 @@ class BuiltCar(CarContent):
         frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
         if self.ports.road is None:
             self.road.parameters(m, road, b.road, ", ".join(frictions), works)
-        self._outputs(b, steered, spins, fidelity)
+        if self.chassis.ground_contact is not None:
+            mass = self.vehicle.mass
+            ground_contact(b, self.chassis.ground_contact, mass, lambda: self.flexible_frame.structure.joints)
+        outputs(b, steered, spins)
         b.parameters(self.order, works, late=True)
         if drive is not None:
             drive(b.chassis.frame.point(b.chassis.origin)[0])
@@ -223,34 +236,6 @@ class BuiltCar(CarContent):
 
         return end
 
-    def _outputs(self, b: CarBuilder, steered: Steered, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
-        m = b.m
-        chassis_outputs(b, self)
-        steered.outputs()
-        if self.ports.torque is None:
-            self.drive.outputs(b)
-        used_inputs(b)
-        for name, spin in spins.items():
-            wheel_outputs(b, spin, name)
-        health_outputs(m)
-        if self.has_frame:
-            stress_outputs(m, b.chassis, self.flexible_frame, fidelity)
-        if self.chassis.ground_contact is not None:
-            ground_contact(
-                b, self.chassis.ground_contact, self.vehicle.mass, lambda: self.flexible_frame.structure.joints
-            )
-        work_outputs(m)
-        vehicle_constants(m, self)
-        steered.torque_outputs()
-        for name, spin in spins.items():
-            wheel_poses(b, spin, name)
-        lever_outputs(b)
-        if self.ports.any:
-            port_outputs(b, self, spins)
-        steering_work(m, self.ports)
-        text = "work of elements that are not the car's since the start, without what is stored"
-        m.book_of_added = "energy.added", text
-
 
 def checked_car(
     kind: type[C],
@@ -301,8 +286,11 @@ def checked_car(
                 frame.recorded_loads()
         except ModelError as error:
             raise CarFileError(_told(what, [str(error)])) from error
+    from mbs.model.model import Model
+
     try:
-        model = car.build(car.empty(Mechanism)).m
+        model = car.empty(Model)
+        car.reported(model)
         model.look()
         rest = settled(model, car)
     except ValueError as error:

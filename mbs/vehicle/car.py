@@ -60,16 +60,16 @@ class Car(BuiltCar):
         fidelity = Fidelity.of(fidelity)
         m = self.empty(Model)
         drive = None if guide is None else lambda way: m.drive("guided way", way, guide(m))
-        b = self.build(m, road, fidelity, drive)
+        b = self.reported(m, road, fidelity, drive)
         if Fidelity.DYNAMIC in self.offered:
-            m.more_poses.append(partial(self._frame_poses, b))
+            m.more_poses.append(partial(self._frame_poses, m, b))
         if fidelity is Fidelity.RIGID and Fidelity.QUASI_STATIC in self.offered:
             m.with_ports = partial(self.model, road, Fidelity.QUASI_STATIC, guide)
         return m
 
-    def _frame_poses(self, b: CarBuilder) -> list[dict[str, Any]]:
+    def _frame_poses(self, m: Model, b: CarBuilder) -> list[dict[str, Any]]:
         """Amplitudes of the frame as outputs, and its parts of the scene."""
-        amplitude_outputs(b.m, b.chassis, self.flexible_frame)
+        amplitude_outputs(m, b.chassis, self.flexible_frame)
         shift = np.subtract(self.vehicle.reference_point, b.chassis.frame.com)
         return [
             part | {"nodes": [[float(x) for x in np.add(node, shift)] for node in part["nodes"]]}

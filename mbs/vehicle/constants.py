@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.vehicle.car_content import CarContent
 
 
-def vehicle_constants(m: Mechanism, car: CarContent) -> None:
+def vehicle_constants(m: Model, car: CarContent) -> None:
     """Add dimensions of the car, its steering and the friction of its tyres as constants ``vehicle.*``."""
     drawn = ", with the ratio of the car file"  # a constant of FMI stays where a parameter changes the ratio
     turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max

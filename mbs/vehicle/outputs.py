@@ -2,23 +2,64 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Mapping
 
-from mbs.common.affine import Affine, AffineVector
-from mbs.model.body import Body
+from mbs.common.affine import Affine
 from mbs.model.carried import Spin
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.chassis.flexible_chassis import stress_outputs
+from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.ground_contact import NAME as GROUND_CONTACT
+from mbs.vehicle.checks.equilibrium import travel_output
+from mbs.vehicle.constants import vehicle_constants
+from mbs.vehicle.fidelity import Fidelity
+from mbs.vehicle.port_parts import port_outputs
 from mbs.vehicle.ports import Ports
+from mbs.vehicle.steering.steered import Steered
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 
-def chassis_outputs(b: CarBuilder, car: CarContent) -> None:
+def car_outputs(
+    m: Model,
+    car: CarContent,
+    frame: FlexibleFrame | None,
+    fidelity: Fidelity,
+    b: CarBuilder,
+    steered: Steered,
+    spins: Mapping[str, Spin],
+) -> None:
+    """All outputs and constants of a car. `m`: of `b`; `frame`: where it has one."""
+    _chassis(m, b, car)
+    steered.outputs()
+    if car.ports.torque is None:
+        car.drive.outputs(b)
+    for channel in b.inputs.values():
+        m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
+    for name, spin in spins.items():
+        _wheel(m, b, spin, name)
+    _health(m)
+    if frame is not None:
+        stress_outputs(m, b.chassis, frame, fidelity)
+    if car.chassis.ground_contact is not None:
+        _ground(m)
+    _works(m)
+    vehicle_constants(m, car)
+    steered.torque_outputs()
+    for name, spin in spins.items():
+        _wheel_pose(m, b, spin, name)
+    _levers(m)
+    if car.ports.any:
+        port_outputs(m, b, car, spins)
+    _steering_work(m, car.ports)
+    m.book_of_added = "energy.added", "work of elements that are not the car's since the start, without what is stored"
+
+
+def _chassis(m: Model, b: CarBuilder, car: CarContent) -> None:
     """Pose, velocity and acceleration of the reference point; accelerometers."""
-    m, chassis, origin = b.m, b.chassis.frame, car.vehicle.reference_point
+    chassis, origin = b.chassis.frame, car.vehicle.reference_point
     for c in "xyz":
         m.sense_position(
             f"chassis.{c}",
@@ -84,15 +125,9 @@ def chassis_outputs(b: CarBuilder, car: CarContent) -> None:
             )
 
 
-def used_inputs(b: CarBuilder) -> None:
-    """Inputs as used."""
-    for channel in b.inputs.values():
-        b.m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
-
-
-def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
+def _wheel(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
     """Attitude, travel, spin and tyre forces of one wheel; the FMU puts the wheel's name before the descriptions."""
-    m, chassis = b.m, b.chassis.frame
+    chassis = b.chassis.frame
     forward, left, up = (chassis.vector(v) for v in (FORWARD, LEFT, UP))
     m.sense_angle(
         f"wheel_{w}.steer", (spin.axis, left, up), description="steer angle about the vehicle's z axis, positive left"
@@ -113,7 +148,7 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
     m.sense_coordinate(
         f"wheel_{w}.omega", spin, order=1, description="absolute angular velocity, positive forward", display_unit="rpm"
     )
-    _travel(m, chassis, spin, w)
+    travel_output(m, chassis, spin, w)
     for name, output in (
         (
             ("Fx", "longitudinal_force"),
@@ -133,9 +168,8 @@ def wheel_outputs(b: CarBuilder, spin: Spin, w: str) -> None:
     m.sense_element(f"spring_{w}.force", f"spring {w}", "force")
 
 
-def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
+def _wheel_pose(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
     """Where one wheel and its carrier are and how they are turned, and where the wheel meets the road."""
-    m = b.m
     for k, c in enumerate("xyz"):
         text = f"{c} of the centre of the wheel, earth"
         m.sense_coordinate(f"wheel_{w}.{c}", spin.centre[k], unit="m", description=text)
@@ -161,11 +195,11 @@ def wheel_poses(b: CarBuilder, spin: Spin, w: str) -> None:
             m.sense_element(f"wheel_{w}.{name}_{c}", f"tyre {w}", f"{name}_{c}")
 
 
-def lever_outputs(b: CarBuilder) -> None:
+def _levers(m: Model) -> None:
     """Angles of the levers of anti-roll bars."""
-    for index, coordinate in enumerate(b.m.coordinates):
+    for index, coordinate in enumerate(m.coordinates):
         if coordinate.name.startswith(LINK):
-            b.m.sense_coordinate(
+            m.sense_coordinate(
                 f"anti_roll_bar_{coordinate.name.removeprefix(LINK)}.angle",
                 Affine({index: 1.0}),
                 unit="rad",
@@ -184,7 +218,7 @@ WORKS = {  # what works on the car: first words of the names of its elements, de
 }
 
 
-def work_outputs(m: Mechanism) -> None:
+def _works(m: Model) -> None:
     """Work since the start of all that may give or take energy, without what it stores."""
     for name, (starts, text) in WORKS.items():
         elements = [e for e in m.elements if e.name.startswith(starts)]
@@ -195,7 +229,7 @@ def work_outputs(m: Mechanism) -> None:
             m.sense_constant(f"energy.{name}", 0.0, unit="J", description=description)
 
 
-def steering_work(m: Mechanism, ports: Ports) -> None:
+def _steering_work(m: Model, ports: Ports) -> None:
     """Work of a steering without a column since the start, behind all other outputs.
 
     `ports`: one for the travel of the rack has its work in `energy.ports`.
@@ -213,8 +247,8 @@ def steering_work(m: Mechanism, ports: Ports) -> None:
     )
 
 
-def health_outputs(m: Mechanism) -> None:
-    """Energies and the work of the solver. `m`: the whole car."""
+def _health(m: Model) -> None:
+    """Energies and the work of the solver."""
     for kind in ("kinetic", "gravity", "elastic", "total"):
         m.sense_energy(f"energy.{kind}", kind, description=f"{kind} energy")
     for kind in ("iterations", "violation", "residual", "halvings", "status"):
@@ -222,9 +256,18 @@ def health_outputs(m: Mechanism) -> None:
         m.sense_solver(f"solver.{kind}", kind, description=f"{kind} of the solver, {when}")
 
 
-def _travel(m: Mechanism, chassis: Body, spin: Spin, w: str) -> None:
-    reference = np.array([c.reference for c in m.coordinates])
-    gap: AffineVector = spin.centre - chassis.point(spin.centre.value(reference))
-    m.sense_vector(
-        f"wheel_{w}.travel", gap, [chassis.vector(UP)], description="travel of the wheel centre, positive in bump"
+def _ground(m: Model) -> None:
+    """What the ground does to the chassis itself."""
+    force = m.sense_element(
+        "chassis.ground_force",
+        GROUND_CONTACT,
+        "normal_force",
+        description="sum of the normal forces of the ground on the chassis itself; 0 while only tyres touch",
+    )
+    m.notice(force, "The chassis touches the ground")
+    m.sense_element(
+        "chassis.ground_points",
+        GROUND_CONTACT,
+        "touching",
+        description="number of points of the chassis that touch the ground",
     )

@@ -18,6 +18,8 @@ from mbs.elements.wind import Wind
 from mbs.model.carried import Spin
 from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
+from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.records import Ahead
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -72,7 +74,7 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
             for k, c in enumerate("xyz"):
                 text = f"{what} of the point '{name}' of the chassis along the earth's {c} axis"
                 unit = "m/s" if order else "m"
-                named = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
+                named = partial(MotionSensorVocabulary.sense_coordinate, m, f"point_{name}.{prefix}{c}", point[k])
                 b.port_senses.append(partial(named, order=order, unit=unit, description=text))
 
 
@@ -107,7 +109,7 @@ def road_ports(m: Mechanism, road: RoadSection) -> tuple[int, dict[str, int]]:
     return m.road(PortRoad(list(first.values()))), under
 
 
-def tyre_outputs(m: Mechanism, w: str, tyre: ElementRecord) -> None:
+def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
     """Radius and moments of the tyre of a wheel. `w`: the wheel, as "FL"."""
     m.sense_element(f"wheel_{w}.loaded_radius", tyre, "loaded_radius")
     if "overturning_moment" in {output.name for output in tyre.outputs}:
@@ -118,9 +120,8 @@ def tyre_outputs(m: Mechanism, w: str, tyre: ElementRecord) -> None:
     m.sense_element(f"wheel_{w}.My", tyre, "rolling_moment")
 
 
-def port_outputs(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
+def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
     """What loops through ports need beside the outputs that every car has. `spins`: of the wheels, by their names."""
-    m = b.m
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, ModelError, Simulation, compile
-from mbs.model.sensors import RENAMED
+from mbs.model.renamed_sensors import RENAMED
 
 EXACT = 1e-9
 

@@ -11,6 +11,7 @@ from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.ports import PortedBody
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -90,7 +91,7 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     return combination(np.append(origin, 1.0)), axes, origin
 
 
-def stress_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
+def stress_outputs(m: Model, mount: Mount, flexible: FlexibleFrame, fidelity: Fidelity) -> None:
     """Moments and stresses at the gauges; zero for the rigid chassis, where `COMPUTED` says so."""
     note = f"; zero where {COMPUTED} is 0"
     for k, reading in enumerate(flexible.structure.readings):
@@ -98,8 +99,8 @@ def stress_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame, fidelity
         if fidelity.rigid:
             m.sense_constant(name, 0.0, unit=unit, description=text + note, computed=False)
         elif isinstance(mount.body, PortedBody):
-            FlexibleVocabulary.sense_quasi_static(
-                m, name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
+            m.sense_quasi_static(
+                name, mount.body, flexible.quasi_static, k, mount.origin, unit=unit, description=text + note
             )
         else:
             body = mount.body
@@ -116,7 +117,7 @@ def amplitude_names(flexible: FlexibleFrame) -> list[str]:
     return [f"chassis.mode_{k + 1}" for k in range(flexible.drawn.n_modes)]
 
 
-def amplitude_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame) -> None:
+def amplitude_outputs(m: Model, mount: Mount, flexible: FlexibleFrame) -> None:
     """Amplitudes of the modes of fidelity 3, with which `stress_scene` draws the chassis at any fidelity.
 
     A flexible chassis with other modes gives the amplitudes that are nearest in the energy norm, the quasi-static one
@@ -131,8 +132,8 @@ def amplitude_outputs(m: Mechanism, mount: Mount, flexible: FlexibleFrame) -> No
             assert rows is not None
             m.sense_coordinate(name, body.combination(rows[k]), unit=unit, description=text)
         elif isinstance(body, PortedBody):
-            FlexibleVocabulary.sense_quasi_static(
-                m, name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
+            m.sense_quasi_static(
+                name, body, flexible.quasi_static_amplitudes, k, mount.origin, unit=unit, description=text
             )
         else:
             m.sense_constant(name, 0.0, unit=unit, description=text, computed=False)

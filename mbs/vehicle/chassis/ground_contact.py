@@ -20,12 +20,11 @@ NAME = "ground contact"
 def ground_contact(
     b: CarBuilder, data: GroundContact, mass: float, joints: Callable[[], Mapping[str, NDArray[np.float64]]]
 ) -> None:
-    """Add the points and what they report.
+    """Add the points.
 
     `mass`: of the car, kg; `joints`: gives the places of the joints of the frame by name, m, where a point is the name
     of one.
     """
-    m = b.m
     contact = ContactPoints.for_mass(
         0.25 * mass,
         data.depth,
@@ -37,20 +36,7 @@ def ground_contact(
     left = [_place(data, point, joints) for point in data.points]
     points = np.array([(x, sign * y, z) for x, y, z in left for sign in ((1.0, -1.0) if y else (1.0,))])
     origin, axes, place = b.chassis.contact_frame
-    m.add(contact.record(NAME, origin, axes, points - place, b.road))
-    force = m.sense_element(
-        "chassis.ground_force",
-        NAME,
-        "normal_force",
-        description="sum of the normal forces of the ground on the chassis itself; 0 while only tyres touch",
-    )
-    m.notice(force, "The chassis touches the ground")
-    m.sense_element(
-        "chassis.ground_points",
-        NAME,
-        "touching",
-        description="number of points of the chassis that touch the ground",
-    )
+    b.m.add(contact.record(NAME, origin, axes, points - place, b.road))
 
 
 def _place(data: GroundContact, point: Point | str, joints: Callable[[], Mapping[str, NDArray[np.float64]]]) -> Point:

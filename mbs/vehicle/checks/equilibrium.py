@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from mbs.common.affine import AffineVector
 from mbs.compiler.model_to_system import compiled
+from mbs.model.body import Body
+from mbs.model.carried import Spin
 from mbs.model.mechanism import Mechanism
 from mbs.simulation.standing_system import StandingSystem
+from mbs.vehicle.axes import LEFT, UP
+from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.steering.steered import Steered
 
 ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
 LEAST_LENGTH = 0.4  # of the free length: a coil spring that is shorter is a block
@@ -77,8 +83,31 @@ class Rest:
                 )
 
 
+def travel_output(m: Mechanism, chassis: Body, spin: Spin, w: str) -> None:
+    """How far a wheel has moved in the chassis. `m`: as drawn; `w`: name of the wheel."""
+    gap: AffineVector = spin.centre - chassis.point(spin.centre.value(m.drawn()))
+    m.sense_vector(
+        f"wheel_{w}.travel", gap, [chassis.vector(UP)], description="travel of the wheel centre, positive in bump"
+    )
+
+
+def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> None:
+    """What `settled` reads."""
+    chassis = b.chassis.frame
+    for w, spin in spins.items():
+        travel_output(b.m, chassis, spin, w)
+        for name, element, output in (
+            (f"wheel_{w}.Fz", f"tyre {w}", "vertical_force"),
+            (f"wheel_{w}.deflection", f"tyre {w}", "deflection"),
+            (f"spring_{w}.force", f"spring {w}", "force"),
+            (f"spring_{w}.length", f"spring {w}", "length"),
+        ):
+            b.m.sense_element(name, element, output)
+    b.m.sense_vector("chassis.roll", AffineVector.constant(UP), [chassis.vector(UP), chassis.vector(LEFT)])
+
+
 def settled(model: Mechanism, car: CarContent) -> Rest:
-    """Compile the car and let the kernel find its equilibrium.
+    """Compile the car and let the kernel find its equilibrium. `model`: of the car, with `rest_outputs`.
 
     Raises `ModelError`: its parts refuse a number, or it has no equilibrium.
     """

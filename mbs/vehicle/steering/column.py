@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import ClassVar, Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
@@ -11,13 +12,16 @@ from mbs.elements.input_force import InputForce
 from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.model.body import Body
+from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.ends import End
+from mbs.model.energy_sensors import EnergySensorVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.mechanism import Mechanism
+from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.records import Guide, Input
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
 from mbs.vehicle.axes import LEFT
@@ -36,9 +40,10 @@ from mbs.vehicle.quantities import (
     SteeringWheelInertia,
 )
 from mbs.vehicle.side import Point, Side
-from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
+from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, demand_outputs
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 LARGEST_TORQUE = 100.0  # N m, of the driver's hands
@@ -179,10 +184,9 @@ class Column(RackSection, of=TorsionBar):
         return rack
 
     def _outputs(self, m: Mechanism, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
-        m.sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
-        m.sense_coordinate(
-            "steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left"
-        )
+        sense_coordinate = partial(MotionSensorVocabulary.sense_coordinate, m)
+        sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
+        sense_coordinate("steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left")
 
     def _torque_outputs(
         self, m: Mechanism, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
@@ -193,16 +197,17 @@ class Column(RackSection, of=TorsionBar):
             JointSensorVocabulary.sense_joint(
                 m, "steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE
             )
-            m.sense_coordinate("steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
+            MotionSensorVocabulary.sense_coordinate(m, "steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
             JointSensorVocabulary.sense_rod_force(m, "steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
             demand_outputs(m, demand, held, 1.0)
-            m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
+            ChannelSensorVocabulary.sense_input(m, f"used.{torque.name}", torque, description=f"{torque.name} as used")
             m.sense_element("steering_column_torque", "torsion bar", "torque", description="torque of the torsion bar")
             m.sense_element(
                 "steering_assistance", "torsion bar", "assistance", description="torque of the assistance on the pinion"
             )
             names = ("steering torque", "torsion bar", "steering friction", "rack friction", "rack stop")
-            m.sense_energy(
+            EnergySensorVocabulary.sense_energy(
+                m,
                 "energy.steering",
                 "with guides",
                 [e for e in m.elements if e.name in names],

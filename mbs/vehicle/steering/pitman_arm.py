@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.ends import End
 from mbs.model.joints.joint import Joint
 from mbs.model.mechanism import Mechanism
@@ -29,10 +30,10 @@ from mbs.vehicle.quantities import (
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.driven_rack import column_friction
-from mbs.vehicle.steering.driver import WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
+from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.four_bar import FourBar
-from mbs.vehicle.steering.ratio import tie_ratio
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, demand_outputs, tie_ratio
 from mbs.vehicle.steering.steering_section import SteeringSection
 
 LEAST_ARM, LEAST_LINK = 0.03, 0.1  # m
@@ -216,19 +217,21 @@ class PitmanArm(SteeringSection):
         if self.friction > 0.0:
             column_friction(m, arm, 1.0 / self.ratio, self.friction)
 
+        sense_guide = partial(ChannelSensorVocabulary.sense_guide, m)
+
         def outputs() -> None:
             text = "angle of the Pitman arm, positive where it steers to the left"
-            m.sense_guide("steering_arm_angle", arm, description=text)
+            sense_guide("steering_arm_angle", arm, description=text)
             text = "angle of the steering wheel, positive to the left"
-            m.sense_guide("steering_wheel_angle", arm, scale=self.ratio, description=text)
+            sense_guide("steering_wheel_angle", arm, scale=self.ratio, description=text)
             self._link_outputs(m, arm, way)
 
         def torque_outputs() -> None:
             per_arm = 1.0 / self.ratio
-            m.sense_guide("steering_wheel_torque", arm, "force", scale=per_arm, unit="N.m", description=WHEEL_TORQUE)
-            m.sense_guide("steering_wheel_speed", arm, order=1, scale=self.ratio, unit="rad/s", description=WHEEL_SPEED)
+            sense_guide("steering_wheel_torque", arm, "force", scale=per_arm, unit="N.m", description=WHEEL_TORQUE)
+            sense_guide("steering_wheel_speed", arm, order=1, scale=self.ratio, unit="rad/s", description=WHEEL_SPEED)
             text = "torque of the tie rods on the Pitman arm, positive where it would steer to the left"
-            m.sense_guide("steering_arm_torque", arm, "force", joints=_rods(m), scale=-1.0, description=text)
+            sense_guide("steering_arm_torque", arm, "force", joints=_rods(m), scale=-1.0, description=text)
             demand_outputs(m, demand, arm, self.ratio)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
                 tie_ratio(b, self, "ratio", arm, 1.0, inverse=True)
@@ -253,7 +256,7 @@ class PitmanArm(SteeringSection):
             ),
             (LINK[2], link, "turn of the centre link in the plane of the steering linkage, positive to the left"),
         ):
-            m.sense_guide(name, guide, description=what)
+            ChannelSensorVocabulary.sense_guide(m, name, guide, description=what)
 
 
 def _rods(m: Mechanism) -> list[Joint]:

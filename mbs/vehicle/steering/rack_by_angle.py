@@ -14,11 +14,11 @@ from mbs.model.records import Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import PrescribedFriction
 from mbs.vehicle.steering import driven_rack
-from mbs.vehicle.steering.driver import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, angle_demand, demand_outputs
+from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection, rack_ends
 from mbs.vehicle.steering.rack_table import SAME, RackTable, Rows, table_faults
-from mbs.vehicle.steering.ratio import tie_ratio
-from mbs.vehicle.steering.steered import Steered, tie_rods
+from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_outputs import rack_outputs, rack_torque_outputs, tie_ratio
 
 
 def _not_required(schema: dict[str, Any]) -> None:
@@ -119,29 +119,10 @@ class RackByAngle(RackSection):
         if self.friction > 0.0:
             driven_rack.column_friction(m, held, per_radian, self.friction)
 
-        def outputs() -> None:
-            m.sense_guide("steering_rack", rack, description=self.travel_text(way))
-            m.sense_guide(
-                "steering_wheel_angle",
-                held,
-                scale=turn / self.rack_per_turn,
-                unit="rad",
-                description="angle of the steering wheel, positive to the left",
-            )
-
         def torque_outputs() -> None:
-            m.sense_guide(
-                "steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE
-            )
-            m.sense_guide(
-                "steering_wheel_speed", held, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED
-            )
-            m.sense_guide(
-                "steering_rack_force", rack, "force", joints=tie_rods(m, rack), scale=-1.0, description=RACK_FORCE
-            )
-            if demand is not None:
-                demand_outputs(m, demand, held, 1.0 / per_radian)
+            rack_torque_outputs(m, rack, held, per_radian, demand)
             if self.friction == 0.0:  # with friction the ratio is in an equation, which no parameter writes
                 tie_ratio(b, self, "rack_per_turn", held, turn, inverse=False)
 
+        outputs = partial(rack_outputs, m, rack, held, turn / self.rack_per_turn, self.travel_text(way))
         return Steered(rack_ends(b, rack), outputs, torque_outputs, partial(driven_rack.travel, m, rack))

@@ -6,9 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mbs.model.coordinate import Coordinate
-from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
-from mbs.model.records import Guide
 from mbs.vehicle.corner import TieRodEnd
 
 RACK = "rack travel"
@@ -27,16 +24,3 @@ class Steered:
     """Adds those of speed, force and torque, after all others."""
     travel: Callable[[], Coordinate] | None = None
     """Adds the travel of the rack, m, as a coordinate in the place of its ends; None: the steering has none."""
-
-
-def tie_rods(m: Mechanism, guide: Guide) -> list[Joint]:
-    """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
-
-    `m`: with the suspension.
-    """
-    return [
-        joint
-        for joint in m.joints
-        if (joint.type == "distance" or joint.name == RACK)
-        and any(t.guide == guide.index for e in joint.equations for t in e.guides)
-    ]

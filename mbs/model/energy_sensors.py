@@ -1,4 +1,4 @@
-"""Sensors of forces and energies: outputs of force elements, work and energy."""
+"""Sensors of energy, work and mass."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import overload
 
-from mbs.common.checks import number, one_of, shown
+from mbs.common.checks import one_of, shown
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import SensorType
+from mbs.model.mechanism import Mechanism
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import SensorBase
 
 WORKS = ("work", "nonconservative", "by inputs")
 GUIDED = "with guides"
@@ -37,8 +37,11 @@ class _WorkFrom(Sequence[int]):
         return [WORKS.index("nonconservative"), len(numbers), *numbers][index]
 
 
-class ForceSensorVocabulary(SensorBase):
-    """What can be read of force elements and of bodies under load."""
+class EnergySensorVocabulary(Mechanism):
+    """What can be read of all elements and bodies together."""
+
+    book_of_added: tuple[str, str] | None = None
+    """Name and description of a sensor of the work of all elements that come from now on; it comes with the first."""
 
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record.
@@ -55,58 +58,8 @@ class ForceSensorVocabulary(SensorBase):
             self._sense(name, "J", description, SensorType.WORK, integers=work)
         return added
 
-    def sense_element(
-        self,
-        name: str,
-        element: ElementRecord | str,
-        output: str,
-        *,
-        scale: float = 1.0,
-        unit: str = "",
-        description: str = "",
-    ) -> Sensor:
-        """An output of a force element, such as the force of a spring, by default with its unit and description.
-
-        Parameters
-        ----------
-        element : ElementRecord or str
-            A force element of this model or its name.
-        output : str
-            Name of one of its outputs.
-        scale : float
-            Factor on it.
-        """
-        element_name = element.name if isinstance(element, ElementRecord) else element
-        if not isinstance(element_name, str) or not isinstance(output, str):
-            raise ModelError(
-                f"The sensor '{name}' needs a force element, or its name, and the name of an output, got "
-                f"{shown(element)} and {shown(output)}."
-            )
-        factor = number(scale, f"The scale of sensor '{name}'")
-        for index, record in enumerate(self.elements):
-            if record.name == element_name:
-                for k, out in enumerate(record.outputs):
-                    if out.name == output:
-                        return self._sense(
-                            name,
-                            self._unit(unit, out.unit),
-                            self._unit(description, out.description),
-                            SensorType.ELEMENT_OUTPUT,
-                            integers=[index, k],
-                            reals=[factor],
-                            whole=out.whole and factor == 1.0,
-                            display_unit=out.display_unit if isinstance(unit, str) and not unit else "",
-                        )
-                known = ", ".join(o.name for o in record.outputs) or "none"
-                raise ModelError(
-                    f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {known}."
-                )
-        raise ModelError(
-            f"The sensor '{name}' asks for element {shown(element_name)}, but the model has no such element."
-        )
-
     def sense_energy(
-        self,
+        self: Mechanism,
         name: str,
         kind: str = "total",
         elements: ElementRecord | str | Sequence[ElementRecord | str] | None = None,

@@ -1,0 +1,99 @@
+"""What every steering reports to the driver, and what a rack reports."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from mbs.model.channel_sensors import ChannelSensorVocabulary
+from mbs.model.joints.joint import Joint
+from mbs.model.mechanism import Mechanism
+from mbs.model.records import Guide, Input
+from mbs.vehicle.builder import CarBuilder
+from mbs.vehicle.steering.steered import RACK
+from mbs.vehicle.steering.steering_section import SteeringSection
+
+WHEEL_TORQUE = "torque of the driver's hands on the steering wheel, positive to the left"
+WHEEL_SPEED = "angular velocity of the steering wheel, positive to the left"
+RACK_FORCE = "force of the tie rods on the rack, positive to the left"
+OVER = ("steering_wheel_angle", "steering_wheel_speed", "steering_demand_excess")
+"""Outputs in radians of the steering wheel, by the travel of the rack or the angle of the arm."""
+TORQUE = "steering_wheel_torque"
+
+
+def demand_outputs(m: Mechanism, demand: Input, guide: Guide, scale: float) -> None:
+    """The demand as used, and what full lock takes away of both demands together.
+
+    `demand`: from `angle_demand`; `guide`: that follows the demand; `scale`: radians of the steering wheel per unit of
+    the guide.
+    """
+    ChannelSensorVocabulary.sense_input(m, f"used.{demand.name}", demand, description=f"{demand.name} as used")
+    excess = ChannelSensorVocabulary.sense_guide(
+        m,
+        "steering_demand_excess",
+        guide,
+        "excess",
+        scale=scale,
+        unit="rad",
+        description="part of the demanded angle of the steering wheel beyond full lock, which is not followed",
+    )
+    ChannelSensorVocabulary.notice(
+        m, excess, "The demanded angle of the steering wheel is beyond full lock and held there"
+    )
+
+
+def rack_outputs(m: Mechanism, rack: Guide, held: Guide, per_unit: float, text: str) -> None:
+    """Travel of the rack and angle of the steering wheel.
+
+    `held`: that the steering wheel holds; `per_unit`: radians of the steering wheel per unit of it; `text`: which way
+    the rack travels.
+    """
+    sense_guide = partial(ChannelSensorVocabulary.sense_guide, m)
+    sense_guide("steering_rack", rack, description=text)
+    angle = "angle of the steering wheel, positive to the left"
+    sense_guide("steering_wheel_angle", held, scale=per_unit, unit="rad", description=angle)
+
+
+def rack_torque_outputs(m: Mechanism, rack: Guide, held: Guide, per_radian: float, demand: Input | None) -> None:
+    """Torque and speed of the steering wheel, and force of the rods. `per_radian`: of `held`; `demand`: if there is."""
+    sense_guide = partial(ChannelSensorVocabulary.sense_guide, m)
+    sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
+    sense_guide("steering_wheel_speed", held, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED)
+    sense_guide("steering_rack_force", rack, "force", joints=_tie_rods(m, rack), scale=-1.0, description=RACK_FORCE)
+    if demand is not None:
+        demand_outputs(m, demand, held, 1.0 / per_radian)
+
+
+def _tie_rods(m: Mechanism, guide: Guide) -> list[Joint]:
+    """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
+
+    `m`: with the suspension.
+    """
+    return [
+        joint
+        for joint in m.joints
+        if (joint.type == "distance" or joint.name == RACK)
+        and any(t.guide == guide.index for e in joint.equations for t in e.guides)
+    ]
+
+
+def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn: float, *, inverse: bool) -> None:
+    """Let a parameter write the ratio: to its guide and to the outputs of the steering wheel.
+
+    A table is stretched along the angle. Full lock stays where it is for rack or arm; the range of the demanded angle
+    stays that of the file.
+
+    `held`: of the travel of the rack, of the angle in the table, or of the angle of the arm; `turn`: ratio over that
+    guide per radian of the steering wheel, or of their reciprocals; `inverse`: whether the steering wheel turns the
+    more the larger the ratio is.
+    """
+    value = getattr(data, name)
+    if b.ports.steering is None:
+        b.tie(data, name, held, "gain_2", 1.0 / turn, inverse=inverse, late=True)
+    for sensor in b.m.sensors:
+        if sensor.name in OVER:
+            b.tie(data, name, ("sensor", sensor.name), 0, turn, inverse=not inverse, late=True)
+        elif sensor.name == TORQUE:
+            weights = [t.weight for t in sensor.terms] or sensor.reals
+            for k, weight in enumerate(weights):
+                scale = weight * value if inverse else weight / value
+                b.tie(data, name, ("sensor", TORQUE), k, scale, inverse=inverse, late=True)
