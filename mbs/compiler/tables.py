@@ -17,8 +17,7 @@ from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.mechanism import Mechanism
-from mbs.model.reactions import MOST_FACTORS
-from mbs.model.sensor import Sensor
+from mbs.model.sensor import MOST_FACTORS, Sensor
 
 Arrays = dict[str, NDArray[Any]]
 

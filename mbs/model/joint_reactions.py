@@ -10,7 +10,8 @@ import numpy as np
 from mbs.common.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
-from mbs.model.reactions import Term, folded
+from mbs.model.reactions import folded
+from mbs.model.sensor import Term
 from mbs.model.turning import Turning
 
 

@@ -5,27 +5,10 @@ A row Phi with the multiplier lam puts the generalised force -Phi_q' lam on its 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from mbs.common.affine import Affine
 from mbs.model.joints.joint import Joint
-
-MOST_FACTORS = 3
-
-
-@dataclass(frozen=True)
-class Term:
-    """``weight * lam * factors[0] * factors[1] * ... * guide * slope``: the multiplier of an equation of a joint times
-    at most three expressions, a guide and the slope of a guide by a table (-1: none). `joint` is that of the sensor
-    unless it is given.
-    """
-
-    weight: float
-    equation: int
-    factors: tuple[Affine, ...] = ()
-    guide: int = -1
-    joint: Joint | None = None
-    slope: int = -1
+from mbs.model.sensor import Term
 
 
 def folded(term: Term) -> list[Term]:

@@ -8,7 +8,23 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.joints.joint import Joint
-from mbs.model.reactions import Term
+
+MOST_FACTORS = 3
+
+
+@dataclass(frozen=True)
+class Term:
+    """``weight * lam * factors[0] * factors[1] * ... * guide * slope``: the multiplier of an equation of a joint times
+    at most three expressions, a guide and the slope of a guide by a table (-1: none). `joint` is that of the sensor
+    unless it is given.
+    """
+
+    weight: float
+    equation: int
+    factors: tuple[Affine, ...] = ()
+    guide: int = -1
+    joint: Joint | None = None
+    slope: int = -1
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.joints.joint import Joint
-from mbs.model.reactions import Term
-from mbs.model.sensor import Sensor
+from mbs.model.sensor import Sensor, Term
 
 RATE_UNITS = {"m": ("m", "m/s", "m/s2"), "rad": ("rad", "rad/s", "rad/s2")}
 
