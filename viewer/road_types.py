@@ -16,12 +16,16 @@ Sides = tuple[Annotated[Whole, Field(ge=2)], Annotated[Whole, Field(ge=2)]]
 class Road(Part):
     """What all roads have."""
 
-    variables: dict[Literal["file", "kerb_x", "kerb_height"], Name] | None = None
+    variables: dict[Literal["file", "kerb_x", "kerb_height", "friction", "friction_factor"], Name] | None = None
     """Parameters of the FMU by what they set; a host applies them before it draws."""
     number: Whole | None = None
     """Of the road in its model, where it is not the place in this list."""
     note: Text | None = None
     """A sentence to be shown."""
+    friction: Number | None = None
+    """Of all of it; without one it is dry."""
+    friction_factor: Number = 1.0
+    """Multiplies its friction or frictions."""
 
 
 class FlatRoad(Road):

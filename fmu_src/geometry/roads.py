@@ -8,9 +8,11 @@ from typing import Any
 
 import mbs
 from fmu_src.variables.text_variables import ROADS
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.enumerations import RoadType
 
-POSITION, STEP = 0, 2  # of the numbers of a kerb
+NUMBERS = {road.type: road.real_names for road in (PlaneRoad, KerbRoad, GridRoad)}
+MOVED = {"kerb_x": "position", "kerb_height": "step", "friction": "friction", "friction_factor": "friction_factor"}
 TARGET_ROAD = 2
 
 
@@ -20,8 +22,8 @@ def with_parameters(
     """Roads as a host may change them.
 
     `roads`: of the drawing; the first are those of the System in its order, or have their numbers; `known`: names of
-    the FMU's variables that are numbers. Result: with the keys `variables`, the parameters by what they set: `kerb_x`,
-    `kerb_height`, `file`; paths are those in the FMU.
+    the FMU's variables that are numbers. Result: with the keys `variables`, the parameters by what they set: the keys of
+    `MOVED` and `file`; paths are those in the FMU.
     """
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
     found = []
@@ -30,12 +32,15 @@ def with_parameters(
         if made["kind"] == "file" and made.get("path"):
             made["path"] = f"{ROADS}/{Path(made['path']).name}"
         variables = {}
-        if k < len(system.arrays["road_type"]) and RoadType(int(system.arrays["road_type"][k])) == RoadType.KERB:
+        if k < len(system.arrays["road_type"]):
             first = int(system.arrays["road_real_ptr"][k])
-            for name, real in (("kerb_x", POSITION), ("kerb_height", STEP)):
-                parameter = _writing(system, first + real)
-                if parameter in known:
-                    variables[name] = parameter
+            numbers = NUMBERS.get(RoadType(int(system.arrays["road_type"][k])), ())
+            for name, number in MOVED.items():
+                real = first + numbers.index(number) if number in numbers else -1
+                if _writing(system, real) in known:
+                    variables[name] = _writing(system, real)
+                    if name == number and made["kind"] != "file":
+                        made[name] = float(system.arrays["road_real"][real])
         if k in files and made["kind"] != "file":
             variables["file"] = files[k]["name"]
         found.append(made | ({"variables": variables} if variables else {}))

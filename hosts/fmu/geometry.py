@@ -59,29 +59,34 @@ def _roads(
         given = str(settings.get(variables.get("file", road.get("variable", "")), ""))
         name = given or str(road.get("path", "") if road["kind"] == "file" else "")
         if not name and road["kind"] != "file":
-            roads.append(_moved(road, variables, settings))
+            roads.append(_set(road, settings))
         elif name:
             try:
                 file = Path(name.removeprefix("file://"))
                 world = world_beside(file)
+                parts = [_part(name, fmu)] if world is None else world["roads"]
+                if "friction_factor" in variables:
+                    kept = {"variables": {"friction_factor": variables["friction_factor"]}}
+                    parts = [_set({"friction_factor": 1.0} | part | kept, settings) for part in parts]
+                roads += parts
                 if world is None:
-                    roads.append(_part(name, fmu))
                     if given and expected:
                         why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"
                         missing.append({"name": f"The scenery of {expected}", "why": why})
                 else:
-                    roads += world["roads"]
                     scenery += world["scenery"]
             except HostError as error:
                 missing.append({"name": f"The road {name}", "why": str(error).rstrip(".")})
     return roads, missing, scenery
 
 
-def _moved(road: dict[str, Any], variables: Mapping[str, str], settings: Mapping[str, Value]) -> dict[str, Any]:
-    """A road with a kerb where the parameters have it: the higher side stays where it is."""
+def _set(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
+    """A road as slick as the parameters have it, with its kerb where they do: the higher side stays where it is."""
+    variables = road.get("variables") or {}
+    given = {key: settings[variables[key]] for key in ("friction", "friction_factor") if variables.get(key) in settings}
+    made = road | {key: float(value) for key, value in given.items()}
     if road["kind"] != "profile" or len(road["heights"]) != 2:
-        return road
-    made = dict(road)
+        return made
     if variables.get("kerb_x") in settings:
         made["origin"] = [float(settings[variables["kerb_x"]]), *list(road.get("origin", (0.0, 0.0, 0.0)))[1:]]
     if variables.get("kerb_height") in settings:

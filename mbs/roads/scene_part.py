@@ -22,6 +22,7 @@ MOST_READ = 4_000_000
 MOST = 400
 """Points along a side of a grid; of a larger one every so many are left, as its note says."""
 BESIDE = 10.0  # m, to which a level strip of frictions is drawn at least: the values of its border go on
+DRY = 0.9  # friction of dry asphalt
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
 
 
@@ -31,10 +32,19 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
     Returns an entry of `roads` of the scene's format: flat, plane, profile or grid.
     """
     if isinstance(road, PlaneRoad):
-        return _plane(road)
+        return _plane(road) | _grip(road.friction, road.friction_factor)
     if isinstance(road, KerbRoad):
-        return _kerb(road)
+        return _kerb(road) | _grip(road.friction, road.friction_factor)
     return _grid(road)
+
+
+def _grip(friction: float, factor: float) -> dict[str, Any]:
+    """What is said of the friction of a road that has the same everywhere: what is dry needs no word."""
+    return ({"friction": float(friction)} if friction < DRY else {}) | _factor(factor)
+
+
+def _factor(factor: float) -> dict[str, Any]:
+    return {} if factor == 1.0 else {"friction_factor": float(factor)}
 
 
 def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
@@ -106,8 +116,10 @@ def _grid(road: GridRoad) -> dict[str, Any]:
         "shape": list(thin.shape),
         "heights": encoded(thin),
     }
-    if frictions.min() != frictions.max():
-        found["frictions"] = encoded(frictions[part])
+    if frictions.min() == frictions.max():
+        found |= _grip(frictions.min(), road.friction_factor)
+    else:
+        found |= {"frictions": encoded(frictions[part])} | _factor(road.friction_factor)
     if max(every) > 1:
         found["note"] = (
             f"the road has {heights.shape[0]} x {heights.shape[1]} points; {thin.shape[0]} x {thin.shape[1]} of them "

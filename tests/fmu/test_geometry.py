@@ -159,7 +159,9 @@ def test_springs_and_tyres_have_arrows(name: str) -> None:
 
 def test_the_road_of_a_car_names_the_parameters_that_move_it() -> None:
     (road,) = scene_of(car("prototype"))["roads"]
-    assert road["variables"] == {"kerb_x": "road.kerb_x", "kerb_height": "road.kerb_height", "file": "road.file"}
+    names = ("kerb_x", "kerb_height", "friction", "friction_factor", "file")
+    assert road["variables"] == {name: f"road.{name}" for name in names}
+    assert (road["friction"], road["friction_factor"]) == (1.2705, 1.0)
 
 
 @pytest.mark.parametrize("scene", ["puma", "double_four_bar", "bricard", "slider_crank", "pendulum", "flyball"])

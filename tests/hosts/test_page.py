@@ -16,6 +16,7 @@ import pytest
 
 from hosts.common import commands
 from hosts.common.options import Wishes
+from hosts.fmu.geometry import scene_of
 from hosts.view.command import main
 from hosts.view.view_sources import RunWishes, recordings_of
 from mbs.worlds.command import main as road
@@ -136,6 +137,19 @@ def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
     text = tmp_path / "words"
     text.write_text("no road")
     assert f"The road {text} cannot be used: {text} is of a kind" in refusal(fmu, capsys, "--road", str(text))
+
+
+def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> None:
+    """That of the FMU, and one from a file, of which the factor alone is set."""
+    given = {name: f"road.{name}" for name in ("friction", "friction_factor", "file")}
+    own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": given}
+    fmu = changed(tuned, tmp_path, same, DRAWING | {"up": [0, 0, 1], "planar": False, "roads": [own]})
+    assert road(["--world=plane", f"--out={tmp_path}"]) == 0
+    for file in ({}, {"road.file": str(tmp_path / "plane.road")}):
+        scene = scene_of(fmu, {"road.friction": 0.8, "road.friction_factor": 0.25} | file)
+        assert scene is not None
+        (drawn,) = scene["roads"]
+        assert (drawn.get("friction"), drawn["friction_factor"]) == (None if file else 0.8, 0.25)
 
 
 def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path, tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,23 @@ def test_level_and_inclined_planes() -> None:
     for x, y in ((3.0, 4.0), (-2.0, 7.0)):
         assert normal @ (np.array([x, y, under(road, x, y)]) - point) == pytest.approx(0.0, abs=1e-9)
     assert normal[2] > 0.0
+
+
+@pytest.mark.parametrize(
+    "road",
+    [
+        PlaneRoad(0.3, friction=0.1),
+        PlaneRoad(0.3, 0.05, friction=0.1),
+        KerbRoad(7.5, 0.08, -0.08, "after", 0.1),
+        GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((3, 3)), 0.1),
+    ],
+)
+def test_a_road_that_is_slick_everywhere_says_so_and_a_dry_one_nothing(road: PlaneRoad | KerbRoad | GridRoad) -> None:
+    assert valid(scene_part(road))["friction"] == 0.1
+    name = "frictions" if isinstance(road, GridRoad) else "friction"
+    halved = valid(scene_part(replace(road, friction_factor=0.5, **{name: 0.9})))
+    assert "friction" not in halved
+    assert halved["friction_factor"] == 0.5
 
 
 @pytest.mark.parametrize(("upper", "heights"), [("before", [0.0, -0.08]), ("after", [-0.08, 0.0])])

@@ -304,7 +304,8 @@ def test_frictions_of_a_grid_are_asphalt_wet_and_ice():
     assert ends["ice"][1] >= {4.0, 5.0}
     assert not ends["ice"][1] & {0.0, 1.0, 2.0}
     assert {long for long, _ in ends.values()} == {4.0}
-    assert list(surfaces_of(road | {"frictions": None}, solid)) == ["asphalt"]
+    for same, kind in (({}, "asphalt"), ({"friction": 0.6}, "wet"), ({"friction": 0.6, "friction_factor": 0.5}, "ice")):
+        assert list(surfaces_of(road | {"frictions": None} | same, solid)) == [kind]
 
 
 def test_a_mesh_that_is_inside_out_is_turned(tmp_path):

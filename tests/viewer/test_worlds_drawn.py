@@ -80,6 +80,21 @@ def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, qual
     assert blue["wet"] > blue["asphalt"] + 0.1
 
 
+@pytest.mark.parametrize("quality", ["draft", "low", pytest.param("high", marks=pytest.mark.proof)])
+def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
+    grid = {"kind": "grid", "origin": [-30, -30], "spacing": [30, 30], "shape": [3, 3], "heights": floats(np.zeros(9))}
+    kerb = {"kind": "profile", "stations": [0, 0.001], "heights": [0, -0.08], "origin": [1e6, 0, 0]}
+    for one in ({"kind": "flat"}, {"kind": "plane", "point": [0, 0, 0], "normal": [0, 0.1, 1]}, kerb, grid):
+        seen = []
+        for said in ({}, {"friction": 0.5}, {"friction": 0.5, "friction_factor": 0.3}):
+            drawn.show(world(roads=[one | said], extent=4.0), at(0, 0, 0), camera="top", quality=quality)
+            seen.append(around(drawn.picture(), drawn.project((1.5, 1.0, 0.0)), 10))
+        dry, wet, ice = seen
+        assert wet.mean() < 0.8 * dry.mean(), one
+        assert ice.mean() > 1.5 * dry.mean(), one
+        assert ice[2] > 1.03 * ice[0], one
+
+
 @pytest.mark.parametrize("eye", [(10.0, 12.0, 1.5), (0.0, 6.0, 3.0)])
 def test_between_two_surfaces_of_one_channel_there_is_no_third(drawn, eye):
     """Gravel and concrete, lanes side by side: what has neither is asphalt, which is darker."""

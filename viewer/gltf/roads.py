@@ -14,6 +14,7 @@ from viewer.solids import Solid
 
 _MOST = 200  # points of a grid in each direction
 _KINDS = ("ice", "wet", "asphalt")
+_DRY = 0.9  # of a road that says nothing
 _SLIPPERY = (0.35, 0.725)  # friction up to which a road is ice, and wet: half of the way between them, as pages have it
 
 
@@ -36,11 +37,13 @@ def road_solid(road: Mapping[str, Any], up: Vectors, centre: Vectors, half: floa
 
 
 def surfaces_of(road: Mapping[str, Any], solid: Solid) -> dict[str, Solid]:
-    """The triangles of a grid by what its frictions make of them; of other roads all are asphalt."""
+    """The triangles of a road by what its friction, or those of a grid, make of them; dry ones are asphalt."""
+    factor = road.get("friction_factor", 1.0)
     if road["kind"] != "grid" or road.get("frictions") is None:
-        return {"asphalt": solid}
+        friction = road.get("friction")
+        return {_KINDS[int(np.digitize(factor * (_DRY if friction is None else friction), _SLIPPERY))]: solid}
     frictions = decoded(road["frictions"], "f").reshape(road["shape"])[np.ix_(*_kept(*road["shape"])[1])].ravel()
-    kinds = np.digitize(frictions[solid.triangles].mean(axis=1), _SLIPPERY)
+    kinds = np.digitize(factor * frictions[solid.triangles].mean(axis=1), _SLIPPERY)
     made = {}
     for kind in np.unique(kinds):
         used, numbers = np.unique(solid.triangles[kinds == kind], return_inverse=True)

@@ -247,6 +247,13 @@ test("a kerb stands where the parameters have it, down as it was drawn", () => {
   assert.deepEqual(movedRoads([kerb], () => 5).roads, [kerb]);
 });
 
+test("a road is as slick as the parameters have it", () => {
+  const road = { kind: "flat", friction: 1, variables: { friction: "f", friction_factor: "c" } };
+  const at = (factor) => movedRoads([road], (name) => (name === "c" ? factor : undefined));
+  assert.deepEqual(at(0.1).roads, [{ ...road, friction_factor: 0.1 }]);
+  assert.notEqual(at(0.1).key, at(0.2).key);
+});
+
 test("an FMU that has broken is loaded again when it begins again", async () => {
   const loads = [];
   const told = [];

@@ -26,11 +26,17 @@ test("a friction is dry, wet or ice, the slipperier the more", () => {
   for (const [factor, film, ice] of [[1.3, 0, 0], [0.95, 0, 0], [0.725, 0.5, 0], [0.5, 1, 0], [0.35, 1, 0.5], [0.1, 1, 1]]) near(factor, film, ice);
 });
 
+test("a road with one friction is that everywhere, and dry where nothing is said", () => {
+  const at = (road) => surfaceOf({ roads: [{ kind: "flat", ...road }] })(5, 6);
+  assert.deepEqual([at({}), at({ friction: 0.6 }), at({ friction: 0.1 }), at({ friction_factor: 0.2 })], ["asphalt", "wet", "ice", "ice"]);
+});
+
 test("what lies at a place of a grid follows its frictions, and its border goes on", () => {
   const frictions = btoa(String.fromCharCode(...new Uint8Array(new Float32Array([1, 0.6, 0.2, 1, 0.6, 0.2]).buffer)));
   const grid = { kind: "grid", origin: [0, -1], spacing: [10, 1], shape: [2, 3], heights: frictions, frictions };
   const at = surfaceOf({ roads: [grid] });
   assert.deepEqual([-9, -0.6, -0.4, 0.4, 0.6, 9].map((y) => at(3, y)), ["asphalt", "asphalt", "wet", "wet", "ice", "ice"]);
+  assert.equal(surfaceOf({ roads: [{ ...grid, friction_factor: 0.5 }] })(3, -9), "wet");
   assert.equal(surfaceOf({ roads: [{ ...grid, frictions: undefined }] })(3, 9), "asphalt");
 });
 

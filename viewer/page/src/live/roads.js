@@ -1,7 +1,7 @@
 // Roads of a picture that parameters choose and move.
 
 /**
- * Roads with their kerbs where parameters have them; the higher side stays where it is.
+ * Roads as slick as parameters have them, with their kerbs where they do; the higher side stays where it is.
  * @param {Data[]} roads - Of a scene; `variables` names the parameters.
  * @param {(name: string) => number | undefined} lookup
  * @returns {{roads: Data[], key: string}} `key` is another one when they look different.
@@ -9,9 +9,13 @@
 export function movedRoads(roads, lookup) {
   const key = [];
   const moved = roads.map((road) => {
-    const { kerb_x: along, kerb_height: high } = road.variables ?? {};
-    if (road.kind !== "profile" || road.heights.length !== 2 || !(along || high)) return road;
+    const { kerb_x: along, kerb_height: high, ...grip } = road.variables ?? {};
     const made = { ...road };
+    for (const name of ["friction", "friction_factor"]) {
+      const value = grip[name] && lookup(grip[name]);
+      if (Number.isFinite(value)) key.push((made[name] = value));
+    }
+    if (road.kind !== "profile" || road.heights.length !== 2 || !(along || high)) return made;
     const [x, height] = [along && lookup(along), high && lookup(high)];
     if (Number.isFinite(x)) made.origin = [x, ...(road.origin ?? [0, 0, 0]).slice(1)];
     if (Number.isFinite(height)) {

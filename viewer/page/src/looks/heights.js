@@ -132,14 +132,18 @@ export function slickName(factor) {
   return ice >= 0.5 ? "ice" : film >= 0.5 ? "wet" : "asphalt";
 }
 
+/** Factor of friction of a road that has one everywhere; nothing is said of dry ones. @param {Data} road */
+export const gripOf = ({ friction, friction_factor: factor }) => (friction ?? 0.95) * (factor ?? 1);
+
 /** What lies at a place of a scene. @param {Data} scene @returns {(x: number, y: number) => string} name of a surface */
 export function surfaceOf(scene) {
   const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
   if (terrain === undefined) {
     const grid = (scene.roads ?? []).find(({ kind, frictions, axes }) => kind === "grid" && frictions !== undefined && axes === undefined); // else not along x and y
-    if (grid === undefined) return () => "asphalt";
+    const same = slickName(gripOf(scene.roads?.[0] ?? {}));
+    if (grid === undefined) return () => same;
     const frictions = floats(grid.frictions);
-    return (x, y) => slickName(frictions[nearest(grid, x, y)]);
+    return (x, y) => slickName(frictions[nearest(grid, x, y)] * (grid.friction_factor ?? 1));
   }
   const raster = new SurfaceRaster(terrain.surface);
   return (x, y) => raster.nameAt(x, y);

@@ -4,7 +4,7 @@ import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
 import { floats } from "../scene/data.js";
 import { alongY, turn } from "../shapes/place.js";
-import { slickness } from "./heights.js";
+import { gripOf, slickness } from "./heights.js";
 
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
@@ -54,14 +54,14 @@ export function makeRoads(scene, looks) {
   };
 }
 
-/** A square that stays under the eye, on a plane through a point. */
-function endless(point, normal, material) {
+/** A square that stays under the eye, on a plane through a point, as slick as a road. */
+function endless(point, normal, material, road = {}) {
   const cells = EDGES.length - 1;
   const geometry = new THREE.PlaneGeometry(cells, cells, cells, cells).rotateX(-Math.PI / 2);
   const places = geometry.getAttribute("position");
   const edge = (/** @type {number} */ at) => EDGES[Math.round(at + cells / 2)];
   for (let k = 0; k < places.count; k++) places.setXYZ(k, edge(places.getX(k)), 0, edge(places.getZ(k)));
-  dry(geometry);
+  cover(geometry, Array(places.count).fill(slickness(gripOf(road))).flat());
   const mesh = new THREE.Mesh(geometry, material);
   turn(mesh, alongY(normal));
   const follow = (origin, eye) =>
@@ -69,18 +69,15 @@ function endless(point, normal, material) {
   return [{ mesh, follow }];
 }
 
-/** No wet place. */
-const dry = (geometry) => cover(geometry, new Array(2 * geometry.getAttribute("position").count).fill(0));
-
 /** @param {THREE.BufferGeometry} geometry @param {number[]} slick two shares a point, see `slickness`; the first is -1 on stone */
 function cover(geometry, slick) {
   geometry.setAttribute("slick", new THREE.BufferAttribute(Float32Array.from(slick), 2));
 }
 
-const flat = (road, { up, asphalt }) => endless(scale(up, road.height ?? 0), up, asphalt);
+const flat = (road, { up, asphalt }) => endless(scale(up, road.height ?? 0), up, asphalt, road);
 
 function plane(road, { up, asphalt }) {
-  return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt);
+  return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road);
 }
 
 /** Levels along a direction of travel; before the first and after the last the road goes on level, under the eye too. */
@@ -95,7 +92,7 @@ function profile(road, { up, asphalt: material }) {
     const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
     if (built === null || Math.abs(s - built.s) > STEP || Math.abs(aside - built.aside) > STEP) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
-      rebuild(mesh.geometry, strip(road, s, ENDLESS), { forward, side, up, half: (road.width ?? 2 * ENDLESS) / 2 });
+      rebuild(mesh.geometry, strip(road, s, ENDLESS), { forward, side, up, half: (road.width ?? 2 * ENDLESS) / 2, slick: slickness(gripOf(road)) });
     }
     mesh.position.fromArray(subtract(built.at, origin));
   };
@@ -155,7 +152,7 @@ const CREASE = Math.PI / 8;
 /** Both ends, and the edges between them. @param {number} from @param {number} to */
 const cut = (from, to) => [from, ...EDGES.filter((edge) => from < edge && edge < to), to];
 
-function rebuild(geometry, pairs, { forward, side, up, half }) {
+function rebuild(geometry, pairs, { forward, side, up, half, slick: road }) {
   const positions = [];
   const slick = [];
   const point = ([s, level], aside) => add(add(scale(forward, s), scale(up, level)), scale(side, aside));
@@ -169,7 +166,7 @@ function rebuild(geometry, pairs, { forward, side, up, half }) {
         const corners = [point(a, right), point(b, right), point(b, left), point(a, left)];
         for (const k of [0, 1, 2, 0, 2, 3]) {
           positions.push(...corners[k]);
-          slick.push(kerb ? -1 : 0, 0);
+          slick.push(...(kerb ? [-1, 0] : road));
         }
       }
     }
@@ -227,6 +224,7 @@ function grid(road, { up, road: material, grass }) {
   const [dx, dy] = road.spacing;
   const heights = floats(road.heights);
   const frictions = road.frictions === undefined ? null : floats(road.frictions);
+  const factor = road.friction_factor ?? 1;
   const axes = groundAxes(road, up);
   const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
   const pieces = [];
@@ -241,7 +239,7 @@ function grid(road, { up, road: material, grass }) {
         for (let j = j0; j <= j1; j++) {
           const value = (/** @type {Float32Array} */ values) => between(values, ny, along[i], aside[j]);
           positions.push(...world((along[i] - along[i0]) * dx, (aside[j] - aside[j0]) * dy, value(heights)));
-          slick.push(...(frictions === null ? [0, 0] : slickness(value(frictions))));
+          slick.push(...slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
         }
       }
       const row = j1 - j0 + 1;

@@ -1,7 +1,7 @@
 // What the ground of a world is made of at a place, and how it looks from above.
 import { el } from "../common/dom.js";
 import { floats } from "../scene/data.js";
-import { SurfaceRaster, nearest, slickness } from "../looks/heights.js";
+import { SurfaceRaster, gripOf, nearest, slickness } from "../looks/heights.js";
 
 /** Colours of surfaces on the map. */
 const COLOURS = {
@@ -46,7 +46,7 @@ function gridOf(road) {
   const base = COLOURS.asphalt;
   const colour = (index) => {
     const light = high > low ? 0.75 + (0.6 * (heights[index] - low)) / (high - low) : 1;
-    const [film, ice] = given ? slickness(given[index]) : [0, 0];
+    const [film, ice] = slickness(given ? given[index] * (road.friction_factor ?? 1) : gripOf(road));
     const mixed = (from, to, share) => from.map((part, k) => part + share * (to[k] - part));
     return mixed(mixed(base, COLOURS.wet, film), COLOURS.ice, ice).map((part) => light * part);
   };
