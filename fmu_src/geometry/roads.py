@@ -22,8 +22,8 @@ def with_parameters(
     """Roads as a host may change them.
 
     `roads`: of the drawing; the first are those of the System in its order, or have their numbers; `known`: names of
-    the FMU's variables that are numbers. Result: with the keys `variables`, the parameters by what they set: the keys of
-    `MOVED` and `file`; paths are those in the FMU.
+    the FMU's variables that are numbers. Result: with `variables`, the parameters by what they set: the keys of `MOVED`
+    and `file`; paths are those in the FMU.
     """
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
     found = []

@@ -15,6 +15,7 @@ from ali3.iso_3888 import Gate
 from hosts.driving.course import Course
 from hosts.driving.ground_marks import Mark, lanes
 from viewer.base64_numbers import decoded
+from viewer.gltf.materials import LOOKS
 
 Array = NDArray[np.float64]
 
@@ -96,13 +97,14 @@ def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
 
 
 def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array) -> Array:
-    """Linear along both axes between four points of the grid, m; NaN beside it."""
+    """Linear between four points of the grid, m; beyond its border that of it as far as this is drawn, then NaN."""
     nx, ny = road["shape"]
     i, j = ((value - start) / step for value, start, step in zip((x, y), road["origin"], road["spacing"], strict=True))
-    inside = (i >= 0.0) & (i <= nx - 1) & (j >= 0.0) & (j <= ny - 1)
-    i, j = np.where(inside, i, 0.0), np.where(inside, j, 0.0)
+    here = np.clip(i, 0, nx - 1), np.clip(j, 0, ny - 1)
+    beyond = np.maximum(*(np.abs(k - at) * step for k, at, step in zip((i, j), here, road["spacing"], strict=True)))
+    i, j = here
     heights = decoded(road["heights"], "f").reshape(nx, ny)
     a, b = np.minimum(i.astype(int), nx - 2), np.minimum(j.astype(int), ny - 2)
     u, v = i - a, j - b
     near, far = (heights[k, b] * (1.0 - v) + heights[k, b + 1] * v for k in (a, a + 1))
-    return np.where(inside, near * (1.0 - u) + far * u, math.nan)
+    return np.where(beyond <= LOOKS["border"], near * (1.0 - u) + far * u, math.nan)

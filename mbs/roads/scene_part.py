@@ -40,11 +40,8 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
 
 def _grip(friction: float, factor: float) -> dict[str, Any]:
     """What is said of the friction of a road that has the same everywhere: what is dry needs no word."""
-    return ({"friction": float(friction)} if friction < DRY else {}) | _factor(factor)
-
-
-def _factor(factor: float) -> dict[str, Any]:
-    return {} if factor == 1.0 else {"friction_factor": float(factor)}
+    said = {"friction": friction} if friction < DRY else {}
+    return said if factor == 1.0 else said | {"friction_factor": factor}
 
 
 def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:
@@ -116,10 +113,10 @@ def _grid(road: GridRoad) -> dict[str, Any]:
         "shape": list(thin.shape),
         "heights": encoded(thin),
     }
-    if frictions.min() == frictions.max():
-        found |= _grip(frictions.min(), road.friction_factor)
-    else:
-        found |= {"frictions": encoded(frictions[part])} | _factor(road.friction_factor)
+    same = frictions.min() == frictions.max()
+    found |= _grip(float(frictions[0, 0]) if same else DRY, road.friction_factor)
+    if not same:
+        found["frictions"] = encoded(frictions[part])
     if max(every) > 1:
         found["note"] = (
             f"the road has {heights.shape[0]} x {heights.shape[1]} points; {thin.shape[0]} x {thin.shape[1]} of them "

@@ -145,8 +145,8 @@ def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> 
     own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": given}
     fmu = changed(tuned, tmp_path, same, DRAWING | {"up": [0, 0, 1], "planar": False, "roads": [own]})
     assert road(["--world=plane", f"--out={tmp_path}"]) == 0
-    for file in ({}, {"road.file": str(tmp_path / "plane.road")}):
-        scene = scene_of(fmu, {"road.friction": 0.8, "road.friction_factor": 0.25} | file)
+    for file in ("", str(tmp_path / "plane.road")):
+        scene = scene_of(fmu, {"road.friction": 0.8, "road.friction_factor": 0.25, "road.file": file})
         assert scene is not None
         (drawn,) = scene["roads"]
         assert (drawn.get("friction"), drawn["friction_factor"]) == (None if file else 0.8, 0.25)

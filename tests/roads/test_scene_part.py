@@ -56,8 +56,8 @@ def test_level_and_inclined_planes() -> None:
 )
 def test_a_road_that_is_slick_everywhere_says_so_and_a_dry_one_nothing(road: PlaneRoad | KerbRoad | GridRoad) -> None:
     assert valid(scene_part(road))["friction"] == 0.1
-    name = "frictions" if isinstance(road, GridRoad) else "friction"
-    halved = valid(scene_part(replace(road, friction_factor=0.5, **{name: 0.9})))
+    dry = replace(road, frictions=0.9) if isinstance(road, GridRoad) else replace(road, friction=0.9)
+    halved = valid(scene_part(replace(dry, friction_factor=0.5)))
     assert "friction" not in halved
     assert halved["friction_factor"] == 0.5
 

@@ -95,6 +95,22 @@ def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
         assert ice[2] > 1.03 * ice[0], one
 
 
+def test_the_border_of_a_grid_goes_on_before_it_as_road_and_beside_it_as_grass(drawn):
+    """At its height, 2 m: of a ball below it nothing is seen, of one that lies on it the upper half."""
+    grid = {"kind": "grid", "origin": [5, -3], "spacing": [10, 6], "shape": [3, 2], "heights": floats(np.full(6, 2.0))}
+    made = world(roads=[grid], shapes=[ball(radius=0.5)], extent=12.0)
+    drawn.show(made, at(-4.0, 0.0, 1.4), camera="top", quality="low")
+    picture = drawn.picture()
+    with pytest.raises(AssertionError, match="nothing red"):
+        red(picture)
+    road, beside = (around(picture, drawn.project((-4.0, y, 2.0)), 2) for y in (2.0, 5.0))
+    assert np.ptp(road) < 0.15 * road.mean()
+    assert beside[1] > 1.2 * beside[2]
+    for y in (0.0, 8.0):
+        drawn.update(at(-4.0, y, 2.4))
+        assert red(drawn.picture()) == pytest.approx(drawn.project((-4.0, y, 2.4)), abs=2)
+
+
 @pytest.mark.parametrize("eye", [(10.0, 12.0, 1.5), (0.0, 6.0, 3.0)])
 def test_between_two_surfaces_of_one_channel_there_is_no_third(drawn, eye):
     """Gravel and concrete, lanes side by side: what has neither is asphalt, which is darker."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viewer.base64_numbers import decoded
+from viewer.gltf.materials import LOOKS
 from viewer.poses import Vectors
 from viewer.solids import Solid
 
@@ -52,9 +53,10 @@ def surfaces_of(road: Mapping[str, Any], solid: Solid) -> dict[str, Solid]:
 
 
 def _kept(nx: int, ny: int) -> tuple[int, list[NDArray[np.int64]]]:
-    """Every how many points of a grid one is drawn, and which, along x and y."""
+    """Every how many points of a grid one is drawn, and which, along x, where its border goes on, and y."""
     every = max(1, -(-max(nx, ny) // _MOST))
-    return every, [np.unique([*range(0, n, every), n - 1]) for n in (nx, ny)]
+    i, j = (np.unique([*range(0, n, every), n - 1]) for n in (nx, ny))
+    return every, [np.array([0, *i, nx - 1]), j]
 
 
 def _square(point: Vectors, normal: Vectors, centre: Vectors, half: float) -> Solid:
@@ -91,6 +93,7 @@ def _grid(road: Mapping[str, Any], up: Vectors) -> tuple[Solid, int]:
     heights = decoded(road["heights"], "f").reshape(nx, ny).astype(float)
     every, (i, j) = _kept(nx, ny)
     x = road["origin"][0] + road["spacing"][0] * i
+    x[[0, -1]] += -LOOKS["border"], LOOKS["border"]
     y = road["origin"][1] + road["spacing"][1] * j
     axes = np.array(
         road.get("axes") or ([[1, 0, 0], [0, 1, 0]] if abs(up[2]) > 0.5 else [[1, 0, 0], [0, 0, -1]]), float

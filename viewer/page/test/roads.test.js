@@ -60,7 +60,8 @@ test("the ground below a point is that of the highest road there", () => {
   near([grid], [1.5, 6, 0], 6);
   near([grid, { kind: "flat" }], [0, 0, 5], 0);
   near([grid], [1.125, 9, -5], 2.5, [0, 1, 0]);
-  assert.equal(roadHeight([grid], up, [0, 0, 0]), null);
+  near([grid], [30, 5, 0], 5.5); // its border goes on
+  for (const point of [[-29.1, 2, 0], [1.5, 36.1, 0]]) assert.equal(roadHeight([grid], up, point), null);
   assert.equal(roadHeight([{ kind: "file" }], up, [0, 0, 0]), null);
 });
 

@@ -1,7 +1,7 @@
 // Height of the ground below a point, by the roads of a scene.
 import { floats } from "../scene/data.js";
 import { dot, scale, subtract, unit } from "../scene/math.js";
-import { groundAxes, levelOf } from "./roads.js";
+import { between, border, groundAxes, inside, levelOf } from "./roads.js";
 
 const known = new WeakMap();
 
@@ -20,16 +20,13 @@ function profile(road, up, point) {
   return dot(base, up) + levelOf(road, dot(subtract(point, base), unit(road.direction ?? [1, 0, 0])));
 }
 
-/** Straight along both axes between four points of the grid. */
+/** Straight along both axes between four points of the grid; that of its border as far as this is drawn. */
 function grid(road, up, point) {
   if (!known.has(road)) known.set(road, floats(road.heights));
   const heights = known.get(road);
   const [i, j] = groundAxes(road, up).map((axis, k) => (dot(point, axis) - road.origin[k]) / road.spacing[k]);
-  const [nx, ny] = road.shape;
-  if (!(i >= 0 && j >= 0 && i <= nx - 1 && j <= ny - 1)) return null;
-  const [a, b] = [Math.min(Math.floor(i), nx - 2), Math.min(Math.floor(j), ny - 2)];
-  const along = (row) => heights[row * ny + b] * (1 - j + b) + heights[row * ny + b + 1] * (j - b);
-  return along(a) * (1 - i + a) + along(a + 1) * (i - a);
+  const far = [i, j].some((k, axis) => !(Math.abs(k - inside(k, road.shape[axis])) * road.spacing[axis] <= border));
+  return far ? null : between(heights, road.shape[1], i, j);
 }
 
 /**

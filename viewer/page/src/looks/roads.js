@@ -4,6 +4,7 @@ import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
 import { floats } from "../scene/data.js";
 import { alongY, turn } from "../shapes/place.js";
+import shared from "../../../looks.json" with { type: "json" };
 import { gripOf, slickness } from "./heights.js";
 
 /** Half the side of a road without end, in metres. */
@@ -12,6 +13,8 @@ const ENDLESS = 1500;
 const EDGES = [-ENDLESS, -320, -80, -20, 20, 80, 320, ENDLESS];
 /** Metres that the eye goes before a profile is built about it again: less than its middle piece reaches. */
 const STEP = 10;
+/** Metres beyond a grid that its border goes on. */
+export const { border } = shared;
 /** Cells of a grid in one piece: pieces are left out where they are not in the picture. */
 const PIECE = 64;
 /** Metres that a cell of a grid is long at most: the depth of longer needles is off, and they lie over cars. */
@@ -208,8 +211,9 @@ export function divided(lines, spacing) {
   });
 }
 
-/** A value on lines of a grid, or straight between two along x or y. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
+/** A value on lines of a grid, or straight between two along x or y; that of its border beyond it. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
 export function between(values, ny, i, j) {
+  [i, j] = [inside(i, values.length / ny), inside(j, ny)];
   const [a, b] = [Math.floor(i), Math.floor(j)];
   const along = (/** @type {number} */ column) => {
     const low = values[a * ny + column];
@@ -218,7 +222,13 @@ export function between(values, ny, i, j) {
   return j === b ? along(b) : along(b) + (j - b) * (along(b + 1) - along(b));
 }
 
-/** Heights on a grid, in pieces; what has little friction is wet or ice. Around it lies grass. */
+/** The nearest line of n. @param {number} k @param {number} n */
+export const inside = (k, n) => Math.min(n - 1, Math.max(0, k));
+
+/**
+ * Heights on a grid, in pieces; what has little friction is wet or ice. As under the wheels its border goes on, some way:
+ * before and behind as the road, at both sides as grass. Around it lies lower grass.
+ */
 function grid(road, { up, road: material, grass }) {
   const [nx, ny] = road.shape;
   const [dx, dy] = road.spacing;
@@ -229,29 +239,34 @@ function grid(road, { up, road: material, grass }) {
   const world = (x, y, z) => add(add(scale(axes[0], x), scale(axes[1], y)), scale(up, z));
   const pieces = [];
   const same = (/** @type {number} */ a, /** @type {number} */ b) => heights[a] === heights[b] && frictions?.[a] === frictions?.[b];
-  const along = divided(kept(nx, (k) => within(ny, (j) => same(k * ny + j, (k + 1) * ny + j))), dx);
+  const along = divided([-border / dx, ...kept(nx, (k) => within(ny, (j) => same(k * ny + j, (k + 1) * ny + j))), nx - 1 + border / dx], dx);
   const aside = divided(kept(ny, (k) => within(nx, (i) => same(i * ny + k, i * ny + k + 1))), dy);
-  for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
-    for (let j0 = 0; j0 < aside.length - 1; j0 += PIECE) {
-      const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, aside.length - 1)];
-      const [positions, slick, triangles] = [[], [], []];
-      for (let i = i0; i <= i1; i++) {
-        for (let j = j0; j <= j1; j++) {
-          const value = (/** @type {Float32Array} */ values) => between(values, ny, along[i], aside[j]);
-          positions.push(...world((along[i] - along[i0]) * dx, (aside[j] - aside[j0]) * dy, value(heights)));
-          slick.push(...slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
+  const [right, left] = [[-border / dy, 0], [ny - 1, ny - 1 + border / dy]].map((ends) => divided(ends, dy)); // prettier-ignore
+  const sheet = (/** @type {number[]} */ across, /** @type {THREE.Material} */ look, /** @type {(friction: (values: Float32Array) => number) => number[]} */ slickOf) => {
+    for (let i0 = 0; i0 < along.length - 1; i0 += PIECE) {
+      for (let j0 = 0; j0 < across.length - 1; j0 += PIECE) {
+        const [i1, j1] = [Math.min(i0 + PIECE, along.length - 1), Math.min(j0 + PIECE, across.length - 1)];
+        const [positions, slick, triangles] = [[], [], []];
+        for (let i = i0; i <= i1; i++) {
+          for (let j = j0; j <= j1; j++) {
+            const value = (/** @type {Float32Array} */ values) => between(values, ny, along[i], across[j]);
+            positions.push(...world((along[i] - along[i0]) * dx, (across[j] - across[j0]) * dy, value(heights)));
+            slick.push(...slickOf(value));
+          }
         }
-      }
-      const row = j1 - j0 + 1;
-      for (let i = 0; i < i1 - i0; i++) {
-        for (let j = 0; j < j1 - j0; j++) {
-          const a = i * row + j;
-          triangles.push(a, a + row, a + 1, a + 1, a + row, a + row + 1);
+        const row = j1 - j0 + 1;
+        for (let i = 0; i < i1 - i0; i++) {
+          for (let j = 0; j < j1 - j0; j++) {
+            const a = i * row + j;
+            triangles.push(a, a + row, a + 1, a + 1, a + row, a + row + 1);
+          }
         }
+        pieces.push(piece(world(road.origin[0] + along[i0] * dx, road.origin[1] + across[j0] * dy, 0), positions, triangles, slick, look));
       }
-      pieces.push(piece(world(road.origin[0] + along[i0] * dx, road.origin[1] + aside[j0] * dy, 0), positions, triangles, slick, material));
     }
-  }
+  };
+  sheet(aside, material, (value) => slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
+  for (const side of [right, left]) sheet(side, grass, () => [0, 0]);
   const low = heights.reduce((a, b) => Math.min(a, b), Infinity);
   pieces.push(...endless(scale(up, low - 0.15), up, grass));
   return pieces;
