@@ -1,7 +1,7 @@
 /* Functions of one or two parameters as uniform cubic B-splines: twice continuously differentiable. Beyond the ends of
  * its table a function goes on along its tangent. */
+#include "../algebra/lane_copies.h"
 #include "../algebra/processor.h"
-#include "../lanes/lane_copies.h"
 #include "tabled.h"
 
 enum { WINDOW = 4 }; /* control points that a place depends on */
