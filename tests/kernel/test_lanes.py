@@ -25,6 +25,7 @@ from mbs.scenes import (
     squeezer,
 )
 from mbs.simulation.prepared_system import prepared
+from tests.model.test_tabled import coupled
 from tests.simulation.many_cars import CARS, attach, car
 from tests.simulation.many_cars import system as car_system
 
@@ -44,6 +45,8 @@ SCENES: dict[str, tuple[Callable[[], Model], float]] = {
     "flexible four-bar": (assembly_defect_four_bar.build, 5e-3),
     "spinning beam": (spinning_beam.build, 1e-2),
     "kerb, flexible": (lambda: kerb_test.build(3), 1e-2),
+    "tables": (lambda: coupled(whole=False), 5e-3),
+    "tables, whole": (lambda: coupled(whole=True), 5e-3),
 }
 DAMPED = 6  # first steps of flexible Systems, by another rule
 

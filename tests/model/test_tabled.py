@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
@@ -13,8 +14,9 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, Simulation, SimulationError, System, Trajectory, compile, simulate
+from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
-from mbs.elements.scalar_spring_damper import ScalarSpringDamper
+from mbs.elements import BodyForce, HubWrench, ScalarSpringDamper, SpringDamper
 from mbs.kernel import binding
 from mbs.kernel.binding import KernelError
 from mbs.kernel.binding.instance import Instance
@@ -93,29 +95,88 @@ def one_by_joint(gravity: float = 9.81) -> System:
     return compile(watch(m, base, arm))
 
 
-def two_by_table(damping: float = 0.0, *, beside: bool = False) -> System:
-    """A chain of two, the second one over both angles; `beside`: a spring from it to another body."""
-    m = Model("tables")
+FIRST, SECOND = np.linspace(-2.0, 2.0, 161), np.linspace(-3.0, 3.0, 241)
+"""Points of the angles of a chain."""
+
+
+def chain(m: Model) -> tuple[Body, Body, Body, tuple[Coordinate, Coordinate]]:
+    """Base, arm and tip, the last one over both angles, and these."""
     base = base_of(m)
     swing, bend = m.travel("swing", unit="rad", rate=SWING), m.travel("bend", unit="rad", rate=BEND)
-    first, second = np.linspace(-2.0, 2.0, 161), np.linspace(-3.0, 3.0, 241)
-    arm_by_table(m, base, swing, first)
-    outer, inner = rotations(AXES[0], first)[:, None], rotations(AXES[1], second)[None]
+    arm = arm_by_table(m, base, swing, FIRST)
+    outer, inner = rotations(AXES[0], FIRST)[:, None], rotations(AXES[1], SECOND)[None]
     tip = m.tabled_body(
         "tip",
         base=base,
         parameters=(swing, bend),
-        axes=(first, second),
+        axes=(FIRST, SECOND),
         places=outer @ ELBOW + (outer @ inner) @ np.subtract(HAND, ELBOW),
         rotations=outer @ inner,
         mass=MASSES[2],
         com=HAND,
         inertia=TIP,
     )
+    return base, arm, tip, (swing, bend)
+
+
+def two_by_table(damping: float = 0.0, *, beside: bool = False) -> System:
+    """A chain of two; `beside`: a spring from it to another body."""
+    m = Model("tables")
+    base, _, tip, _ = chain(m)
     if beside:
         other = m.body("beside", mass=1.0, com=(0.4, 0.3, -2.0), inertia=TIP)
         m.spring_damper("pull", (tip, HAND), (other, (0.3, 0.1, -2.1)), stiffness=6.0, free_length=0.4)
     return compile(watch(m, base, tip, damping))
+
+
+def coupled(whole: bool) -> Model:
+    """Elements that couple vectors of tabled bodies on two bases, tabled numbers and the spin of a wheel.
+
+    `whole`: beside each of them a spring without stiffness on one component, or on so many numbers, that their tangents
+    are not summed by vectors and numbers.
+    """
+    m = Model("coupled")
+    _, arm, tip, angles = chain(m)
+    rail = m.tabled_body(
+        "rail",
+        base=m.ground,
+        parameters=angles[0],
+        axes=[FIRST],
+        places=np.outer(np.sin(FIRST), (0.3, 0.5, -0.2)),
+        rotations=np.broadcast_to(np.eye(3), (len(FIRST), 3, 3)),
+        mass=2.0,
+        com=(0, 0, 0),
+        inertia=(1, 1, 1),
+    )
+    level, other = (
+        m.tabled_number(name, parameters=angles, axes=(FIRST, SECOND), values=values).affine
+        for name, values in (
+            ("level", np.sin(FIRST)[:, None] + 0.5 * SECOND**2),
+            ("other", FIRST[:, None] * np.cos(SECOND) + 0.3 * SECOND),
+        )
+    )
+    shape = {"mass": 0.4, "spin_inertia": 0.1, "diametral_inertia": 0.06}
+    wheel = m.spin("wheel", carrier=tip, centre=HAND, axis=AXES[0], **shape).affine
+    u = [m.input(f"u{i}", start=start).index for i, start in enumerate((3.0, -2.0, 4.0, 1.5, -2.5, 3.5))]
+    hand, elbow, axes = tip.point(HAND), arm.point((0.1, 0.3, -0.8)), [tip.vector(e) for e in np.eye(3)]
+    end = rail.point((0, 0, 0.5))
+    springs = {
+        "across": (20.0, 0.2, hand - elbow),
+        "up": (8.0, 0.5, hand - AffineVector.constant((0.3, 0.2, 1.0))),
+        "bridge": (9.0, 0.3, hand - end),
+        "rail": (6.0, 0.1, end - AffineVector.constant((1.0, 1.0, 1.0))),
+        "skew": (5.0, 0.2, AffineVector(tuple(k * c for k, c in enumerate(elbow.components, 1)))),
+        "plane": (7.0, 0.4, AffineVector((level + wheel, other))),
+    }
+    for name, (k, length, gap) in springs.items():
+        m.add(SpringDamper(k, free_length=length).record(name, gap))
+    m.add(BodyForce(u[:3]).record("push", elbow, axes))
+    m.add(HubWrench(u).record("wrench", hand, axes[1], level + 2.0 * wheel))
+    lone = [(hand - elbow).components[0], hand.components[1], end.components[2]]
+    lone += [hand.components[2] + level, *(level + k * other for k in range(1, 6))]
+    for n, signal in enumerate(lone if whole else ()):
+        m.add(ScalarSpringDamper(0.0).record(f"none {n}", signal))
+    return m
 
 
 def two_by_joints() -> System:
@@ -212,25 +273,51 @@ def test_angular_momentum_is_kept_as_far_as_the_table_is_a_rotation() -> None:
     assert changes[1] < 2e-8
 
 
-@pytest.mark.parametrize("beside", [False, True])
-def test_the_tangent_is_that_of_differences(beside: bool) -> None:
-    """At rest, T(h) = M + h^2/4 K + what h does not change; springs, weight and the bends of tables are in K."""
-    simulation = Simulation(two_by_table(beside=beside))
-    rows = simulation.system.meta["report"]["rows"]
-    q = np.array(simulation.state.q)
-    instance, n = simulation.instance, len(q)
-    evaluate, still, shift = instance.evaluate, [0.0] * n, 1e-6
+def tangent(instance: Instance, q: Array, qd: Array, h: float) -> Array:
+    """At these coordinates and rates, without multipliers."""
+    instance.set_q(q.tolist(), qd.tolist())
+    instance.initialise()
+    return np.reshape(instance.tangent(h, [0.0] * instance.system.sizes.nc), (len(q), len(q)))
+
+
+def on_its_way(system: System) -> Simulation:
+    simulation = Simulation(system)
+    for _ in range(20):
+        simulation.step(0.01)
+    return simulation
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        two_by_table,
+        lambda: two_by_table(beside=True),
+        lambda: compile(coupled(whole=False)),
+        lambda: compile(coupled(whole=True)),
+    ],
+    ids=["a spring", "beside", "by vectors", "whole"],
+)
+def test_the_tangent_is_that_of_differences(system: Callable[[], System]) -> None:
+    """Springs, forces that turn, weight and bends of tables are in K, whose symmetric part the tangent has."""
+    simulation, shift = on_its_way(system()), 1e-6
+    instance, q = simulation.instance, np.array(simulation.state.q)
+    still = np.zeros_like(q)
+    long, short = (tangent(instance, q, still, h) for h in (0.2, 0.1))  # M + h^2/4 K + what h does not change
 
     def force(at: Array) -> Array:
-        return np.array(evaluate(at.tolist(), still, [], 0.0)["force"])
+        return np.array(instance.evaluate(at.tolist(), still.tolist(), [], 0.0)["force"])
 
-    K = np.array([(force(q - d) - force(q + d)) / (2.0 * shift) for d in shift * np.eye(n)])
-    instance.set_q(q.tolist(), still)
-    instance.initialise()
-    long, short = (np.reshape(instance.tangent(h, [0.0] * rows), (n, n)) for h in (0.2, 0.1))
+    K = np.array([(force(q - d) - force(q + d)) / (2.0 * shift) for d in shift * np.eye(len(q))])
     found = (long - short) / (0.25 * (0.2**2 - 0.1**2))
-    assert np.abs(K - K.T).max() < 1e-6 * np.abs(K).max()
-    assert np.abs(found - K).max() < 1e-6 * np.abs(K).max()
+    assert np.abs(found - 0.5 * (K + K.T)).max() < 1e-6 * np.abs(K).max()
+
+
+def test_sums_by_vectors_and_numbers_are_those_of_the_whole() -> None:
+    """Gyroscopic moments too, which couple vectors with a spin by their rates."""
+    simulation, other = on_its_way(compile(coupled(whole=False))), Simulation(compile(coupled(whole=True)))
+    q, qd = np.array(simulation.state.q), np.array(simulation.state.qd)
+    one, two = (tangent(s.instance, q, qd, 0.1) for s in (simulation, other))
+    assert np.abs(one - two).max() < 1e-13 * np.abs(one).max()
 
 
 def number_model(points: Array, **more: Any) -> Model:

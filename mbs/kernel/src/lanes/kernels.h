@@ -115,7 +115,7 @@ void ali3_mass_times_both(const ali3_instance *in, const real *x, const real *y,
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out_x), ali3_tabled_mass_times(in, y, out_y);
 }
 
-#include "lane_copies.h"
+#include "../algebra/lane_copies.h"
 #include "lane_step.h"
 
 const ali3_lane_code ALI3_LANED(ali3_code) = {.step = step, .spread = put_side_by_side, .collect = take_apart};

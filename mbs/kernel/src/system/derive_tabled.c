@@ -97,11 +97,23 @@ static void derive_seen(ali3_system *s) {
     }
 }
 
+/* Where F has the entry of places i and j of a front. */
+static int32_t entry_at(const ali3_system *s, int32_t front, int32_t i, int32_t j) {
+  const int32_t size = s->front_ptr[front + 1] - s->front_ptr[front];
+  return (int32_t)s->front_off[front] + (i >= j ? j * size + i : i * size + j);
+}
+
+static void entries_of_base(const ali3_system *s, const ali3_tabled_base *base, int32_t loc, int32_t *at) {
+  for (int i = 0; i < ALI3_TABLED_BODY; i++) at[i] = entry_at(s, base->front, base->loc[i], loc);
+}
+
 /* The parameter of a base that has coordinate `column` at `loc` in its front. */
 static int32_t parameter_of(ali3_system *s, ali3_tabled_base *base, int32_t column, int32_t loc) {
   int32_t p = base->first;
   while (p < base->end && s->tabled_parameter[p].column != column) p++;
-  if (p == base->end) s->tabled_parameter[base->end++] = (ali3_tabled_parameter){.column = column, .loc = loc};
+  if (p < base->end) return p;
+  s->tabled_parameter[base->end++] = (ali3_tabled_parameter){.column = column, .loc = loc};
+  entries_of_base(s, base, loc, s->tabled_parameter[p].at);
   return p;
 }
 
@@ -118,6 +130,7 @@ static void derive_bases(ali3_system *s) {
                                .frame = c->frame,
                                .gravity = c->gravity};
     memcpy(base->loc, c->loc, sizeof base->loc);
+    for (int k = 0; k < ALI3_TABLED_BODY; k++) entries_of_base(s, base, base->loc[k], base->at[k]);
     for (int32_t k = i; k < s->n_tabled; k++) {
       ali3_tabled *d = s->tabled + k;
       if (d->n != ALI3_TABLED_BODY || d->base >= 0 || d->front != c->front ||
@@ -194,31 +207,119 @@ static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) 
   }
 }
 
-static void list_once(ali3_tabled_list *list, int32_t signal) {
-  for (int32_t i = 0; i < list->n; i++)
-    if (list->signal[i] == signal) return;
-  list->signal[list->n++] = (uint8_t)signal;
+/* What entry k of a group is, if it may be of component x of a vector: which of r and Y of the base, or from 4 on which
+ * vector of which item; -1: it may not. */
+static int32_t source_of(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t k, int x) {
+  const int32_t d = s->el_entry_dependent[k], local = s->el_entry_local[k];
+  if (d >= 0) return s->tabled[group->item[local]].n == ALI3_TABLED_BODY && d % 3 == x ? 4 + 4 * local + d / 3 : -1;
+  const int32_t at = frame == NULL ? -1 : place_of(frame, ALI3_TABLED_BODY, local);
+  return at >= 0 && at % 3 == x ? at / 3 : -1;
 }
 
-/* Which entries of the matrices of a group are ever other than zero. */
-static void derive_lists(const ali3_system *s, ali3_tabled_group *group) {
-  for (int32_t o = group->first; o < group->end; o++) {
-    const int32_t e = s->tabled_order[o];
-    for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++)
-      for (int32_t k = s->el_sig_ptr[e]; k < s->el_sig_ptr[e + 1]; k++)
-        list_once(group->beside + s->tabled_signal[i], s->tabled_signal[k]);
-  }
-  for (int32_t i = 0; i < group->n_signal; i++)
-    for (int32_t k = group->entry[i], end = k + group->n_entry[i]; k < end; k++) {
-      const int32_t d = s->el_entry_dependent[k], local = s->el_entry_local[k];
-      const ali3_tabled *c = d < 0 ? NULL : s->tabled + group->item[local];
-      if (c == NULL) list_once(group->moved + local, i);
-      for (int32_t n = 0; c != NULL && n < ALI3_TABLED_COLUMNS; n++) {
-        const bool base = n < 12, same_axis = c->n == ALI3_TABLED_BODY && n % 3 == d % 3, place = n < 3 && d >= 3;
-        if (group->slot[local][n] >= 0 && (!base || (same_axis && !place)))
-          list_once(group->moved + group->slot[local][n], i);
-      }
+/* Whether signals i to i + 2 of a group are the components of a vector; *place: whether r or the place of a body is in
+ * it. */
+static bool is_vector(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t i,
+                      bool *place) {
+  const int32_t first = group->entry[i], n = group->n_entry[i];
+  *place = false;
+  if (i + 2 >= group->n_signal || group->n_entry[i + 1] != n || group->n_entry[i + 2] != n) return false;
+  for (int32_t k = first; k < first + n; k++) {
+    const int32_t source = source_of(s, group, frame, k, 0);
+    for (int x = 0; x < 3; x++) {
+      int32_t same = 0; /* 1: there once, with the same value */
+      for (int32_t o = group->entry[i + x], end = o + n; o < end; o++)
+        if (source_of(s, group, frame, o, x) == source) same += s->el_entry_value[o] == s->el_entry_value[k] ? 1 : 2;
+      if (source < 0 || same != 1) return false;
     }
+    *place = *place || source % 4 == 0;
+  }
+  return true;
+}
+
+/* Whether signal i of a group is of tabled numbers and coordinates beside those of its base. */
+static bool is_number(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t i) {
+  for (int32_t k = group->entry[i], end = k + group->n_entry[i]; k < end; k++) {
+    const int32_t local = s->el_entry_local[k];
+    if (s->el_entry_dependent[k] >= 0) {
+      if (s->tabled[group->item[local]].n != 1) return false;
+    } else if (frame != NULL && place_of(frame, 12, local) >= 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/* Vectors that share an element; false: not all of a vector is there, one after the other. */
+static bool derive_beside(const ali3_system *s, ali3_tabled_group *group) {
+  for (int32_t o = group->first; o < group->end; o++) {
+    const int32_t *place = s->tabled_signal + s->el_sig_ptr[s->tabled_order[o]];
+    const int32_t n = s->el_sig_ptr[s->tabled_order[o] + 1] - s->el_sig_ptr[s->tabled_order[o]];
+    int32_t met[ALI3_TABLED_SIGNALS], n_met = 0;
+    for (int32_t i = 0; i < n; i++) {
+      const int32_t part = group->part[place[i]];
+      if (part == ALI3_TABLED_COMPONENT) return false;
+      if (part < 0) continue;
+      if (i + 2 >= n || place[i + 1] != place[i] + 1 || place[i + 2] != place[i] + 2) return false;
+      met[n_met++] = part;
+      i += 2;
+    }
+    for (int32_t i = 0; i < n_met; i++)
+      for (int32_t k = 0; k < n_met; k++) {
+        ali3_tabled_list *list = group->beside + met[i];
+        if (memchr(list->at, met[k], list->n) == NULL) list->at[list->n++] = (uint8_t)met[k];
+      }
+  }
+  return true;
+}
+
+/* The parts of the signals of a group; returns whether it has them. */
+static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
+  const int32_t *frame = NULL;
+  int32_t slots[ALI3_TABLED_SINGLES], base = -1;
+  group->base = -1;
+  for (int32_t n = 0; n < group->n_item; n++) {
+    const ali3_tabled *c = s->tabled + group->item[n];
+    if (c->n != ALI3_TABLED_BODY || c->base == base) continue;
+    if (base >= 0) return false;
+    base = c->base;
+    if (c->frame[0] < 0) continue;
+    frame = group->slot[n];
+    group->base = base;
+  }
+  for (int32_t i = 0; i < group->n_signal; i++) {
+    bool place;
+    if (is_vector(s, group, frame, i, &place)) {
+      if (group->n_vector == ALI3_TABLED_VECTORS) return false;
+      group->place[group->n_vector] = place;
+      group->part[i] = (int8_t)group->n_vector;
+      group->part[i + 1] = group->part[i + 2] = ALI3_TABLED_COMPONENT;
+      group->vector[group->n_vector++] = i;
+      i += 2;
+    } else {
+      if (group->n_number == ALI3_TABLED_NUMBERS || !is_number(s, group, frame, i)) return false;
+      group->part[i] = (int8_t)(-1 - group->n_number);
+      group->number[group->n_number++] = i;
+    }
+  }
+  for (int32_t j = 0; frame != NULL && j < 12; j++) group->axis[frame[j]] = (int8_t)(j / 3);
+  for (int32_t n = 0; n < group->n_item; n++)
+    for (int p = 0; p < 2; p++) {
+      const int32_t slot = group->slot[n][12 + p];
+      if (slot >= 0 && !add_once(slots, &group->n_along, ALI3_TABLED_SINGLES, slot)) return false;
+      group->along[n][p] = (int8_t)(slot < 0 ? -1 : place_of(slots, group->n_along, slot));
+    }
+  group->n_single = group->n_along;
+  for (int32_t j = 0; j < group->m; j++)
+    if (frame == NULL || place_of(frame, 12, j) < 0)
+      if (!add_once(slots, &group->n_single, ALI3_TABLED_SINGLES, j)) return false;
+  for (int32_t i = 0; i < group->n_single; i++) {
+    const int32_t loc = group->loc[slots[i]];
+    group->axis[slots[i]] = (int8_t)i;
+    if (frame != NULL) entries_of_base(s, s->tabled_base + group->base, loc, group->to_base[i]);
+    for (int32_t k = 0; k < group->n_single; k++)
+      group->to_single[i][k] = entry_at(s, group->front, loc, group->loc[slots[k]]);
+  }
+  return derive_beside(s, group);
 }
 
 static void derive_group(ali3_system *s, int32_t g) {
@@ -235,8 +336,9 @@ static void derive_group(ali3_system *s, int32_t g) {
     s->tabled_order[group->end++] = e;
     derive_entries(s, e, group);
   }
-  derive_lists(s, group);
-  const int32_t m = ali3_tabled_stride(group), n = group->n_signal, work = n * n + (2 * n + 1) * m;
+  group->parted = derive_parts(s, group);
+  const int32_t n = group->n_signal, m = group->m, whole = n * (n + 2 * m);
+  const int32_t work = group->parted ? (int32_t)(sizeof(ali3_tabled_parts) / sizeof(double)) : whole;
   if (work > s->tabled_square) s->tabled_square = work;
 }
 

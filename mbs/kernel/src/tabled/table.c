@@ -1,5 +1,6 @@
 /* Functions of one or two parameters as uniform cubic B-splines: twice continuously differentiable. Beyond the ends of
  * its table a function goes on along its tangent. */
+#include "../algebra/lane_copies.h"
 #include "../algebra/processor.h"
 #include "tabled.h"
 
@@ -29,14 +30,16 @@ static inline real cell_of(real place, int32_t last, int32_t cell[LANES]) {
 #endif
 }
 
-/* A number of each lane's control points. */
-static inline real pick(const double *const point[LANES], int64_t at) {
+/* n control points of each lane from a place on, side by side; in the room where there are several lanes. */
+static inline const real *points(const double *const point[LANES], int64_t at, int32_t n, real *room) {
 #ifdef ALI3_WIDTH
-  real x;
-  for (int l = 0; l < LANES; l++) x[l] = point[l][at];
-  return x;
+  const double *from[LANES];
+  for (int l = 0; l < LANES; l++) from[l] = point[l] + at;
+  put_side_by_side((double *)room, from, n);
+  return room;
 #else
-  return point[0][at];
+  (void)n, (void)room;
+  return point[0] + at;
 #endif
 }
 
@@ -58,39 +61,42 @@ ALI3_INLINED window at(const double *axis, int32_t count, real x) {
   return n;
 }
 
-ALI3_INLINED real weighed(const real w[WINDOW], const real x[WINDOW]) {
-  return (w[0] * x[0] + w[1] * x[1]) + (w[2] * x[2] + w[3] * x[3]);
+/* Sum of four control points, which are n numbers apart. */
+ALI3_INLINED real weighed(const real w[WINDOW], const real *x, int32_t n) {
+  return (w[0] * x[0] + w[1] * x[n]) + (w[2] * x[2 * n] + w[3] * x[3 * n]);
 }
 
 ALI3_INLINED void along_one(int32_t n, const window *x, const double *const point[LANES],
                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
+  real room[WINDOW * ALI3_TABLED_BODY];
+  const real *v = points(point, 0, WINDOW * n, room);
   for (int32_t i = 0; i < n; i++) {
-    const real v[WINDOW] = {pick(point, i), pick(point, n + i), pick(point, 2 * n + i), pick(point, 3 * n + i)};
-    value[0][i] = weighed(x->w[0], v);
-    value[ALI3_BY_A][i] = weighed(x->w[1], v);
-    value[ALI3_BY_AA][i] = weighed(x->w[2], v);
+    value[0][i] = weighed(x->w[0], v + i, n);
+    value[ALI3_BY_A][i] = weighed(x->w[1], v + i, n);
+    value[ALI3_BY_AA][i] = weighed(x->w[2], v + i, n);
   }
 }
 
 /* `row`: from one control point along the first parameter to the next. */
 ALI3_INLINED void along_two(int32_t n, int64_t row, const window *x, const window *y, const double *const point[LANES],
                             real value[restrict ALI3_TABLED_VALUES][ALI3_TABLED_BODY]) {
-  for (int32_t i = 0; i < n; i++) {
-    real v[WINDOW], d[WINDOW], b[WINDOW];
-    for (int k = 0; k < WINDOW; k++) {
-      const int64_t from = k * row + i;
-      const real p[WINDOW] = {pick(point, from), pick(point, from + n), pick(point, from + 2 * n),
-                              pick(point, from + 3 * n)};
-      v[k] = weighed(y->w[0], p);
-      d[k] = weighed(y->w[1], p);
-      b[k] = weighed(y->w[2], p);
+  real v[WINDOW * ALI3_TABLED_BODY], d[WINDOW * ALI3_TABLED_BODY], b[WINDOW * ALI3_TABLED_BODY];
+  for (int k = 0; k < WINDOW; k++) {
+    real room[WINDOW * ALI3_TABLED_BODY];
+    const real *p = points(point, k * row, WINDOW * n, room);
+    for (int32_t i = 0; i < n; i++) {
+      v[k * n + i] = weighed(y->w[0], p + i, n);
+      d[k * n + i] = weighed(y->w[1], p + i, n);
+      b[k * n + i] = weighed(y->w[2], p + i, n);
     }
-    value[0][i] = weighed(x->w[0], v);
-    value[ALI3_BY_A][i] = weighed(x->w[1], v);
-    value[ALI3_BY_B][i] = weighed(x->w[0], d);
-    value[ALI3_BY_AA][i] = weighed(x->w[2], v);
-    value[ALI3_BY_AB][i] = weighed(x->w[1], d);
-    value[ALI3_BY_BB][i] = weighed(x->w[0], b);
+  }
+  for (int32_t i = 0; i < n; i++) {
+    value[0][i] = weighed(x->w[0], v + i, n);
+    value[ALI3_BY_A][i] = weighed(x->w[1], v + i, n);
+    value[ALI3_BY_B][i] = weighed(x->w[0], d + i, n);
+    value[ALI3_BY_AA][i] = weighed(x->w[2], v + i, n);
+    value[ALI3_BY_AB][i] = weighed(x->w[1], d + i, n);
+    value[ALI3_BY_BB][i] = weighed(x->w[0], b + i, n);
   }
 }
 

@@ -10,7 +10,9 @@
 
 enum { ALI3_TABLED_BODY = 12, ALI3_TABLED_COLUMNS = 14, ALI3_TABLED_MOMENTS = 10, ALI3_TABLED_VALUES = 6 };
 enum { ALI3_TABLED_ITEMS = 4, ALI3_TABLED_MOST = 72, ALI3_TABLED_SIGNALS = 32 }; /* of a group; coordinates */
-enum { ALI3_TABLED_CHUNK = 8 }; /* numbers that are summed side by side */
+/* of a group that has parts; each is as many as its others have room for */
+enum { ALI3_TABLED_VECTORS = 6, ALI3_TABLED_NUMBERS = 4, ALI3_TABLED_SINGLES = 8 };
+enum { ALI3_TABLED_COMPONENT = INT8_MIN }; /* another one of a vector than the first */
 enum { ALI3_BY_A = 1, ALI3_BY_B, ALI3_BY_AA, ALI3_BY_AB, ALI3_BY_BB }; /* of ali3_tabled_work.value */
 
 struct ali3_tabled {
@@ -28,6 +30,7 @@ struct ali3_tabled {
 /* Bodies with the same r, Y and gravity. */
 struct ali3_tabled_base {
   int32_t front, loc[ALI3_TABLED_BODY]; /* as those of its bodies */
+  int32_t at[ALI3_TABLED_BODY][ALI3_TABLED_BODY]; /* where F has the entries between them */
   int32_t first, end;                   /* its parameters */
   const int32_t *frame;                 /* frame[0] = -1: the earth */
   const double *gravity;
@@ -35,10 +38,11 @@ struct ali3_tabled_base {
 
 struct ali3_tabled_parameter {
   int32_t column, loc; /* the coordinate, its place in the front of the base */
+  int32_t at[ALI3_TABLED_BODY]; /* where F has the entries between it and the base */
 };
 
 typedef struct {
-  uint8_t n, signal[ALI3_TABLED_SIGNALS];
+  uint8_t n, at[ALI3_TABLED_VECTORS];
 } ali3_tabled_list;
 
 /* Elements of one front with signals of the same dependents. */
@@ -48,14 +52,31 @@ struct ali3_tabled_group {
   int32_t n_item, item[ALI3_TABLED_ITEMS], slot[ALI3_TABLED_ITEMS][ALI3_TABLED_COLUMNS]; /* of an item's coordinates */
   int32_t n_signal, signal[ALI3_TABLED_SIGNALS]; /* of all of them */
   int32_t entry[ALI3_TABLED_SIGNALS], n_entry[ALI3_TABLED_SIGNALS]; /* of a signal, as one of its elements has them */
-  /* which signals: of those that share an element with a signal, of those that a coordinate moves */
-  ali3_tabled_list beside[ALI3_TABLED_SIGNALS], moved[ALI3_TABLED_MOST];
+  /* Parts, if its signals are vectors of bodies on one base and numbers: with d(vector) = sum of a share of each of r
+   * and Y + a vector for each single coordinate, a square of three by three is moved by four shares. */
+  bool parted;
+  int32_t base; /* -1: none, or the earth */
+  int32_t n_vector, n_number, n_along, n_single; /* of the single coordinates so many move vectors: the first */
+  int32_t vector[ALI3_TABLED_VECTORS], number[ALI3_TABLED_NUMBERS]; /* signals: the first component, the number */
+  int8_t part[ALI3_TABLED_SIGNALS]; /* of a signal: its vector, if it is the first component; -1 - its number */
+  bool place[ALI3_TABLED_VECTORS]; /* whether r moves it */
+  ali3_tabled_list beside[ALI3_TABLED_VECTORS]; /* vectors with which it shares an element */
+  int8_t axis[ALI3_TABLED_MOST]; /* of a coordinate: which of r and Y it is of, else its number among the singles */
+  /* where F has the entries between singles and r and Y, and among singles */
+  int32_t to_base[ALI3_TABLED_SINGLES][ALI3_TABLED_BODY], to_single[ALI3_TABLED_SINGLES][ALI3_TABLED_SINGLES];
+  int8_t along[ALI3_TABLED_ITEMS][2]; /* of the parameters of an item: their numbers among the singles */
 };
 
-/* Of the rows of its matrices. */
-static inline int32_t ali3_tabled_stride(const ali3_tabled_group *of) {
-  return (of->m + ALI3_TABLED_CHUNK - 1) / ALI3_TABLED_CHUNK * ALI3_TABLED_CHUNK;
-}
+/* B and S B of the parts of a group, sums of the tangents of its elements. */
+typedef struct {
+  real share[ALI3_TABLED_VECTORS][4], along[ALI3_TABLED_VECTORS][ALI3_TABLED_SINGLES][3];
+  real slope[ALI3_TABLED_NUMBERS][ALI3_TABLED_SINGLES];
+  real vectors[ALI3_TABLED_VECTORS][ALI3_TABLED_VECTORS][9], mixed[ALI3_TABLED_NUMBERS][ALI3_TABLED_VECTORS][3];
+  real numbers[ALI3_TABLED_NUMBERS][ALI3_TABLED_NUMBERS];
+  real by_share[ALI3_TABLED_VECTORS][4][9], by_single[ALI3_TABLED_VECTORS][ALI3_TABLED_SINGLES][3];
+  real number_by_single[ALI3_TABLED_NUMBERS][ALI3_TABLED_SINGLES];
+  real base[4][4][9]; /* sums over the groups of a base */
+} ali3_tabled_parts;
 
 struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item; its members are numbers of each lane */
   real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]; /* functions, their derivatives by a, b, aa, ab, bb */
@@ -65,7 +86,7 @@ struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item; its mem
 };
 
 struct ali3_tabled_base_work {
-  real axes[9]; /* Y */
+  real axes[9], weight[3]; /* Y; gravity along it, of ali3_tabled_tangent */
   real mass[4][4]; /* sum of T J T' */
   real force[12]; /* scratch */
 };

@@ -3,29 +3,30 @@
 
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
+#include "../algebra/small_vectors.h"
 #include "tabled.h"
 
-enum { FIRST_PARAMETER = 12, CHUNK = ALI3_TABLED_CHUNK };
+enum { FIRST_PARAMETER = 12 };
 
 /* wM M of all bodies of a base, and what the weight changes in Q: -wK d2(g . X)/dY dp. */
-static void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {
+ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
   const ali3_tabled_base *base = S->tabled_base + b;
-  const ali3_tabled_base_work *w = in->tabled_base + b;
-  const int32_t size = S->front_ptr[base->front + 1] - S->front_ptr[base->front];
-  real *block = F + S->front_off[base->front];
+  ali3_tabled_base_work *w = in->tabled_base + b;
+  for (int k = 0; k < 3; k++)
+    w->weight[k] = base->gravity[0] * w->axes[3 * k] + base->gravity[1] * w->axes[3 * k + 1] +
+                   base->gravity[2] * w->axes[3 * k + 2];
   if (base->frame[0] < 0) return;
   for (int K = 0; K < 4; K++)
     for (int L = 0; L <= K; L++)
-      for (int x = 0; x < 3; x++)
-        ali3_add_lower(block, size, base->loc[3 * K + x], base->loc[3 * L + x], wM * w->mass[K][L]);
+      for (int x = 0; x < 3; x++) F[base->at[3 * K + x][3 * L + x]] += wM * w->mass[K][L];
   for (int32_t p = base->first; p < base->end; p++) {
     const ali3_tabled_parameter_work *of = in->tabled_parameter + p;
-    const int32_t at = S->tabled_parameter[p].loc;
+    const int32_t *at = S->tabled_parameter[p].at;
     for (int i = 0; i < 12; i++) {
       real value = wM * of->turned[i];
       if (i >= 3) value -= wK * base->gravity[i % 3] * of->own[i / 3 - 1];
-      ali3_add_lower(block, size, base->loc[i], at, value);
+      F[at[i]] += value;
     }
   }
 }
@@ -38,18 +39,12 @@ static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, r
   const int32_t size = S->front_ptr[c->front + 1] - S->front_ptr[c->front];
   const int n_par = c->count[1] > 1 ? 2 : 1;
   const bool body = c->n == ALI3_TABLED_BODY, heavy = ali3_tabled_heavy(c);
+  const real *weight = body ? in->tabled_base[c->base].weight : NULL;
   real *block = F + S->front_off[c->front], f[12]; /* along Y */
   const real *axes = body ? in->tabled_base[c->base].axes : NULL;
-  memset(f, 0, sizeof f);
-  for (int v = 0; body && v < 4; v++)
-    for (int k = 0; heavy && k < 3; k++)
-      f[3 * v + k] = c->mass[v] *
-                     (axes[3 * k] * c->gravity[0] + axes[3 * k + 1] * c->gravity[1] + axes[3 * k + 2] * c->gravity[2]);
-  for (int32_t n = 0; body && n < c->n_seen; n++) {
-    const real *force = w->force + 3 * c->seen[n];
-    for (int k = 0; k < 3; k++)
-      f[3 * c->seen[n] + k] += axes[3 * k] * force[0] + axes[3 * k + 1] * force[1] + axes[3 * k + 2] * force[2];
-  }
+  for (int i = 0; i < 12; i++) f[i] = heavy ? c->mass[i / 3] * weight[i % 3] : ali3_same(0.0);
+  for (int32_t n = 0; body && n < c->n_seen; n++)
+    for (int k = 0; k < 3; k++) f[3 * c->seen[n] + k] += ali3_dot(axes + 3 * k, w->force + 3 * c->seen[n]);
   if (!body) f[0] = w->force[0];
   for (int p = 0; p < n_par; p++) {
     const int32_t at = c->loc[FIRST_PARAMETER + p];
@@ -62,13 +57,13 @@ static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, r
       ali3_add_lower(block, size, at, c->loc[FIRST_PARAMETER + o], value);
     }
     if (!body || c->frame[0] < 0 || c->n_seen == 0) continue;
-    for (int k = 0; k < 3; k++)
-      for (int x = 0; x < 3; x++) {
-        real sum = {0};
-        for (int32_t n = 0; n < c->n_seen; n++)
-          sum += w->force[3 * c->seen[n] + x] * w->value[ALI3_BY_A + p][3 * c->seen[n] + k];
-        ali3_add_lower(block, size, c->loc[3 + 3 * k + x], at, -wK * sum);
-      }
+    for (int k = 0; k < 3; k++) {
+      real sum[3] = {0};
+      for (int32_t n = 0; n < c->n_seen; n++)
+        for (int x = 0; x < 3; x++)
+          sum[x] += w->force[3 * c->seen[n] + x] * w->value[ALI3_BY_A + p][3 * c->seen[n] + k];
+      for (int x = 0; x < 3; x++) ali3_add_lower(block, size, c->loc[3 + 3 * k + x], at, -wK * sum[x]);
+    }
   }
 }
 
@@ -124,40 +119,189 @@ ALI3_INLINED truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, 
   return idle;
 }
 
-/* to (m, from `first` on) = sum of the rows in the list by their factors, which are `step` apart. */
-ALI3_INLINED void blend(const ali3_tabled_list *list, int32_t m, int32_t first, const real *factor, int32_t step,
-                        const real *restrict rows, real *restrict to) {
-  for (int32_t at = first / CHUNK * CHUNK; at < m; at += CHUNK) {
-    real sum[CHUNK];
-    for (int k = 0; k < CHUNK; k++) sum[k] = ali3_same(0.0);
-    for (int32_t i = 0; i < list->n; i++) {
-      const real f = factor[list->signal[i] * step], *restrict row = rows + list->signal[i] * m + at;
-      for (int k = 0; k < CHUNK; k++) sum[k] += f * row[k];
-    }
-    for (int k = 0; k < CHUNK; k++) to[at + k] = sum[k];
-  }
-}
-
-/* B' S B of the elements of a group. */
-ALI3_INLINED void add_group(ali3_instance *in, const ali3_tabled_group *of, real *F) {
+/* B' S B of the elements of a group without parts. */
+ALI3_INLINED void add_whole(ali3_instance *in, const ali3_tabled_group *of, real *F) {
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
-  const int32_t n = of->n_signal, m = ali3_tabled_stride(of);
-  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m,
-       *row = SB + n * m;
+  const int32_t n = of->n_signal, m = of->m;
+  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m;
   const truth idle = sum_of(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   rows_of(in, of, m, B);
-  for (int32_t i = 0; i < n; i++) blend(of->beside + i, m, 0, sum + i * n, 1, B, SB + i * m);
-  for (int32_t j = 0; j < of->m; j++) {
-    real *column = block + (int64_t)of->loc[j] * size;
-    blend(of->moved + j, m, j, B + j, m, SB, row);
-    for (int32_t i = j; i < of->m; i++) column[of->loc[i]] = ali3_add_unless(idle, column[of->loc[i]], row[i]);
+  memset(SB, 0, (size_t)(n * m) * sizeof *SB);
+  for (int32_t i = 0; i < n; i++)
+    for (int32_t k = 0; k < n; k++)
+      for (int32_t j = 0; j < m; j++) SB[i * m + j] += sum[i * n + k] * B[k * m + j];
+  for (int32_t j = 0; j < m; j++)
+    for (int32_t i = j; i < m; i++) {
+      real value = {0}, *to = block + (int64_t)of->loc[j] * size + of->loc[i];
+      for (int32_t k = 0; k < n; k++) value += B[k * m + j] * SB[k * m + i];
+      *to = ali3_add_unless(idle, *to, value);
+    }
+}
+
+/* B of the parts of a group. */
+ALI3_INLINED void parts_of(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
+  const ali3_system *S = in->system;
+  memset(p->share, 0, (size_t)of->n_vector * sizeof *p->share);
+  memset(p->along, 0, (size_t)of->n_vector * sizeof *p->along);
+  memset(p->slope, 0, (size_t)of->n_number * sizeof *p->slope);
+  for (int32_t i = 0; i < of->n_vector; i++)
+    for (int32_t k = of->entry[of->vector[i]], end = k + of->n_entry[of->vector[i]]; k < end; k++) {
+      const int32_t d = S->el_entry_dependent[k], local = S->el_entry_local[k];
+      const double value = S->el_entry_value[k];
+      if (d < 0) {
+        p->share[i][of->axis[local]] += value;
+        continue;
+      }
+      const ali3_tabled_work *w = in->tabled + of->item[local];
+      if (d == 0) p->share[i][0] += value;
+      for (int K = 0; K < 3; K++) p->share[i][1 + K] += value * w->value[0][d + K];
+      for (int q = 0; q < 2 && of->along[local][q] >= 0; q++)
+        for (int x = 0; x < 3; x++) p->along[i][of->along[local][q]][x] += value * w->by[q][d + x];
+    }
+  for (int32_t i = 0; i < of->n_number; i++)
+    for (int32_t k = of->entry[of->number[i]], end = k + of->n_entry[of->number[i]]; k < end; k++) {
+      const int32_t local = S->el_entry_local[k];
+      const double value = S->el_entry_value[k];
+      if (S->el_entry_dependent[k] < 0) {
+        p->slope[i][of->axis[local]] += value;
+        continue;
+      }
+      const ali3_tabled_work *w = in->tabled + of->item[local];
+      for (int q = 0; q < 2 && of->along[local][q] >= 0; q++) p->slope[i][of->along[local][q]] += value * w->by[q][0];
+    }
+}
+
+/* to (n) += the numbers `from` but in the lanes that are still. */
+ALI3_INLINED void add_numbers(real *restrict to, const real *restrict from, truth still, bool some, int32_t n) {
+  if (!some)
+    for (int32_t i = 0; i < n; i++) to[i] += from[i];
+  else
+    for (int32_t i = 0; i < n; i++) to[i] = ali3_add_unless(still, to[i], from[i]);
+}
+
+/* Sum of the tangents of a group's elements by its parts, of numbers with vectors once; returns as sum_of. */
+ALI3_INLINED truth sum_of_parts(const ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p) {
+  const ali3_system *S = in->system;
+  truth idle = ali3_same(0.0) == 0.0;
+  for (int32_t i = 0; i < of->n_vector; i++)
+    for (int32_t k = 0; k < of->beside[i].n; k++) memset(p->vectors[i][of->beside[i].at[k]], 0, sizeof(real[9]));
+  memset(p->mixed, 0, (size_t)of->n_number * sizeof *p->mixed);
+  memset(p->numbers, 0, (size_t)of->n_number * sizeof *p->numbers);
+  for (int32_t o = of->first; o < of->end; o++) {
+    const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
+    const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
+    const real *from = in->S + S->el_S_off[e];
+    const truth still = in->idle[e];
+    const bool some = ali3_any(still);
+    if (!ali3_any(ali3_not(still))) continue;
+    idle &= still;
+    for (int32_t i = 0; i < n; i++) {
+      const int32_t a = of->part[place[i]];
+      for (int32_t k = 0; k < n; k++) {
+        const int32_t b = of->part[place[k]];
+        const real *at = from + i * n + k;
+        if (a >= 0 && b >= 0)
+          for (int x = 0; x < 3; x++) add_numbers(p->vectors[a][b] + 3 * x, at + x * n, still, some, 3);
+        else if (b >= 0)
+          add_numbers(p->mixed[-1 - a][b], at, still, some, 3);
+        else if (a < 0)
+          add_numbers(p->numbers[-1 - a] + (-1 - b), at, still, some, 1);
+        if (b >= 0) k += 2;
+      }
+      if (a >= 0) i += 2;
+    }
+  }
+  return idle;
+}
+
+/* S B of the parts of a group. */
+ALI3_INLINED void times_parts(const ali3_tabled_group *of, ali3_tabled_parts *p) {
+  for (int32_t i = 0; i < of->n_vector; i++) {
+    const ali3_tabled_list *beside = of->beside + i;
+    for (int K = 0; of->base >= 0 && K < 4; K++) {
+      real sum[9] = {0};
+      for (int32_t n = 0; n < beside->n; n++) {
+        const int32_t k = beside->at[n];
+        if (K == 0 && !of->place[k]) continue;
+        for (int x = 0; x < 9; x++) sum[x] += p->share[k][K] * p->vectors[i][k][x];
+      }
+      memcpy(p->by_share[i][K], sum, sizeof sum);
+    }
+    for (int32_t s = 0; s < of->n_single; s++) {
+      real sum[3] = {0};
+      for (int32_t n = 0; s < of->n_along && n < beside->n; n++) {
+        const int32_t k = beside->at[n];
+        for (int x = 0; x < 3; x++) sum[x] += ali3_dot(p->vectors[i][k] + 3 * x, p->along[k][s]);
+      }
+      for (int32_t k = 0; k < of->n_number; k++)
+        for (int x = 0; x < 3; x++) sum[x] += p->mixed[k][i][x] * p->slope[k][s];
+      memcpy(p->by_single[i][s], sum, sizeof sum);
+    }
+  }
+  for (int32_t i = 0; i < of->n_number; i++)
+    for (int32_t s = 0; s < of->n_single; s++) {
+      real sum = {0};
+      for (int32_t k = 0; s < of->n_along && k < of->n_vector; k++) sum += ali3_dot(p->mixed[i][k], p->along[k][s]);
+      for (int32_t k = 0; k < of->n_number; k++) sum += p->numbers[i][k] * p->slope[k][s];
+      p->number_by_single[i][s] = sum;
+    }
+}
+
+/* B' S B of the elements of a group with parts, but that between the axes of its base, which goes into p->base. */
+ALI3_INLINED void add_parted(ali3_instance *in, const ali3_tabled_group *of, ali3_tabled_parts *p, real *F) {
+  const truth idle = sum_of_parts(in, of, p);
+  const bool some = ali3_any(idle);
+  if (!ali3_any(ali3_not(idle))) return;
+  parts_of(in, of, p);
+  times_parts(of, p);
+  for (int K = 0; of->base >= 0 && K < 4; K++)
+    for (int L = 0; L <= K; L++) {
+      real sum[9] = {0};
+      for (int32_t i = 0; i < of->n_vector; i++) {
+        if (K == 0 && !of->place[i]) continue;
+        for (int x = 0; x < 9; x++) sum[x] += p->share[i][K] * p->by_share[i][L][x];
+      }
+      add_numbers(p->base[K][L], sum, idle, some, 9);
+    }
+  for (int32_t s = 0; s < of->n_single; s++) {
+    for (int K = 0; of->base >= 0 && K < 4; K++) {
+      real sum[3] = {0};
+      for (int32_t i = 0; i < of->n_vector; i++)
+        for (int x = 0; x < 3 && (K > 0 || of->place[i]); x++) sum[x] += p->share[i][K] * p->by_single[i][s][x];
+      for (int x = 0; x < 3; x++) add_numbers(F + of->to_base[s][3 * K + x], sum + x, idle, some, 1);
+    }
+    for (int32_t o = 0; o <= s; o++) {
+      real sum = {0};
+      for (int32_t i = 0; s < of->n_along && i < of->n_vector; i++) sum += ali3_dot(p->along[i][s], p->by_single[i][o]);
+      for (int32_t i = 0; i < of->n_number; i++) sum += p->slope[i][s] * p->number_by_single[i][o];
+      add_numbers(F + of->to_single[s][o], &sum, idle, some, 1);
+    }
   }
 }
 
+/* Squares between r and Y of a base, from the diagonal on. */
+ALI3_INLINED void add_axes(const ali3_tabled_base *base, const ali3_tabled_parts *p, real *F) {
+  for (int i = 0; i < 12; i++)
+    for (int j = 0; j <= i; j++) F[base->at[i][j]] += p->base[i / 3][j / 3][3 * (i % 3) + j % 3];
+}
+
 ALI3_INLINED void tabled_elements_tangent(ali3_instance *in, real *F) {
-  for (int32_t g = 0; g < in->system->n_tabled_group; g++) add_group(in, in->system->tabled_group + g, F);
+  const ali3_system *S = in->system;
+  ali3_tabled_parts *p = (ali3_tabled_parts *)in->tabled_square;
+  int32_t base = -1; /* of p->base */
+  for (int32_t g = 0; g < S->n_tabled_group; g++) {
+    const ali3_tabled_group *of = S->tabled_group + g;
+    const bool begins = of->parted && of->base >= 0 && of->base != base;
+    if (base >= 0 && (begins || !of->parted)) add_axes(S->tabled_base + base, p, F), base = -1;
+    if (begins) memset(p->base, 0, sizeof p->base), base = of->base;
+    if (of->parted)
+      add_parted(in, of, p, F);
+    else
+      add_whole(in, of, F);
+  }
+  if (base >= 0) add_axes(S->tabled_base + base, p, F);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, tabled_elements_tangent, (ali3_instance * in, real *F), (in, F))
