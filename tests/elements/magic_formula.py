@@ -228,7 +228,7 @@ def _mx(p: Coefficients, g: Given, Fy: float) -> float:
 
 
 def _my(p: Coefficients, g: Given, Fx: float) -> float:
-    """4.E70, positive against rolling."""
+    """Besselink et al., (A48), positive against rolling; without QSY7 it goes with the load."""
     Fz, v, gam = g.Fz, abs(g.V / p.LONGVL), g.gamma
     My = p.QSY1 + p.QSY2 * Fx / p.Fz0 + p.QSY3 * v + p.QSY4 * v**4 + p.QSY5 * gam**2 + p.QSY6 * Fz / p.Fz0 * gam**2
-    return Fz * p.R0 * My * (Fz / p.Fz0) ** p.QSY7 * (1 + g.dpi) ** p.QSY8 * p.LMY
+    return p.Fz0 * p.R0 * My * (Fz / p.Fz0) ** (p.QSY7 or 1.0) * (1 + g.dpi) ** p.QSY8 * p.LMY
