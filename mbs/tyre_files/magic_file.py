@@ -100,6 +100,8 @@ class TyreFile:
     pressure: float
     nominal_pressure: float
     """`pressure`, `nominal_pressure`: Pa; 0 where the file has none."""
+    pressure_range: tuple[float, float]
+    """Pa, within which the coefficients hold."""
     notes: tuple[str, ...]
     """What the file lacks or what is not used, a sentence each."""
 
@@ -122,7 +124,7 @@ class TyreFile:
         Raises
         ------
         TyreFileError
-            The coefficients are not of these axes, or the file knows no pressure.
+            The coefficients are not of these axes, or the file does not know the pressure.
         """
         one_of(mounted, (SIDE_OF_FILE, *SIDES), f"{self.name}: the side of the tyre", TyreFileError)
         slip, _, force = SIGNS[one_of(signs, tuple(SIGNS), f"{self.name}: the signs of the tyre", TyreFileError)]
@@ -136,6 +138,9 @@ class TyreFile:
         given = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
             raise TyreFileError(f"{self.name} has no NOMPRES, so it knows nothing of a pressure of {pressure:g} Pa.")
+        least, most = self.pressure_range
+        if pressure is not None and not least <= pressure <= most:
+            raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressures(least, most)}.")
         relative = given / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and given > 0.0 else 0.0
         harder = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
         if not harder >= _LEAST:
@@ -198,14 +203,15 @@ def read_tyre(file: str | Path) -> TyreFile:
         side = SIDES[1 - SIDES.index(side)]
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}, which mirrors: the coefficients count as a {side} tyre's.")
     nominal = numbers.get("NOMPRES", 0.0)
-    return TyreFile(
-        text.name,
-        values,
-        side,
-        numbers.get("INFLPRES", nominal),
-        nominal,
-        tuple(notes),
-    )
+    pressure, least, most = numbers.get("INFLPRES", nominal), numbers.get("PRESMIN", 0.0), numbers.get("PRESMAX", 0.0)
+    most = most or math.inf
+    if not least <= pressure <= most:
+        notes.append(f"INFLPRES is {pressure:g} Pa; {_pressures(least, most)}.")
+    return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes))
+
+
+def _pressures(least: float, most: float) -> str:
+    return f"the coefficients hold from PRESMIN, {least:g} Pa, to PRESMAX, {most:g} Pa"
 
 
 def one_sided(version: str) -> tuple[str, ...]:
@@ -321,6 +327,8 @@ def _largest_load(text: PropertyText, given: dict[str, float], numbers: dict[str
     c = {**MAGIC_COEFFICIENTS, **given}
     most = numbers.get("FZMAX", 0.0) or _MOST_LOAD * numbers["FNOMIN"]
     nominal = numbers["FNOMIN"] * c["LFZO"]
+    if most < numbers["FNOMIN"]:
+        notes.append(f"FZMAX is {most:g} N, below FNOMIN, {numbers['FNOMIN']:g} N; above FZMAX the forces stay.")
     for key in ("LFZO", "LMUX", "LMUY", "LKX", "LKY", "LCX", "LCY", "LONGVL"):
         if not c[key] > 0.0:
             raise text.fault(f"{key} is {given[key]:g}; it must be positive.")

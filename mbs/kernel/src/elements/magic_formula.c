@@ -251,11 +251,11 @@ static double logarithm(double x) {
 /* x^p for x > 0 */
 static double power(double x, double p) { return p == 0.0 ? 1.0 : ali3_exp(p * logarithm(x)); }
 
-/* Besselink et al., eq. (A48), > 0 against rolling: over the nominal load, by which 4.E70 differs; without QSY7 it goes
- * with the load. */
+/* > 0 against rolling: 4.E70 for PAC2002; from 6.1 on Besselink et al., eq. (A48), which is over the nominal load and by
+ * that one power of the load less; without QSY7 as of PAC2002. */
 static double rolling(const ali3_magic_state *s, const terms *q, double Fx) {
   const double *c = s->c, gamma2 = s->camber * s->camber, load = s->load / s->nominal_load;
-  const double v = s->speed / c[ALI3_MF_LONGVL], by_load = c[ALI3_MF_QSY7] == 0.0 ? 0.0 : c[ALI3_MF_QSY7] - 1.0;
+  const double v = s->speed / c[ALI3_MF_LONGVL], by_load = c[ALI3_MF_QSY7] - (q->book && c[ALI3_MF_QSY7] != 0.0);
   const double sum = c[ALI3_MF_QSY1] + c[ALI3_MF_QSY2] * Fx / s->nominal_load + c[ALI3_MF_QSY3] * v +
                      c[ALI3_MF_QSY4] * v * v * v * v + (c[ALI3_MF_QSY5] + c[ALI3_MF_QSY6] * load) * gamma2;
   const double resist =
