@@ -120,6 +120,11 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return self._left.nominal_load
 
     @property
+    def largest_load(self) -> tuple[float, str]:
+        """Load up to which forces grow, N, and the key that says it."""
+        return self._left.largest_load, self.key("file")
+
+    @property
     def friction(self) -> tuple[float, float]:
         """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
         return self._friction("X"), self._friction("Y")
