@@ -55,6 +55,6 @@ def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
     drop = numbers.get("DREFF", 0.0) * atan(numbers.get("BREFF", 0.0)) + numbers.get("FREFF", 0.0)
     if not 0.0 <= drop <= 1.0:
         raise text.fault(
-            f"DREFF atan(BREFF) + FREFF is {drop:.3g}; under FNOMIN it is the way from the free to the rolling radius over "
-            "the deflection and must lie between 0 and 1."
+            f"DREFF atan(BREFF) + FREFF is {drop:.3g}; under FNOMIN it is the way from the free to the rolling radius "
+            "over the deflection and must lie between 0 and 1."
         )

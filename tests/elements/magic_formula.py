@@ -228,7 +228,7 @@ def _mx(p: Coefficients, g: Given, Fy: float) -> float:
 
 
 def _my(p: Coefficients, g: Given, Fx: float, Fz1: float) -> float:
-    """Positive against rolling; `Fz1`: before the sum, the load of 4.E70 or the nominal one of Besselink et al., A48."""
+    """Positive against rolling; `Fz1`: of 4.E70 the load, of Besselink et al., A48, the nominal one."""
     Fz, v, gam = g.Fz, abs(g.V / p.LONGVL), g.gamma
     My = p.QSY1 + p.QSY2 * Fx / p.Fz0 + p.QSY3 * v + p.QSY4 * v**4 + p.QSY5 * gam**2 + p.QSY6 * Fz / p.Fz0 * gam**2
     return Fz1 * p.R0 * My * (Fz / p.Fz0) ** p.QSY7 * (1 + g.dpi) ** p.QSY8 * p.LMY

@@ -57,8 +57,7 @@ def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
             f"pedal; usual is {BRAKING[0]:g} to {BRAKING[1]:g}."
         )
     if not BALANCE[0] <= car.brakes.balance <= BALANCE[1]:
-        behind = 1.0 - car.brakes.balance
         yield (
-            f"{car.brakes.key('balance')} is {car.brakes.balance:g}: the pedal brakes with {car.brakes.balance:g} of its "
-            f"torque in front and {behind:g} behind; usual is {BALANCE[0]:g} to {BALANCE[1]:g} in front."
+            f"{car.brakes.key('balance')} is {car.brakes.balance:g}, so the pedal brakes with "
+            f"{1.0 - car.brakes.balance:g} of its torque behind; usual is {BALANCE[0]:g} to {BALANCE[1]:g} in front."
         )
