@@ -48,22 +48,8 @@ _ONE_SIDED = (  # 0 for a tyre whose sides are alike
 )
 _ONE_SIDED_OLD = ("QDZ3",)  # up to 5.2 a factor of the camber angle, from 6.1 on of its magnitude
 _NEW = (  # from 6.1 on
-    *(
-        "PPX1",
-        "PPX2",
-        "PPX3",
-        "PPX4",
-        "PPY1",
-        "PPY2",
-        "PPY3",
-        "PPY4",
-        "PPY5",
-        "PPZ1",
-        "PPZ2",
-        "PPMX1",
-        "PFZ1",
-        "NOMPRES",
-    ),
+    *(f"PP{name}" for name in ["X1", "X2", "X3", "X4", "Y1", "Y2", "Y3", "Y4", "Y5", "Z1", "Z2", "MX1"]),
+    *("PFZ1", "NOMPRES"),
     *("PEY5", "PKY4", "PKY5", "PKY6", "PKY7", "RBX3", "RBY4", "QBZ6", "QDZ10", "QDZ11", "LKYC", "LKZC", "LMUV", "LVMX"),
     *(f"QSX{k}" for k in range(4, 15)),
     *("QSY5", "QSY6", "QSY7", "QSY8", "Q_RE0", "Q_V1", "Q_V2"),

@@ -242,7 +242,7 @@ ODD = {
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
     }, None),
     "tyres of glue": ({"front.tyre.grip": 5.0}, "front tyres reach 6.35 of their load; no tyre reaches more than 3"),
-    "forces that hold at too little friction": ({"rear.tyre.reference_friction": 0.1}, "friction, 0.1: the rear"),
+    "forces that hold at too little friction": ({"rear.tyre.reference_friction": 0.1}, "_friction 0.1: the rear"),
     "a load without forces": (
         {"rear.tyre.max_load_factor": 0.5}, "rear.tyre.max_load_factor: the forces grow with the load up to 750 N, but",
     ),

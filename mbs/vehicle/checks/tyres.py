@@ -25,19 +25,16 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     for wheels, axle in car.axles.items():
         road, tyre = car.road, axle.tyre
         least, most = (share(tyre.friction) * road.grip_of(tyre) for share in (min, max))
-        what = (
-            f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g} and "
-            f"{road.key('friction_factor')} {road.friction_factor:g}"
-        )
-        if least < GRIPPED:
-            yield (
-                f"{what}: the {wheels} tyres reach {least:.2g} of their load; with less than {GRIPPED:g} a car neither "
-                "steers nor brakes."
+        if not GRIPPED <= least <= most <= FRICTION[1]:
+            reached, told = (
+                (least, f"with less than {GRIPPED:g} a car neither steers nor brakes")
+                if least < GRIPPED
+                else (most, f"no tyre reaches more than {FRICTION[1]:g}")
             )
-        if most > FRICTION[1]:
             yield (
-                f"{what}, over {tyre.key('reference_friction')}, {tyre.reference_friction:g}: the {wheels} tyres reach "
-                f"{most:.3g} of their load; no tyre reaches more than {FRICTION[1]:g}."
+                f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g}, "
+                f"{road.key('friction_factor')} {road.friction_factor:g} and {tyre.key('reference_friction')} "
+                f"{tyre.reference_friction:g}: the {wheels} tyres reach {reached:.3g} of their load; {told}."
             )
         load, nominal = rest.load[wheels], axle.tyre.nominal_load
         if not LOADS[0] <= load / nominal <= LOADS[1]:
