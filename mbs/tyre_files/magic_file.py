@@ -70,6 +70,7 @@ _RIM = 0.010  # m of rubber under a tyre that bottoms
 _BOTTOMS = 5.0  # stiffness of the rim over that of the tyre, where a file has none
 _LEAST = 0.05  # of friction and slip stiffness at the nominal load: below it a fit has left its range
 _LOADS = 400  # at which that is seen
+_NARROW = 0.01  # of slips and angles
 _MOST_LOAD = 5.0  # nominal loads, where a file has no range
 
 
@@ -299,8 +300,8 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
         ("camber_range", "CAMMIN", "CAMMAX", 0.5),
     ):
         low, high = numbers.get(first, -usual), numbers.get(last, usual)
-        if not (low <= 0.0 <= high and low < high):
-            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them.")
+        if not low <= 0.0 <= high or high - low < _NARROW:
+            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_NARROW:g} apart.")
         if low * high == 0.0:
             notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
             low, high = -max(-low, high), max(-low, high)

@@ -295,6 +295,11 @@ def test_a_use_mode_that_is_not_4_is_said(tmp_path: Path, mode: str) -> None:
     assert note == f"USE_MODE is {mode}; slips are combined as by 4, without turn slip."
 
 
+def test_a_range_without_width_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(TyreFileError, match="ALPMIN is -0.001 and ALPMAX 0.001; 0 must lie between them, 0.01 apart"):
+        read_tyre(changed(tmp_path, ("ALPMIN", "ALPMIN = -1e-3"), ("ALPMAX", "ALPMAX = 1e-3")))
+
+
 def test_ranges_that_the_tyre_leaves_are_said(tmp_path: Path) -> None:
     (note,) = read_tyre(changed(tmp_path, ("FZMAX", "FZMAX = 2000"))).notes
     assert note == "FZMAX is 2000 N, below FNOMIN, 3000 N; above FZMAX the forces stay."
