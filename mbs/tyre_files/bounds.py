@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import atan
 
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files.property_text import PropertyText
@@ -19,7 +20,18 @@ _BOUNDS = {
     "VERTICAL_DAMPING": (0.0, 1e6, "N s/m"),
     "LONGVL": (0.1, 200.0, "m/s"),
     **dict.fromkeys(("NOMPRES", "INFLPRES"), _PRESSURE),
+    "FZMIN": (0.0, 1e6, "N"),
+    **dict.fromkeys(("LTR", "LXAL", "LYKA", "LSGKP", "LSGAL", "LMY", "LMUV"), (0.0, 1e4, "")),
+    **dict.fromkeys(("PCX1", "PCY1"), (-3.0, 3.0, "")),
+    "Q_RE0": (0.8, 1.2, ""),
+    "Q_V1": (-0.01, 0.01, ""),
+    "Q_V2": (-0.1, 1.0, ""),
+    "PFZ1": (-0.5, 3.0, ""),
+    "QSY1": (-0.3, 0.3, ""),
+    "QSY7": (0.0, 3.0, ""),
+    "QSY8": (-3.0, 3.0, ""),
 }
+_PAIRS = (("FZMIN", "FZMAX", "N"), ("PRESMIN", "PRESMAX", "Pa"))
 _COEFFICIENT = 1e4  # the largest of public files is 760, a PEY4
 _PLAIN = (*MAGIC_COEFFICIENTS, "LCZ", "Q_FZ1", "Q_FZ2")
 
@@ -36,3 +48,13 @@ def check_bounds(text: PropertyText, numbers: Mapping[str, float]) -> None:
         if value and not least <= value <= most:
             of_unit = f" {unit}" if unit else ""
             raise text.fault(f"{key} is {value:g}{of_unit}; it must lie between {least:g} and {most:g}{of_unit}.")
+    for first, last, unit in _PAIRS:
+        least, most = (numbers.get(key, 0.0) for key in (first, last))
+        if most and not least < most:
+            raise text.fault(f"{first} is {least:g} {unit} and {last} {most:g} {unit}; the first must be the smaller.")
+    drop = numbers.get("DREFF", 0.0) * atan(numbers.get("BREFF", 0.0)) + numbers.get("FREFF", 0.0)
+    if not 0.0 <= drop <= 1.0:
+        raise text.fault(
+            f"DREFF atan(BREFF) + FREFF is {drop:.3g}; under FNOMIN it is the way from the free to the rolling radius "
+            "over the deflection and must lie between 0 and 1."
+        )

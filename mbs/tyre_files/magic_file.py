@@ -48,22 +48,8 @@ _ONE_SIDED = (  # 0 for a tyre whose sides are alike
 )
 _ONE_SIDED_OLD = ("QDZ3",)  # up to 5.2 a factor of the camber angle, from 6.1 on of its magnitude
 _NEW = (  # from 6.1 on
-    *(
-        "PPX1",
-        "PPX2",
-        "PPX3",
-        "PPX4",
-        "PPY1",
-        "PPY2",
-        "PPY3",
-        "PPY4",
-        "PPY5",
-        "PPZ1",
-        "PPZ2",
-        "PPMX1",
-        "PFZ1",
-        "NOMPRES",
-    ),
+    *(f"PP{name}" for name in ["X1", "X2", "X3", "X4", "Y1", "Y2", "Y3", "Y4", "Y5", "Z1", "Z2", "MX1"]),
+    *("PFZ1", "NOMPRES"),
     *("PEY5", "PKY4", "PKY5", "PKY6", "PKY7", "RBX3", "RBY4", "QBZ6", "QDZ10", "QDZ11", "LKYC", "LKZC", "LMUV", "LVMX"),
     *(f"QSX{k}" for k in range(4, 15)),
     *("QSY5", "QSY6", "QSY7", "QSY8", "Q_RE0", "Q_V1", "Q_V2"),
@@ -84,6 +70,7 @@ _RIM = 0.010  # m of rubber under a tyre that bottoms
 _BOTTOMS = 5.0  # stiffness of the rim over that of the tyre, where a file has none
 _LEAST = 0.05  # of friction and slip stiffness at the nominal load: below it a fit has left its range
 _LOADS = 400  # at which that is seen
+_NARROW = 0.01  # of slips and angles
 _MOST_LOAD = 5.0  # nominal loads, where a file has no range
 
 
@@ -100,6 +87,8 @@ class TyreFile:
     pressure: float
     nominal_pressure: float
     """`pressure`, `nominal_pressure`: Pa; 0 where the file has none."""
+    pressure_range: tuple[float, float]
+    """Pa, within which the coefficients hold."""
     notes: tuple[str, ...]
     """What the file lacks or what is not used, a sentence each."""
 
@@ -122,7 +111,7 @@ class TyreFile:
         Raises
         ------
         TyreFileError
-            The coefficients are not of these axes, or the file knows no pressure.
+            The coefficients are not of these axes, or the file does not know the pressure.
         """
         one_of(mounted, (SIDE_OF_FILE, *SIDES), f"{self.name}: the side of the tyre", TyreFileError)
         slip, _, force = SIGNS[one_of(signs, tuple(SIGNS), f"{self.name}: the signs of the tyre", TyreFileError)]
@@ -136,6 +125,9 @@ class TyreFile:
         given = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
             raise TyreFileError(f"{self.name} has no NOMPRES, so it knows nothing of a pressure of {pressure:g} Pa.")
+        least, most = self.pressure_range
+        if pressure is not None and not least <= pressure <= most:
+            raise TyreFileError(f"{self.name}: the pressure is {pressure:g} Pa; {_pressures(least, most)}.")
         relative = given / self.nominal_pressure - 1.0 if self.nominal_pressure > 0.0 and given > 0.0 else 0.0
         harder = 1.0 + self.values["coefficients"].get("PFZ1", 0.0) * relative
         if not harder >= _LEAST:
@@ -198,14 +190,15 @@ def read_tyre(file: str | Path) -> TyreFile:
         side = SIDES[1 - SIDES.index(side)]
         notes.append(f"USE_MODE is {numbers['USE_MODE']:g}, which mirrors: the coefficients count as a {side} tyre's.")
     nominal = numbers.get("NOMPRES", 0.0)
-    return TyreFile(
-        text.name,
-        values,
-        side,
-        numbers.get("INFLPRES", nominal),
-        nominal,
-        tuple(notes),
-    )
+    pressure, least, most = numbers.get("INFLPRES", nominal), numbers.get("PRESMIN", 0.0), numbers.get("PRESMAX", 0.0)
+    most = most or math.inf
+    if not least <= pressure <= most:
+        notes.append(f"INFLPRES is {pressure:g} Pa; {_pressures(least, most)}.")
+    return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes))
+
+
+def _pressures(least: float, most: float) -> str:
+    return f"the coefficients hold from PRESMIN, {least:g} Pa, to PRESMAX, {most:g} Pa"
 
 
 def one_sided(version: str) -> tuple[str, ...]:
@@ -307,8 +300,8 @@ def _ranges(text: PropertyText, numbers: dict[str, float], notes: list[str]) -> 
         ("camber_range", "CAMMIN", "CAMMAX", 0.5),
     ):
         low, high = numbers.get(first, -usual), numbers.get(last, usual)
-        if not (low <= 0.0 <= high and low < high):
-            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them.")
+        if not low <= 0.0 <= high or high - low < _NARROW:
+            raise text.fault(f"{first} is {low:g} and {last} {high:g}; 0 must lie between them, {_NARROW:g} apart.")
         if low * high == 0.0:
             notes.append(f"{first} is {low:g} and {last} {high:g}: the other side is taken as wide.")
             low, high = -max(-low, high), max(-low, high)
@@ -321,6 +314,8 @@ def _largest_load(text: PropertyText, given: dict[str, float], numbers: dict[str
     c = {**MAGIC_COEFFICIENTS, **given}
     most = numbers.get("FZMAX", 0.0) or _MOST_LOAD * numbers["FNOMIN"]
     nominal = numbers["FNOMIN"] * c["LFZO"]
+    if most < numbers["FNOMIN"]:
+        notes.append(f"FZMAX is {most:g} N, below FNOMIN, {numbers['FNOMIN']:g} N; above FZMAX the forces stay.")
     for key in ("LFZO", "LMUX", "LMUY", "LKX", "LKY", "LCX", "LCY", "LONGVL"):
         if not c[key] > 0.0:
             raise text.fault(f"{key} is {given[key]:g}; it must be positive.")

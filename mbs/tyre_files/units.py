@@ -43,7 +43,7 @@ POWERS = {  # of length, force and time
     "VERTICAL_DAMPING": (-1, 1, 1),
     **dict.fromkeys(("LONGVL", "VXLOW"), (1, 0, -1)),
 }
-PRESSURES = ("INFLPRES", "NOMPRES")
+PRESSURES = ("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX")
 
 
 def in_si(text: PropertyText, numbers: dict[str, float]) -> dict[str, float]:

@@ -117,6 +117,7 @@ Fraction = Annotated[float, Quantity("1", 0.002, 1.0, zero=True)]
 CamberSlip = Annotated[float, Quantity("1", 0.005, 2.0, zero=True)]
 Slip = Annotated[float, Quantity("1", 0.01, 9.0)]
 Coefficient = Annotated[float, Quantity("1", 0.003, 2.9, zero=True)]
+TrailShare = Annotated[float, Quantity("1", 0.003, 0.5, zero=True)]
 Factor = Annotated[float, Quantity("1", 0.02, 10.0, zero=True, change="tunable")]
 """Multiplies what the file gives; 1 leaves it."""
 ScalingFactor = Annotated[float, Quantity("1", 0.02, 10.0, change="tunable")]

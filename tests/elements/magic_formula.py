@@ -127,7 +127,7 @@ def pac2002(p: Coefficients, g: Given, combination: str) -> Forces:
     Mzr = Dr * cos(atan(Br * ar_eq)) * cos(alpha)
     s = (p.SSZ1 + p.SSZ2 * Fy / Fz0 + (p.SSZ3 + p.SSZ4 * dfz) * gamma) * p.R0 * p.LS
     Mz = -t * (Fy - SVyk) + Mzr + s * Fx
-    return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx), Mz)
+    return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx, Fz), Mz)
 
 
 def mf6(p: Coefficients, g: Given, combination: str) -> Forces:
@@ -214,7 +214,7 @@ def mf6(p: Coefficients, g: Given, combination: str) -> Forces:
     Mzr = Dr * cos(atan(Br * ar_eq))  # 4.E75
     s = p.R0 * (p.SSZ1 + p.SSZ2 * Fy / Fz0 + (p.SSZ3 + p.SSZ4 * dfz) * gam) * p.LS  # 4.E76
     Mz = -t * F_ + Mzr + s * Fx  # 4.E71, 4.E72
-    return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx), Mz)
+    return Forces(Fx, Fy, _mx(p, g, Fy), _my(p, g, Fx, p.Fz0 if p.QSY7 else Fz), Mz)
 
 
 def _mx(p: Coefficients, g: Given, Fy: float) -> float:
@@ -227,8 +227,8 @@ def _mx(p: Coefficients, g: Given, Fy: float) -> float:
     return p.R0 * p.LMX * (Fz * Mx + Fy * (p.QSX13 + p.QSX14 * abs(gam)))
 
 
-def _my(p: Coefficients, g: Given, Fx: float) -> float:
-    """4.E70, positive against rolling."""
+def _my(p: Coefficients, g: Given, Fx: float, Fz1: float) -> float:
+    """Positive against rolling; `Fz1`: of 4.E70 the load, of Besselink et al., A48, the nominal one."""
     Fz, v, gam = g.Fz, abs(g.V / p.LONGVL), g.gamma
     My = p.QSY1 + p.QSY2 * Fx / p.Fz0 + p.QSY3 * v + p.QSY4 * v**4 + p.QSY5 * gam**2 + p.QSY6 * Fz / p.Fz0 * gam**2
-    return Fz * p.R0 * My * (Fz / p.Fz0) ** p.QSY7 * (1 + g.dpi) ** p.QSY8 * p.LMY
+    return Fz1 * p.R0 * My * (Fz / p.Fz0) ** p.QSY7 * (1 + g.dpi) ** p.QSY8 * p.LMY

@@ -42,8 +42,9 @@ def grown(t: MagicTyre, omega: float) -> tuple[float, float]:
 def rolling_radius(t: MagicTyre, omega: float, deflection: float) -> float:
     c = Coefficients(t.coefficients, t.radius, t.nominal_load)
     radius, harder = grown(t, omega)
-    unit = t.nominal_load / (t.stiffness * harder)
-    return radius - unit * (c.DREFF * atan(c.BREFF * deflection / unit) + c.FREFF * deflection / unit)
+    load = harder * (t.stiffness + t.progression * deflection) * deflection / t.nominal_load
+    nominal = (1.0 + c.PFZ1 * t.pressure) * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)
+    return radius - t.nominal_load / nominal * (c.DREFF * atan(c.BREFF * load) + c.FREFF * load)
 
 
 def pressed(t: MagicTyre, load: float, omega: float) -> float:

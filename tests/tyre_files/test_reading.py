@@ -203,6 +203,13 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("RIM_RADIUS", "RIM_RADIUS = 0.4"), "must be below UNLOADED_RADIUS"),
         (("PDY2", "PDY2 = 1.05"), "the lateral friction is"),
         (("FITTYP", "FITTYP = 61\nPCX1 = 3"), "in one section and"),
+        (("FZMIN", "FZMIN = 20000"), "FZMIN is 20000 N and FZMAX 13000 N; the first must be the smaller"),
+        (("NOMPRES", "NOMPRES = 2e5\nPRESMIN = 3e5\nPRESMAX = 1e5"), "PRESMIN is 300000 Pa and PRESMAX 100000 Pa"),
+        (("LTR", "LTR = -1.1"), "LTR is -1.1; it must lie between 0 and 10000"),
+        (("Q_V2", "Q_V2 = -1"), "Q_V2 is -1; it must lie between -0.1 and 1"),
+        (("QSY1", "QSY1 = 5"), "QSY1 is 5; it must lie between -0.3 and 0.3"),
+        (("PCY1", "PCY1 = 30"), "PCY1 is 30; it must lie between -3 and 3"),
+        (("FREFF", "FREFF = 50"), "DREFF atan(BREFF) + FREFF is 50.4; under FNOMIN"),
     ],
 )
 def test_what_cannot_be_is_refused_with_a_sentence(tmp_path: Path, change: tuple[str, str], sentence: str) -> None:
@@ -286,6 +293,22 @@ def test_a_negative_use_mode_mirrors(tmp_path: Path) -> None:
 def test_a_use_mode_that_is_not_4_is_said(tmp_path: Path, mode: str) -> None:
     (note,) = read_tyre(changed(tmp_path, ("USE_MODE", f"USE_MODE = {mode}"))).notes
     assert note == f"USE_MODE is {mode}; slips are combined as by 4, without turn slip."
+
+
+def test_a_range_without_width_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(TyreFileError, match="ALPMIN is -0.001 and ALPMAX 0.001; 0 must lie between them, 0.01 apart"):
+        read_tyre(changed(tmp_path, ("ALPMIN", "ALPMIN = -1e-3"), ("ALPMAX", "ALPMAX = 1e-3")))
+
+
+def test_ranges_that_the_tyre_leaves_are_said(tmp_path: Path) -> None:
+    (note,) = read_tyre(changed(tmp_path, ("FZMAX", "FZMAX = 2000"))).notes
+    assert note == "FZMAX is 2000 N, below FNOMIN, 3000 N; above FZMAX the forces stay."
+    f = read_tyre(changed(tmp_path, ("NOMPRES", "NOMPRES = 220000\nPRESMIN = 1.9e5\nPRESMAX = 2.2e5")))
+    hold = "the coefficients hold from PRESMIN, 190000 Pa, to PRESMAX, 220000 Pa."
+    assert f.notes == (f"INFLPRES is 230000 Pa; {hold}",)
+    with pytest.raises(TyreFileError, match=re.escape(f"the pressure is 240000 Pa; {hold}")):
+        f.tyre(pressure=2.4e5)
+    assert f.tyre(pressure=2.1e5).pressure == pytest.approx(21.0 / 22.0 - 1.0)
 
 
 def test_what_the_vertical_force_has_besides_is_said(tmp_path: Path) -> None:

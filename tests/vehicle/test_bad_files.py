@@ -199,6 +199,7 @@ GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
     "a rod of inertia": ({"chassis.inertia": [10.0, 420.9, 420.9]}, "radius of gyration"),
     "products too large": ({"chassis.products": [0.0, 0.0, 600.0]}, "principal moments"),
     "a ring of a wheel": ({"front.wheel.spin_inertia": 1.5}, "radius of gyration"),
+    "a trail behind the patch": ({"front.tyre.trail": [1.2, 1.2]}, "trail.0 is 1.2; it must be 0 or between"),
     "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "a friction of"),
     "sliding before the peak": ({"rear.tyre.lateral.slide_slip": [0.1, 0.1]}, "must be larger than"),
     "sliding before the peak without load": (
@@ -240,6 +241,12 @@ ODD = {
         f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
     }, None),
+    "tyres of glue": ({"front.tyre.grip": 5.0}, "front tyres reach 6.35 of their load; no tyre reaches more than 3"),
+    "forces that hold at too little friction": ({"rear.tyre.reference_friction": 0.1}, "_friction 0.1: the rear"),
+    "a load without forces": (
+        {"rear.tyre.max_load_factor": 0.5}, "rear.tyre.max_load_factor: the forces grow with the load up to 750 N, but",
+    ),
+    "brakes behind only": ({"brakes.balance": 0.0}, "balance is 0, so the pedal brakes with 1 of its torque behind"),
     "a rack that turns less": ({"steering.rack_travel": 0.02}, "on a steering arm"),
 }  # fmt: skip
 

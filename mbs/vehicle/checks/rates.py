@@ -13,6 +13,7 @@ from mbs.vehicle.environment import GRAVITY
 RIDE = 0.7, 6.0  # Hz, from soft to racing
 DAMPING = 0.05, 1.5  # of the critical damping
 BRAKING = 0.3, 4.0  # of the weight, at full pedal
+BALANCE = 0.3, 0.95  # front wheels
 
 
 def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
@@ -54,4 +55,9 @@ def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
         yield (
             f"{car.brakes.key('torque')} is {car.brakes.torque:g} N.m, which holds {braking:.2g} of the weight at full "
             f"pedal; usual is {BRAKING[0]:g} to {BRAKING[1]:g}."
+        )
+    if not BALANCE[0] <= car.brakes.balance <= BALANCE[1]:
+        yield (
+            f"{car.brakes.key('balance')} is {car.brakes.balance:g}, so the pedal brakes with "
+            f"{1.0 - car.brakes.balance:g} of its torque behind; usual is {BALANCE[0]:g} to {BALANCE[1]:g} in front."
         )

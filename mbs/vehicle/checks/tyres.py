@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
+from mbs.vehicle.tyres.tyre_section import FRICTION
 
 LARGEST_DEFLECTION = 0.25  # of the free radius of a tyre at rest
 GRIPPED = 0.02  # force over the load that a tyre must reach on the road: half of what wet ice gives
@@ -23,18 +24,29 @@ def tyre_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
     """A sentence for each thing that is odd."""
     for wheels, axle in car.axles.items():
         road, tyre = car.road, axle.tyre
-        reached = min(tyre.friction) * road.grip_of(tyre)
-        if reached < GRIPPED:
+        least, most = (share(tyre.friction) * road.grip_of(tyre) for share in (min, max))
+        if not GRIPPED <= least <= most <= FRICTION[1]:
+            reached, told = (
+                (least, f"with less than {GRIPPED:g} a car neither steers nor brakes")
+                if least < GRIPPED
+                else (most, f"no tyre reaches more than {FRICTION[1]:g}")
+            )
             yield (
-                f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g} and "
-                f"{road.key('friction_factor')} {road.friction_factor:g}: the {wheels} tyres reach {reached:.2g} of "
-                f"their load; with less than {GRIPPED:g} a car neither steers nor brakes."
+                f"{tyre.key('grip')} is {tyre.grip:g}, {road.key('friction')} {road.friction:g}, "
+                f"{road.key('friction_factor')} {road.friction_factor:g} and {tyre.key('reference_friction')} "
+                f"{tyre.reference_friction:g}: the {wheels} tyres reach {reached:.3g} of their load; {told}."
             )
         load, nominal = rest.load[wheels], axle.tyre.nominal_load
         if not LOADS[0] <= load / nominal <= LOADS[1]:
             yield (
                 f"{axle.tyre.key('nominal_load')} is {nominal:g} N, but at rest the wheel carries {load:.0f} N; the "
                 f"curves hold from about {LOADS[0]:g} to {LOADS[1]:g} times the nominal load."
+            )
+        largest, key = tyre.largest_load
+        if load > largest:
+            yield (
+                f"{key}: the forces grow with the load up to {largest:g} N, but at rest the {wheels} wheel carries "
+                f"{load:.0f} N."
             )
 
 

@@ -91,14 +91,17 @@ def roll_measures(linkage: Linkage, at: Position) -> dict[str, float]:
     """More columns for opposite travel: what the chassis does as it rolls."""
     left, right = (wheel_motion(linkage, at, k) for k in range(2))
     track, per_angle = linkage.data.track, -2.0 / linkage.data.track  # travel of the right wheel less the left's
+    wider = (w.side * (w.contact[1] - w.centre[1]) for w in (left, right))
+    on_ground = track + float(sum(wider))  # between the contact centres, at the drawn width as the angle is
+    ground = float((left.contact_rise - right.contact_rise) @ ROLL) / on_ground  # its slope, to the left upwards
     steer = 0.5 * float((left.steer_rate + right.steer_rate) @ ROLL)
     lean = 0.5 * float((left.inclination_rate + right.inclination_rate) @ ROLL)
     slopes = wheel_loads(linkage, at, ROLL)[1]
     return {
         "suspension_roll_angle": float(at.travel[1] - at.travel[0]) / track,
         "roll_steer": steer / per_angle,
-        "roll_camber": 1.0 + lean / per_angle,
-        "roll_stiffness": 0.25 * track**2 * float(slopes[0] - slopes[1]),
+        "roll_camber": (lean - ground) / per_angle,
+        "roll_stiffness": 0.25 * track * on_ground * float(slopes[0] - slopes[1]),
     }
 
 

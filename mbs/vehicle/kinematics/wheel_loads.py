@@ -46,7 +46,7 @@ def wheel_loads(linkage: Linkage, at: Position, direction: Array) -> tuple[Array
         w = wheel_motion(linkage, at, i)
         lean, rate = w.axis[2], w.axis_rate[2]
         upright = float(np.sqrt(1.0 - lean**2))
-        rise[i] = OWN[i, :2] + w.radius * lean * rate[:2] / upright
+        rise[i] = w.contact_rise[:2]
         axis_bends = bends @ linkage.triad(i)[1][0][2]
         rise_slope[i] = w.radius * (rate[:2] * (rate @ direction) / upright**3 + lean * axis_bends / upright)
     loads = np.linalg.solve(rise.T, on_centres)

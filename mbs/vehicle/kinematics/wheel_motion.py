@@ -62,6 +62,12 @@ class WheelMotion:
         return np.asarray(self.centre - self.radius * up / np.linalg.norm(up))
 
     @property
+    def contact_rise(self) -> Array:
+        """Rates of its height, shape (3,): that of the wheel's centre, and its own as the wheel leans."""
+        lean = self.axis[2]
+        return np.asarray(self.centre_rate[2] + self.radius * lean * self.axis_rate[2] / np.sqrt(1.0 - lean**2))
+
+    @property
     def fixed_contact_rate(self) -> Array:
         """Rates of the point of the carrier that is at the contact centre, as of a wheel held by its brake, (3, 3)."""
         return np.asarray(self.centre_rate + np.cross(self.turn, self.contact - self.centre, axisa=0, axisb=0).T)

@@ -120,6 +120,11 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return self._left.nominal_load
 
     @property
+    def largest_load(self) -> tuple[float, str]:
+        """Load up to which forces grow, N, and the key that says it."""
+        return self._left.largest_load, self.key("file")
+
+    @property
     def friction(self) -> tuple[float, float]:
         """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
         return self._friction("X"), self._friction("Y")
@@ -141,8 +146,9 @@ class MagicFormula(TyreSection, of=MagicTyre):
         """Way of a free wheel per radian, m, at rest with a loaded radius. `loaded`: in m."""
         t, c = self._left, self._left.coefficients
         free = t.radius * c.get("Q_RE0", 1.0)
-        depth, unit = free - loaded, t.nominal_load / (t.stiffness * (1.0 + c.get("PFZ1", 0.0) * t.pressure))
+        depth, inflated = free - loaded, 1.0 + c.get("PFZ1", 0.0) * t.pressure
         if not (c.get("DREFF") or c.get("FREFF")):
             return free - depth / 3.0
-        part = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * depth / unit)
-        return free - unit * (part + c.get("FREFF", 0.0) * depth / unit)
+        load = inflated * (t.stiffness + t.progression * depth) * depth / t.nominal_load
+        part = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * load) + c.get("FREFF", 0.0) * load
+        return free - t.nominal_load / self.stiffness * part

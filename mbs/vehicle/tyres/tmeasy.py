@@ -10,7 +10,6 @@ from mbs.elements.tyre_bore import TyreBore
 from mbs.vehicle.quantities import (
     CamberSlip,
     CarcassStiffness,
-    Coefficient,
     Factor,
     Force,
     Length,
@@ -19,6 +18,7 @@ from mbs.vehicle.quantities import (
     RollingResistance,
     Slip,
     SlopeForce,
+    TrailShare,
     TyreDamping,
     TyreRate,
     TyreStiffness,
@@ -77,7 +77,7 @@ class TMeasy(TyreSection, of=Tyre):
     bottoming_stiffness: TyreStiffness
     longitudinal: Curve
     lateral: Curve
-    trail: tuple[Coefficient, Coefficient]
+    trail: tuple[TrailShare, TrailShare]
     trail_zero: tuple[Slip, Slip]
     trail_end: tuple[Slip, Slip]
     carcass_stiffness: tuple[CarcassStiffness, CarcassStiffness]
@@ -110,6 +110,11 @@ class TMeasy(TyreSection, of=Tyre):
                 at = f"at a load of {load:g} N ({self.key('nominal_load')}{', twice' if k else ''})"
                 what = f"{curve.key('max_force')}.{k} is {curve.max_force[k]:g} N {at}: a"
                 yield from self.friction_faults(what, curve.max_force[k] / load)
+
+    @property
+    def largest_load(self) -> tuple[float, str]:
+        """Load up to which forces grow, N, and the key that says it."""
+        return self.max_load_factor * self.nominal_load, self.key("max_load_factor")
 
     @property
     def friction(self) -> tuple[float, float]:

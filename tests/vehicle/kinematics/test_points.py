@@ -129,6 +129,21 @@ def test_signs_of_toe_and_camber_are_those_of_their_names():
     assert twist[5] > 0.05  # the front of the left wheel goes to the left in bump: it toes out
 
 
+@pytest.mark.parametrize("axle", ["front", "rear"])
+def test_wheels_that_lean_roll_on_their_contacts(axle):
+    """The saloon's wheels lean by 0.5 and 1.5 degrees: their contacts lie wider than their centres."""
+    link = linkage("saloon", axle)
+    curve = travel_curve(link, "opposite", np.array([-1e-4, 0.0, 1e-4]))
+    names = "contact_centre_y", "contact_centre_z", "inclination_angle", "spring_load"
+    y, z, inclination, load = ([curve[f"{name}_{side}"] for side in ("left", "right")] for name in names)
+    lean = 0.5 * (inclination[0] + inclination[1]) - (z[0] - z[1]) / (y[0] - y[1])
+    moment = y[0][1] * load[0] + y[1][1] * load[1]
+    drawn, roll = curve.drawn(), np.diff(curve["suspension_roll_angle"][::2])
+    assert y[0][1] - link.data.wheel.centre[1] > 0.003
+    assert np.diff(lean[::2]) / roll == pytest.approx(drawn["roll_camber"], rel=1e-6)
+    assert -np.diff(moment[::2]) / roll == pytest.approx(drawn["roll_stiffness"], rel=1e-6)
+
+
 def test_roll_of_the_twist_beam():
     """Each half turns about the line through its pivot and the middle of the shear axis."""
     link = linkage("hatchback", "rear")

@@ -251,14 +251,15 @@ static double logarithm(double x) {
 /* x^p for x > 0 */
 static double power(double x, double p) { return p == 0.0 ? 1.0 : ali3_exp(p * logarithm(x)); }
 
-/* 4.E70, > 0 against rolling */
+/* > 0 against rolling: 4.E70 for PAC2002; from 6.1 on Besselink et al., eq. (A48), which is over the nominal load and by
+ * that one power of the load less; without QSY7 as of PAC2002. */
 static double rolling(const ali3_magic_state *s, const terms *q, double Fx) {
   const double *c = s->c, gamma2 = s->camber * s->camber, load = s->load / s->nominal_load;
-  const double v = s->speed / c[ALI3_MF_LONGVL];
+  const double v = s->speed / c[ALI3_MF_LONGVL], by_load = c[ALI3_MF_QSY7] - (q->book && c[ALI3_MF_QSY7] != 0.0);
   const double sum = c[ALI3_MF_QSY1] + c[ALI3_MF_QSY2] * Fx / s->nominal_load + c[ALI3_MF_QSY3] * v +
                      c[ALI3_MF_QSY4] * v * v * v * v + (c[ALI3_MF_QSY5] + c[ALI3_MF_QSY6] * load) * gamma2;
   const double resist =
-      sum * s->load * s->radius * c[ALI3_MF_LMY] * power(load, c[ALI3_MF_QSY7]) * power(1.0 + q->dpi, c[ALI3_MF_QSY8]);
+      sum * s->load * s->radius * c[ALI3_MF_LMY] * power(load, by_load) * power(1.0 + q->dpi, c[ALI3_MF_QSY8]);
   return resist > 0.0 ? resist : 0.0; /* a fit beyond its range must not drive */
 }
 
@@ -333,9 +334,10 @@ void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_
   out->Mz += out->arm * (acting[0] - out->F[0]) - out->trail * (acting[1] - out->F[1]);
 }
 
-double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection) {
+double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection,
+                                 double harder) {
   const double *c = s->c;
   if (c[ALI3_MF_DREFF] == 0.0 && c[ALI3_MF_FREFF] == 0.0) return free_radius - deflection / 3.0;
-  const double unit = s->nominal_load / stiffness, depth = deflection / unit;
+  const double unit = s->nominal_load / stiffness, depth = harder * deflection / unit;
   return free_radius - unit * (c[ALI3_MF_DREFF] * ali3_atan2(c[ALI3_MF_BREFF] * depth, 1.0) + c[ALI3_MF_FREFF] * depth);
 }

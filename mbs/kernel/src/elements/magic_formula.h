@@ -70,6 +70,8 @@ void ali3_magic_forces(const ali3_magic_state *s, double kappa, double tangent, 
 /* Mx and My by the forces that act, and Mz with them in place of the steady ones. */
 void ali3_magic_moments(const ali3_magic_state *s, const double acting[2], ali3_magic_force *out);
 
-/* Effective rolling radius, m, at a free radius (m, grown by speed), stiffness (N/m) and deflection (m). */
-double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection);
+/* Effective rolling radius, m, at a free radius (m, grown by speed), stiffness at the nominal load (N/m) and deflection
+ * (m). `harder`: load per deflection over that stiffness. */
+double ali3_magic_rolling_radius(const ali3_magic_state *s, double free_radius, double stiffness, double deflection,
+                                 double harder);
 #endif

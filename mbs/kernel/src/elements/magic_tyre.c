@@ -183,7 +183,7 @@ static void evaluate(ali3_element_args *a) {
   const double *p = a->real, *c = p + COEFFICIENTS, omega = a->ud[6];
   const double fast = fabs(omega) * p[RADIUS] / c[ALI3_MF_LONGVL];
   const double radius = p[RADIUS] * (c[ALI3_MF_Q_RE0] + c[ALI3_MF_Q_V1] * fast * fast);
-  const double harder = (1.0 + c[ALI3_MF_Q_V2] * fast) * (1.0 + c[ALI3_MF_PFZ1] * p[PRESSURE]);
+  const double inflated = 1.0 + c[ALI3_MF_PFZ1] * p[PRESSURE], harder = (1.0 + c[ALI3_MF_Q_V2] * fast) * inflated;
   const ali3_tyre_spring spring = {radius,     p[BOTTOMING_RADIUS],   harder * p[STIFFNESS], harder * p[PROGRESSION],
                                    p[DAMPING], p[BOTTOMING_STIFFNESS]};
   double e[3], twist[3];
@@ -193,7 +193,9 @@ static void evaluate(ali3_element_args *a) {
   ali3_tyre_motion m = ali3_tyre_axes(&contact, e);
   const double *n = contact.normal, deflection = m.loaded < radius ? radius - m.loaded : 0.0;
   const ali3_magic_state size = {.c = c, .nominal_load = p[NOMINAL_LOAD]};
-  const double effective = ali3_magic_rolling_radius(&size, radius, spring.stiffness, deflection);
+  const double nominal = inflated * sqrt(p[STIFFNESS] * p[STIFFNESS] + 4.0 * p[PROGRESSION] * p[NOMINAL_LOAD]),
+               per_depth = spring.stiffness + spring.progression * deflection;
+  const double effective = ali3_magic_rolling_radius(&size, radius, nominal, deflection, per_depth / nominal);
   const double ratio =
       m.loaded > 1e-6 ? 1.0 + ali3_tyre_moving(effective * fabs(omega)) * (effective / m.loaded - 1.0) : 1.0;
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
