@@ -28,6 +28,7 @@ WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel'
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
+AGREED = 0.005  # estimate by two runs with an order that hardly agree so well by chance
 AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike

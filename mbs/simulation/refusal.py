@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import unit_text
+from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 
 MOST_NAMED = 3  # changed parameters in one sentence
+CLOSED = 1e-6  # of what a drive opens in a step: positions that are solved are closed to round-off, others to a tenth
+ITERATIONS, HALVINGS = 30, 12  # of Newton's loop for positions alone; of the step, to find where it ends to close
 STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 
 
@@ -24,11 +29,12 @@ def refusal(
     recorded until then. Result: status, reason and remedy; of a step that did not converge also the worst row and the
     worst balance.
     """
-    message = f"{what}: {error.message}{_remedy(simulation, error.status)}"
+    beyond = _beyond_reach(simulation) if error.status in (Status.NOT_CONVERGED, Status.TOO_DEAR) else ""
+    message = f"{what}: {error.message}{_remedy(simulation, error.status)}{beyond}"
     report = simulation.instance.report()
     # neither row nor balance is at fault where nothing was solved yet, or all was but did work
     unsolved = not report["factorizations"]
-    if not unsolved and error.status not in (
+    if not (unsolved or beyond) and error.status not in (
         Status.WRONG_METHOD,
         Status.NO_TREE,
         Status.START_REFUSED,
@@ -75,6 +81,40 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
             f"below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
         )
     return ""
+
+
+def _beyond_reach(simulation: SteppedSystem) -> str:
+    """Where in the step that failed drives over time lead to what joints do not reach; empty: positions alone close."""
+    rows, h = np.unique(simulation.system.arrays["gterm_row"]), simulation.step_tried
+    if not len(rows) or not h > 0.0:
+        return ""
+    evaluator, closed, opened = Evaluator(simulation), 0.0, h
+    if _closes(evaluator, opened) or not _closes(evaluator, closed):
+        return ""
+    for _ in range(HALVINGS):
+        middle = 0.5 * (closed + opened)
+        closed, opened = (middle, opened) if _closes(evaluator, middle) else (closed, middle)
+    meta = prepared(simulation.system)[1]
+    names = [repr(meta["rows"][row]["name"]) for row in rows]
+    more = f" and {len(names) - MOST_NAMED} others" if len(names) > MOST_NAMED else ""
+    return (
+        f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMED])}{more} the joints can be closed until "
+        f"t = {simulation.time + closed:.6g} s, where two ways to close them meet, and not behind it. End the run "
+        f"before, or drive it less far."
+    )
+
+
+def _closes(evaluator: Evaluator, ahead: float) -> bool:
+    """Whether positions near the state close all rows so many seconds later."""
+    q, t, most = evaluator.state.q, evaluator.time + ahead, 0.0
+    for _ in range(ITERATIONS):
+        phi, jacobian, _ = evaluator.constraints(q, evaluator.state.qd, t)
+        left = float(np.abs(phi).max())
+        most = most or max(left, RANK_TOLERANCE * max(1.0, float(np.abs(q).max())) / CLOSED)
+        if not left < math.inf or left <= CLOSED * most:
+            break
+        q = q - np.linalg.lstsq(jacobian, phi, rcond=RANK_TOLERANCE)[0]
+    return left <= CLOSED * most
 
 
 def _beyond_table(simulation: SteppedSystem) -> str:
