@@ -15,22 +15,24 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 
 MOST_NAMED = 3  # changed parameters in one sentence
+NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED)
+"""How steps fail where a drive leads loops no further: there speeds grow without bound."""
 CLOSED = 1e-6  # of what a drive opens in a step: positions that are solved are closed to round-off, others to a tenth
 ITERATIONS, HALVINGS = 30, 12  # of Newton's loop for positions alone; of the step, to find where it ends to close
 STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 
 
 def refusal(
-    simulation: SteppedSystem, what: str, error: KernelError, trajectory: Trajectory | None = None
+    simulation: SteppedSystem, what: str, error: KernelError, trajectory: Trajectory | None = None, ahead: float = 0.0
 ) -> SimulationError:
     """An error of the kernel as a SimulationError.
 
     `simulation`: in the last good state; `what`: the beginning of the sentence: what was tried; `trajectory`: what was
-    recorded until then. Result: status, reason and remedy; of a step that did not converge also the worst row and the
-    worst balance.
+    recorded until then; `ahead`: how far drives are followed, s, if not over the step that was tried. Result: status,
+    reason and remedy; of a step that did not converge also the worst row and the worst balance.
     """
-    beyond = _beyond_reach(simulation) if error.status in (Status.NOT_CONVERGED, Status.TOO_DEAR) else ""
-    message = f"{what}: {error.message}{_remedy(simulation, error.status)}{beyond}"
+    beyond = beyond_reach(simulation, ahead or simulation.step_tried) if error.status in NEAR_AN_END else ""
+    message = f"{what}: {error.message}{beyond or _remedy(simulation, error.status)}"
     report = simulation.instance.report()
     # neither row nor balance is at fault where nothing was solved yet, or all was but did work
     unsolved = not report["factorizations"]
@@ -83,12 +85,15 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
     return ""
 
 
-def _beyond_reach(simulation: SteppedSystem) -> str:
-    """Where in the step that failed drives over time lead to what joints do not reach; empty: positions alone close."""
-    rows, h = np.unique(simulation.system.arrays["gterm_row"]), simulation.step_tried
-    if not len(rows) or not h > 0.0:
+def beyond_reach(simulation: SteppedSystem, ahead: float) -> str:
+    """Where within so many seconds, s, drives over time lead loops no further, in a sentence.
+
+    Empty where the rows can be closed at its end by positions alone, or do not depend on time.
+    """
+    rows = np.unique(simulation.system.arrays["gterm_row"])
+    if not len(rows) or not ahead > 0.0:
         return ""
-    evaluator, closed, opened = Evaluator(simulation), 0.0, h
+    evaluator, closed, opened = Evaluator(simulation), 0.0, ahead
     if _closes(evaluator, opened) or not _closes(evaluator, closed):
         return ""
     for _ in range(HALVINGS):
@@ -99,7 +104,7 @@ def _beyond_reach(simulation: SteppedSystem) -> str:
     more = f" and {len(names) - MOST_NAMED} others" if len(names) > MOST_NAMED else ""
     return (
         f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMED])}{more} the joints can be closed until "
-        f"t = {simulation.time + closed:.6g} s, where two ways to close them meet, and not behind it. End the run "
+        f"about t = {simulation.time + closed:.5g} s, where two ways to close them meet, and not behind it. End the run "
         f"before, or drive it less far."
     )
 
