@@ -104,8 +104,8 @@ def beyond_reach(simulation: SteppedSystem, ahead: float) -> str:
     more = f" and {len(names) - MOST_NAMED} others" if len(names) > MOST_NAMED else ""
     return (
         f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMED])}{more} the joints can be closed until "
-        f"about t = {simulation.time + closed:.5g} s, where two ways to close them meet, and not behind it. End the run "
-        f"before, or drive it less far."
+        f"about t = {simulation.time + closed:.5g} s, where two ways to close them meet, and not behind it. End the "
+        f"run before, or drive it less far."
     )
 
 

@@ -180,6 +180,8 @@ class Repeats:
             if parts == 8 * self.parts:
                 break
             apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
+            if self.has_order and not self.coarse:  # the finer one errs by less than that, by order two at least
+                apart = {unit: gap / 3.0 for unit, gap in apart.items()}
             if not (unsure(known, apart) or (self.coarse and not self.has_order)):
                 break
             parts, last, known = 2 * parts, known, self.finer(2 * parts)
