@@ -17,6 +17,7 @@ from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
 from mbs.results.accuracy import extent, judged_sensors
+from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
 CLOSE = (
@@ -53,6 +54,8 @@ class Scene:
     """Values by sensor."""
     units: Callable[[], Mapping[str, list[str]]]
     """Judged sensors by unit, of those with a truth."""
+    system: Callable[[], mbs.System]
+    """Whose length tells what is rest."""
     methods: Callable[[], list[str]]
     """Names of those that take it."""
     steps: tuple[float, ...]
@@ -64,10 +67,10 @@ class Scene:
         """
         worst, estimated = 0.0, float("nan")
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
+        true, length = self.truth(), length_of(self.system())
         for unit, names in self.units().items():
-            true = self.truth()
-            size = extent(unit, [true[n] for n in names])
-            for name in names:
+            size = extent(unit, [true[n] for n in names], length)
+            for name in names if size > 0.0 else ():
                 error = float(np.abs(found[name] - true[name]).max()) / size
                 if error >= worst:
                     worst, estimated = error, estimate.get(name, float("nan")) / size
@@ -105,6 +108,7 @@ def _case(name: str) -> Scene:
         partial(_case_run, name),
         partial(_case_truth, name),
         partial(_case_units, name),
+        partial(system_of, name),
         lambda: [m for m in KERNEL if suits(m, case.conservative, system_of(name))],
         tuple(case.end / (SAMPLES * d) for d in case.divisions),
     )
@@ -186,6 +190,7 @@ def _car(name: str) -> Scene:
         partial(_car_run, name),
         partial(_car_truth, name),
         lambda: judged_sensors(manoeuvres.system_of(name)),
+        partial(manoeuvres.system_of, name),
         lambda: ["ali3p", "ali3p_no_projection", "ali3p_generalised_alpha", "energy_momentum"],
         steps,
     )
@@ -197,6 +202,7 @@ SCENES: dict[str, Scene] = {
         _crank_run,
         _crank_truth,
         lambda: {"rad": ["crank.angle"], "m": ["piston.x"]},
+        printed_model,
         lambda: [m for m in KERNEL if suits(m, True, printed_model())],
         (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5, 2e-5),
     ),
@@ -204,6 +210,7 @@ SCENES: dict[str, Scene] = {
         _tumbling_run,
         _tumbling_truth,
         lambda: {"m": [f"tip.{c}" for c in "xyz"]},
+        tumbling_body,
         lambda: [m for m in KERNEL if suits(m, True, tumbling_body())],
         (0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005, 0.0002),
     ),

@@ -71,7 +71,7 @@ class Drive:
         except mbs.SimulationError as refused:
             raise NoReferenceError(str(refused)) from refused
         groups = judged_sensors(self.system)
-        apart = max(differences(other, fine, groups, length=length_of(self.system))[0].values())
+        apart = max(differences(other, fine, groups, None, length_of(self.system))[0].values())
         if not apart <= AGREE:
             raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
         return {n: fine[n] for names in groups.values() for n in names}

@@ -28,6 +28,8 @@ WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel'
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
+AGREED = 0.005  # estimate by two runs with an order that hardly agree so well by chance
+AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
@@ -184,7 +186,7 @@ def size_in(unit: str, length: float) -> float:
     return {"m": length, "rad": 1.0, COORDINATES: max(length, 1.0)}.get(unit, math.inf)
 
 
-def extent(unit: str, values: Sequence[Array], length: float = 1.0) -> float:
+def extent(unit: str, values: Sequence[Array], length: float) -> float:
     """What errors of sensors of one unit are compared with: their largest range, of forces their largest value, since
     they carry loads that stay; 0 where nothing moves in a model with this length, m, wherever it lies.
     """
@@ -199,8 +201,8 @@ def differences(
     coarse: Mapping[str, Array],
     fine: Mapping[str, Array],
     groups: Mapping[str, Sequence[str]],
-    before: Mapping[str, Array] | None = None,
-    length: float = 1.0,
+    before: Mapping[str, Array] | None,
+    length: float,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """Largest differences of two runs, at their `instants` and of loads between them.
 

@@ -35,6 +35,8 @@ FOURTH = (Glance(4, 0, 0.2), Glance(2, 0, 0.1))
 """Of order four in open trees where nothing abrupt can happen: errors are a 15th of the second one."""
 SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}
 """Of an open tree where nothing abrupt can happen: `rest_missed` up to which a run is plainly smooth."""
+ALONE = 0.03  # of the range: up to it one coarser run is enough where something abrupt can happen, as of order one
+NEARER = 0.5  # times the difference of the coarser run before: by order one, which the next one must show there
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
 

@@ -37,10 +37,15 @@ def unresolved_share(
     `span`: first and last time of the run, s; `inputs`: that follow time. Of a method of order above two where nothing
     abrupt can happen three steps in a period are enough, and fewer where no closed loop can come near a dead centre.
     """
-    free = not any(callable(signal) for signal in (inputs or {}).values())  # a function may jump within a step
-    if METHOD_TABLE[method].order <= 2 or not (free and _has_smooth_laws(system, span)):
+    if METHOD_TABLE[method].order <= 2 or not nothing_abrupt(system, span, inputs):
         return UNRESOLVED
     return OPEN if is_open_tree(system) else LOOPS
+
+
+def nothing_abrupt(system: System, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None) -> bool:
+    """Whether no force, guide or input can change within a step in another way than smoothly."""
+    free = not any(callable(signal) for signal in (inputs or {}).values())  # a function may jump within a step
+    return free and _has_smooth_laws(system, span)
 
 
 def is_open_tree(system: System) -> bool:

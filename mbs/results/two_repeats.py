@@ -29,8 +29,8 @@ def by_limit(
     known: Accuracy,
     tables: Sequence[Mapping[str, Array]],
     groups: Mapping[str, Sequence[str]],
-    before: Mapping[str, Array] | None = None,
-    length: float = 1.0,
+    before: Mapping[str, Array] | None,
+    length: float,
 ) -> Accuracy:
     """The error against what repeats tend to, by Richardson's extrapolation with `EVENT_ORDER`.
 
@@ -42,7 +42,7 @@ def by_limit(
         The run, and the last two repeats, of which the last has half the step, at the same samples.
     groups : mapping of str to sequence of str
         Names of what is compared, by unit.
-    before : mapping of str to ndarray, optional
+    before : mapping of str to ndarray or None
         The ends of what moved before, by name.
     length : float
         Of the model, m.

@@ -28,7 +28,7 @@ from mbs.simulation.march import notices_of
 from mbs.simulation.method_choice import choose
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import length_of, prepared
-from mbs.simulation.refusal import refusal
+from mbs.simulation.refusal import beyond_reach, refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.step_choice import StepChoice, choose_step
 from mbs.simulation.stepped_system import SteppedSystem
@@ -49,6 +49,7 @@ MOST_RUNS, LEAST = 5, 1e-13
 DEFAULT_TOLERANCE = 1e-3
 """Of runs in equal steps that are chosen."""
 RECORDED = 200  # intervals where none is said
+LOOKED_AHEAD = 1e-3  # of the run: how far behind the place where steps end a drive may lead loops no further
 CHECKED = 50  # instants beside those that are recorded at which runs are compared
 
 
@@ -235,11 +236,12 @@ def _run_at(run: ControlledRun, wanted: float) -> str:
 
 
 def _stalled(run: ControlledRun, wanted: float, times: Array, first: SteppedSystem) -> SimulationError:
-    time = run.simulation.time
+    time, beyond = run.simulation.time, beyond_reach(run.simulation, LOOKED_AHEAD * run.task.span)
     return SimulationError(
         f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
         f"{run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than their share of "
-        f"it, even with steps of {run.fields.smallest:.1e} s; take a larger tolerance or another method.",
+        f"it, even with steps of {run.fields.smallest:.1e} s"
+        f"{f'.{beyond}' if beyond else '; take a larger tolerance or another method.'}",
         time,
         Status.NOT_CONVERGED,
         _so_far(run, times, first),
@@ -257,7 +259,8 @@ def _refused(
         f"With a tolerance of {_run_at(run, wanted)} no step from t = {simulation.time:g} s succeeded, "
         f"the last one tried was {run.fields.h:.2g} s long"
     )
-    return refusal(simulation, what, error, _so_far(run, times, first))
+    simulation.step_tried = run.fields.h
+    return refusal(simulation, what, error, _so_far(run, times, first), LOOKED_AHEAD * run.task.span)
 
 
 def _warn(control: Control) -> None:

@@ -4,31 +4,39 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import unit_text
+from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem
 
 MOST_NAMED = 3  # changed parameters in one sentence
+NEAR_AN_END = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED)
+"""How steps fail where a drive leads loops no further: there speeds grow without bound."""
+CLOSED = 1e-6  # of what a drive opens in a step: positions that are solved are closed to round-off, others to a tenth
+ITERATIONS, HALVINGS = 30, 12  # of Newton's loop for positions alone; of the step, to find where it ends to close
 STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 
 
 def refusal(
-    simulation: SteppedSystem, what: str, error: KernelError, trajectory: Trajectory | None = None
+    simulation: SteppedSystem, what: str, error: KernelError, trajectory: Trajectory | None = None, ahead: float = 0.0
 ) -> SimulationError:
     """An error of the kernel as a SimulationError.
 
     `simulation`: in the last good state; `what`: the beginning of the sentence: what was tried; `trajectory`: what was
-    recorded until then. Result: status, reason and remedy; of a step that did not converge also the worst row and the
-    worst balance.
+    recorded until then; `ahead`: how far drives are followed, s, if not over the step that was tried. Result: status,
+    reason and remedy; of a step that did not converge also the worst row and the worst balance.
     """
-    message = f"{what}: {error.message}{_remedy(simulation, error.status)}"
+    beyond = beyond_reach(simulation, ahead or simulation.step_tried) if error.status in NEAR_AN_END else ""
+    message = f"{what}: {error.message}{beyond or _remedy(simulation, error.status)}"
     report = simulation.instance.report()
     # neither row nor balance is at fault where nothing was solved yet, or all was but did work
     unsolved = not report["factorizations"]
-    if not unsolved and error.status not in (
+    if not (unsolved or beyond) and error.status not in (
         Status.WRONG_METHOD,
         Status.NO_TREE,
         Status.START_REFUSED,
@@ -75,6 +83,43 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
             f"below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
         )
     return ""
+
+
+def beyond_reach(simulation: SteppedSystem, ahead: float) -> str:
+    """Where within so many seconds, s, drives over time lead loops no further, in a sentence.
+
+    Empty where the rows can be closed at its end by positions alone, or do not depend on time.
+    """
+    rows = np.unique(simulation.system.arrays["gterm_row"])
+    if not len(rows) or not ahead > 0.0:
+        return ""
+    evaluator, closed, opened = Evaluator(simulation), 0.0, ahead
+    if _closes(evaluator, opened) or not _closes(evaluator, closed):
+        return ""
+    for _ in range(HALVINGS):
+        middle = 0.5 * (closed + opened)
+        closed, opened = (middle, opened) if _closes(evaluator, middle) else (closed, middle)
+    meta = prepared(simulation.system)[1]
+    names = [repr(meta["rows"][row]["name"]) for row in rows]
+    more = f" and {len(names) - MOST_NAMED} others" if len(names) > MOST_NAMED else ""
+    return (
+        f" Shorter steps do not help: driven by {', '.join(names[:MOST_NAMED])}{more} the joints can be closed until "
+        f"about t = {simulation.time + closed:.5g} s, where two ways to close them meet, and not behind it. End the "
+        f"run before, or drive it less far."
+    )
+
+
+def _closes(evaluator: Evaluator, ahead: float) -> bool:
+    """Whether positions near the state close all rows so many seconds later."""
+    q, t, most = evaluator.state.q, evaluator.time + ahead, 0.0
+    for _ in range(ITERATIONS):
+        phi, jacobian, _ = evaluator.constraints(q, evaluator.state.qd, t)
+        left = float(np.abs(phi).max())
+        most = most or max(left, RANK_TOLERANCE * max(1.0, float(np.abs(q).max())) / CLOSED)
+        if not left < math.inf or left <= CLOSED * most:
+            break
+        q = q - np.linalg.lstsq(jacobian, phi, rcond=RANK_TOLERANCE)[0]
+    return left <= CLOSED * most
 
 
 def _beyond_table(simulation: SteppedSystem) -> str:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
-from mbs.results.glance import HOPELESS, Glance, difference_from, glances, rest_of
+from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
+from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.input_signals import Signal
@@ -24,6 +24,7 @@ from mbs.system.system import System
 
 FAR_FINER = 3.9  # times the step
 SAME = 0.9  # of the missed share of a run: with a quarter of the step an impact has less
+FALLS = 1.2  # times what a share falls to as its step does: above, shorter steps see quicker changes
 SURELY = 1.2  # times what steps resolve: what repeats miss by the run's own share differs from what they do
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
@@ -130,16 +131,24 @@ class Repeats:
         return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
 
     @property
+    def nothing_abrupt(self) -> bool:
+        """Whether no force, guide or input can change within a step in another way than smoothly."""
+        return nothing_abrupt(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
+
+    @property
     def coarse(self) -> bool:
         """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
 
         Where one misses as much as the one with four times its step, or as the run itself where that was not made, no
-        step does: a guide whose rate jumps.
+        step does: a guide whose rate jumps. With an order it is one whose share has not fallen as its step: shorter
+        steps see quicker changes, as at a dead centre, and two may be off alike by chance.
         """
-        missed = {parts: self._missed(run) for parts, run in self._finer.items()}
-        own = self._missed(self.run)
-        same = any(missed[n] > SAME * missed.get(n // 4, own) for n in missed if n > self.parts)
-        return 2.0 * missed[max(missed)] > self.unresolved and not same
+        missed = {1: self._missed(self.run)} | {parts: self._missed(run) for parts, run in self._finer.items()}
+        *_, before, last = sorted(missed)
+        if self.has_order:
+            return missed[last] * last > FALLS * missed[before] * before
+        same = any(missed[n] > SAME * missed.get(n // 4, missed[1]) for n in missed if n > self.parts)
+        return 2.0 * missed[last] > self.unresolved and not same
 
     @property
     def first(self) -> int:
@@ -152,8 +161,9 @@ class Repeats:
         """After a finer run: by one of twice its step where none was made, then, where the last one is coarse, or what
         the last two differ by may change the verdict, by the next ones, down to a 16th of the step.
 
-        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. One of twice its
-        step that does not end is passed over. Raises `SimulationError`: one finer than all others does not end.
+        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. With an order
+        the last one counts, and two that agree are enough. One of twice its step that does not end is passed over.
+        Raises `SimulationError`: one finer than all others does not end.
         """
         parts, last = max(self._finer), known
         if parts == self.parts:
@@ -165,15 +175,17 @@ class Repeats:
                 parts, last, known = 2 * parts, known, self.finer(2 * parts)
         while True:
             first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
-            if parts > 2 * self.parts:
+            if parts > 2 * self.parts and not self.has_order:
                 known = by_limit(known, [self._table(self.run), first, second], self.groups, self.before, self._length)
             if parts == 8 * self.parts:
                 break
             apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
-            if not (self.coarse or unsure(known, apart)):
+            if self.has_order and not self.coarse:  # the finer one errs by less than that, by order two at least
+                apart = {unit: gap / 3.0 for unit, gap in apart.items()}
+            if not (unsure(known, apart) or (self.coarse and not self.has_order)):
                 break
             parts, last, known = 2 * parts, known, self.finer(2 * parts)
-        if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
+        if parts == 8 * self.parts and not self.has_order and (last.error or 0.0) > (known.error or 0.0):
             known = replace(known, units=last.units, sensors=last.sensors)
         return replace(known, repeat_cost=self.cost)
 
@@ -252,26 +264,29 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
+    last = 0.0
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
         for glance in glances(
             run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report
         ):
             screened = repeats.coarser(glance)
             apart = math.inf if screened is None else difference_from(screened, method, h)
-            if screened is not None and apart <= glance.difference:
+            sure = apart <= max(ALONE, NEARER * last) or repeats.nothing_abrupt
+            if screened is not None and apart <= glance.difference and sure:
                 return screened
+            last = apart if screened is not None else last
             if screened is not None and apart > HOPELESS:
                 break
     try:
         known = repeats.finer(repeats.first)
-        least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
-        least = min(least, accuracy.ABRUPT) if report.divisions else least
-        least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
+        if repeats.has_order:
+            least, most = (accuracy.AGREED, math.inf) if repeats.coarse else accuracy.AT_LIMIT
+        else:
+            least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
+            least = min(least, accuracy.ABRUPT) if report.divisions else least
+            least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
         if not repeats.twin and least < (known.error or 0.0) < most:
-            if not repeats.has_order:
-                known = repeats.decided(known)
-            elif repeats.coarse and repeats.first == repeats.parts:
-                known = repeats.finer(2 * repeats.parts)
+            known = repeats.decided(known)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps

@@ -12,6 +12,7 @@ from scipy.special import ellipj, ellipk
 import mbs
 from benchmarks import honesty
 from benchmarks.methods import random_cars, random_honesty, random_mechanisms
+from benchmarks.methods.honesty_scenes import Scene
 from benchmarks.references.newton_euler import (
     GROUND,
     INSTANTS,
@@ -121,3 +122,18 @@ def told_and_true(seed, number, h):
     error = random_honesty._of_range(run, truth, units, length_of(drive.system))
     assert error > 0.05
     return run, error
+
+
+def test_a_scene_judges_rest_by_the_length_of_its_model() -> None:
+    """50 um about x = 1 m are a motion of a device of 10 mm, and rest of one of 1 m, of which there is no error."""
+    for length, error in ((0.01, 0.1), (1.0, 0.0)):
+        m = mbs.Model("device", dimension=2, gravity=(0.0, 0.0), length=length)
+        mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
+        m.point_on_line("rail", (mass, None), (m.ground, (1.0, 0.0)), axis=(1.0, 0.0))
+        m.initial_velocity(mass, linear=(5e-5, 0.0))
+        m.sense_position("x", mass, None, "x")
+        system = mbs.compile(m)
+        run = mbs.simulate(system, 1.0, 0.1, progress=False)
+        truth = {"x": run["x"] + 5e-6 * run.t}
+        scene = Scene(mbs.simulate, lambda t=truth: t, lambda: {"m": ["x"]}, lambda s=system: s, lambda: [], ())
+        assert scene.error(run)[0] == pytest.approx(error, rel=0.1)

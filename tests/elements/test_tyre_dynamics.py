@@ -244,7 +244,8 @@ def test_evaluation_without_a_step_repeats_the_end_of_the_step() -> None:
     s = corner.motion
     again = s.parts[0].element(s.parts[0].B @ s.q + s.parts[0].b, s.parts[0].B @ s.qd, s.y[0])
     assert np.allclose(again.f, s.results[0].f, rtol=1e-10)
-    assert np.array_equal(again.y, s.y[0])
+    assert np.array_equal(again.y[:2], s.y[0][:2])
+    assert np.allclose(again.y, s.y[0], rtol=1e-8)  # rates are those that follow from deflections and slip
 
 
 @pytest.mark.parametrize("h", [0.01, 0.002])

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 import numpy as np
 import pytest
+from scipy.interpolate import PPoly
 
 from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import system_of
@@ -130,6 +132,54 @@ def test_an_iteration_that_ran_away_is_no_singular_tangent():
     with pytest.raises(SimulationError, match="did not converge") as refused:
         simulate(printed_model(), 2.0, 0.02, {"torque": 4.0}, settings, progress=False)
     assert refused.value.status == Status.NOT_CONVERGED
+
+
+def driven_four_bar(rate: float, turn: float = 3.0) -> Model:
+    """A crank of 1 m, driven from 1 rad on, before two bars of 1.2 m whose hinge on the ground is 2 m away."""
+    m, crank, far = Model("four-bar", dimension=2), np.array([np.cos(1.0), np.sin(1.0)]), np.array([2.0, 0.0])
+    half = 0.5 * (far - crank)
+    top = crank + half + np.sqrt(1.44 - half @ half) * np.array([-half[1], half[0]]) / np.linalg.norm(half)
+    ends = [np.zeros(2), crank, top, far]
+    bars = [
+        m.body(f"bar {i}", mass=1.0, com=0.5 * (a + b), inertia=0.1)
+        for i, (a, b) in enumerate(itertools.pairwise(ends))
+    ]
+    joined = [m.ground, *bars, m.ground]
+    for i, point in enumerate(ends):
+        m.revolute(f"hinge {i}", joined[i], joined[i + 1], point=point)
+    guide = m.guide_time("turn", PPoly(np.array([[rate], [0.0]]), [0.0, turn]), unit="rad")
+    m.drive("motor", m.relative_angle("angle", m.ground, bars[0]), guide)
+    m.sense_position("top", bars[1], top, "y")
+    return m
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"h": 0.01},
+        {"h": 0.01, "method": "radau_5"},
+        {"h": 0.01, "method": "runge_kutta_8"},
+        {"tolerance": 1e-3, "method": "ali3p"},
+        {"tolerance": 1e-3, "method": "runge_kutta_8"},
+    ],
+)
+def test_a_drive_that_leads_a_loop_no_further_is_named_with_the_time(how):
+    """The bars are in line where (2 - cos a)^2 + sin^2 a = 2.4^2."""
+    until = (np.arccos((5.0 - 2.4**2) / 4.0) - 1.0) / 0.5
+    with pytest.raises(SimulationError, match="driven by 'motor' the joints .* two ways to close them meet") as refused:
+        simulate(compile(driven_four_bar(0.5)), 3.0, progress=False, **how)
+    assert float(re.search(r"until about t = ([\d.]+) s", str(refused.value))[1]) == pytest.approx(until, abs=2e-4)
+    assert "Worst" not in str(refused.value)
+    assert "another method" not in str(refused.value)
+
+
+@pytest.mark.parametrize("rate", [5.0, -5.0])
+def test_a_drive_is_not_to_blame_where_positions_close(rate):
+    """With one iteration a long step does not converge; the bars come into line after 0.15 s, backwards never."""
+    once = Settings(max_iterations=1, max_halvings=0, method="energy_momentum")
+    with pytest.raises(SimulationError, match="did not converge") as refused:
+        simulate(compile(driven_four_bar(rate)), 0.12, 0.06, settings=once, progress=False)
+    assert "two ways" not in str(refused.value)
 
 
 @pytest.mark.parametrize(("unit", "shown"), [("1", "is 2 at"), ("", "is 2 at"), ("N.m", "is 2 N.m at")])

@@ -166,9 +166,8 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
   }
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = a->y_old[2 + i];
-    if (!(a->h > 0.0)) continue;
     a->y_new[2 + i] = (r.F[i] - offset[i]) / D[i];
+    if (!(a->h > 0.0)) continue;
     a->y_new[i] = (r.F[i] - d[i] * a->y_new[2 + i]) / f.carcass[i];
     if (fabs(a->y_new[i]) < 1e-100) a->y_new[i] = a->y_new[2 + i] = 0.0; /* long in the air: no denormals */
   }

@@ -130,9 +130,8 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
   ALI3_PIECE(&a->piece, loaded & (contact->load > p[MAX_LOAD_FACTOR] * p[NOMINAL_LOAD]), ALI3_TYRE_OVERLOADED);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
-    a->y_new[2 + i] = a->y_old[2 + i];
-    if (!(a->h > 0.0)) continue;
     a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
+    if (!(a->h > 0.0)) continue;
     a->y_new[i] = (F[i] - d[i] * a->y_new[2 + i]) / c[i];
     const truth gone = ali3_abs(a->y_new[i]) < 1e-100; /* long in the air: no denormals */
     a->y_new[i] = ali3_where(gone, none, a->y_new[i]);

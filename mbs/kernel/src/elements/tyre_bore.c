@@ -33,9 +33,9 @@ real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyr
           ali3_where(slides & (flat < ALI3_SECANT_SHARE), ali3_same(ALI3_SECANT_SHARE), ali3_where(slides, flat, one));
   b->moment *= left;
   real *new = a->y_new + ALI3_BORE_STATES;
-  new[0] = old[0], new[1] = old[1];
-  if (!(a->h > 0.0)) return left;
+  new[0] = old[0];
   new[1] = (b->moment - offset) / D;
+  if (!(a->h > 0.0)) return left;
   new[0] = (b->moment - d * new[1]) / c;
   const truth gone = ali3_abs(new[0]) < 1e-100; /* long in the air: no denormals */
   for (int i = 0; i < 2; i++) new[i] = ali3_where(gone, none, new[i]);
