@@ -145,7 +145,9 @@ def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host
     """Else all of them were made in that call, and what is told would say "about": the hand brake is not pulled."""
     told = []
     for torques in ((450.0, 450.0), (450.0, 400.0)):
-        driven = host(prototype_fmu).start({"initial.z": 0.6, "initial.speed": 30.0, "steering": 0.3, "step_size": 2.5e-3})
+        driven = host(prototype_fmu).start(
+            {"initial.z": 0.6, "initial.speed": 30.0, "steering": 0.3, "step_size": 2.5e-3}
+        )
         rows = []
         for k in range(1040):
             assert driven.set("brakes.hand_torque", torques[k % 2]) == 0
