@@ -32,6 +32,7 @@ AGREED = 0.005  # estimate by two runs with an order that hardly agree so well b
 AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
+MOST_COST = 32.0  # of repeats, in runs, unless `estimate_error` is another number
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -89,7 +90,10 @@ class Accuracy:
             parts = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
             said.append(f"estimated error {', '.join(parts)}")
         if self.repeat_cost > 0.0:
-            said.append(f"repeats of {self.repeat_cost:.2g} times its steps (none with estimate_error=False)")
+            said.append(
+                f"repeats of {self.repeat_cost:.2g} times its steps (at most {MOST_COST:g}, or estimate_error=N; "
+                "none with estimate_error=False)"
+            )
         return "; ".join(said)
 
 
@@ -181,6 +185,11 @@ def instants(samples: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
 
 
+def rows_judged(unit: str, samples: int) -> NDArray[np.int_]:
+    """Numbers of the samples at which sensors of a unit are compared: forces at `instants`, others at all."""
+    return instants(samples) if unit == "N" else np.arange(samples)
+
+
 def size_in(unit: str, length: float) -> float:
     """Beyond this a value tells where something is, not how large it is: of a model with this length, m."""
     return {"m": length, "rad": 1.0, COORDINATES: max(length, 1.0)}.get(unit, math.inf)
@@ -222,7 +231,7 @@ def differences(
     ranges: dict[str, float] = {}
     for unit, names in groups.items():
         forces = unit == "N"
-        rows = instants(len(coarse[names[0]])) if forces else slice(None)
+        rows = rows_judged(unit, len(coarse[names[0]]))
         gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
         if forces:
             gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
@@ -307,6 +316,21 @@ def error_text(accuracy: Accuracy, ranges: Mapping[str, float], groups: Mapping[
     return (
         f"The result is off by {least} {_percent(share)} of the largest range, as a repeat with steps of "
         f"{accuracy.repeated_with:g} s shows: {what} '{name}' by {gap} of {size}."
+    )
+
+
+def open_text(accuracy: Accuracy, step: float, most: float, needed: float) -> str:
+    """That repeats have cost the `most` that they may, with a remedy.
+
+    `accuracy`: by the last one; `step`: of the next one, s; `needed`: what all that may follow would cost.
+    """
+    said = "none has shorter steps"
+    if accuracy.error is not None:
+        said = f"the last one, with {accuracy.repeated_with:g} s, tells {_percent(accuracy.error)} of the largest range"
+    return (
+        f"Whether the result is off is not judged: a repeat with steps of {step:g} s would cost more than {most:g} "
+        f"runs, which is what all may cost ({said}). Allow estimate_error={math.ceil(needed)}, or give simulate(..., "
+        "tolerance=1e-3) in place of a step."
     )
 
 

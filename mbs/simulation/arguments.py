@@ -53,10 +53,16 @@ def check_end(t0: float, t_end: float) -> float:
     return check_time(t_end, "The end t_end")
 
 
-def check_estimate(value: object) -> bool | None:
-    """Whether a run is to be repeated, or one sentence."""
+def check_estimate(value: object) -> bool | float | None:
+    """Whether a run is to be repeated, or what that may cost, or one sentence."""
+    most = float(value) if is_finite(value) else 0.0  # type: ignore[arg-type]
+    if most > 0.0:
+        return most
     if value is not None and not isinstance(value, (bool, np.bool_)):
-        raise ValueError(f"estimate_error = {shown(value)}; it must be True, False or None (suspects only).")
+        raise ValueError(
+            f"estimate_error = {shown(value)}; it must be True, False or None (suspects only), or a number above 0: "
+            "what repeats may cost, in runs."
+        )
     return None if value is None else bool(value)
 
 

@@ -146,14 +146,14 @@ def check_tolerance_settings(settings: Settings) -> None:
 
 def equal_steps(
     start: Callable[[float, Settings], SteppedSystem],
-    run: Callable[[float, Settings, bool | None], Trajectory],
+    run: Callable[[float, Settings, bool | float | None], Trajectory],
     t0: float,
     t_end: float,
     h: float | None,
     inputs: Mapping[str, Signal],
     settings: Settings,
     method: str,
-    estimate_error: bool | None,
+    estimate_error: bool | float | None,
     progress: bool | Callable[[float], None] | None,
 ) -> Trajectory:
     """A run in equal steps whose step, method or both are chosen for the default tolerance.

@@ -38,7 +38,7 @@ def fixed_step_run(
     inputs: Mapping[str, Signal] | None,
     every: int,
     progress: bool | Callable[[float], None] | None,
-    estimate_error: bool | None,
+    estimate_error: bool | float | None,
     before: dict[str, NDArray[np.float64]] | None = None,
     twin: bool = False,
 ) -> Trajectory:
@@ -60,7 +60,7 @@ def judged_run(
     inputs: Mapping[str, Signal] | None,
     every: int,
     progress: bool | Callable[[float], None] | None,
-    estimate_error: bool | None,
+    estimate_error: bool | float | None,
     told: Told,
     before: dict[str, NDArray[np.float64]] | None = None,
     twin: bool = False,
@@ -70,24 +70,30 @@ def judged_run(
     found: Accuracy | None = None
 
     def march_from_start(
-        step: float, every: int, progress: Callable[[float], None], look: bool, iterations: int = 0
+        step: float,
+        every: int,
+        progress: Callable[[float], None],
+        look: bool,
+        iterations: int = 0,
+        watch: repeat.Watch | None = None,
     ) -> repeat.Run:
         simulation = start(step)
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
-        return march(simulation, t_end, step, inputs, every, progress, look, wanted)
+        return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 
     checked = estimate_error is not False
+    most = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
     look = (checked or before is not None) and not accuracy.has_motion_sensor(system)
     often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
     wanted = every // often
     try:
         with progress_for(progress) as bar:
-            first = 1.0 / 3.0 if estimate_error else 1.0
+            first = 1.0 / 3.0 if estimate_error is True else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin, inputs)
+            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin, inputs, most)
             if checked:
                 found = repeat.check(repeats, always=estimate_error is True)
             repeats.add_ends()

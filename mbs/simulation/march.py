@@ -34,6 +34,7 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
+WATCHED = 10  # parts of a run after which its samples are looked at
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -46,8 +47,10 @@ def march(
     progress: bool | Callable[[float], None] | None,
     look: bool = False,
     wanted: int = 1,
+    watch: Callable[[Array], None] | None = None,
 ) -> tuple[Trajectory, list[Array]]:
-    """The steps of `Simulation.run`; poses are kept of one of `wanted` samples at most.
+    """The steps of `Simulation.run`; poses are kept of one of `wanted` samples at most. `watch` is given the samples so
+    far after each tenth of them.
 
     Returns
     -------
@@ -67,6 +70,8 @@ def march(
     left_out = left_out_of_run(simulation, given, h, every)
     instants = [int(k) * every for k in accuracy.instants(len(values))]
     looks = instants if look or simulation.bending.watches else []
+    if watch is not None:
+        looks = sorted({*looks, *(len(values) * k // WATCHED * every for k in range(1, WATCHED))})
     seen = [simulation.state.q] if look else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
     done, wall, chunk, before = 0, 0.0, every, simulation.report
@@ -97,6 +102,8 @@ def march(
                 if look:
                     seen.append(q)
             bar.update(done / steps)
+            if watch is not None and ahead and n == ahead[0]:
+                watch(values[: done // every + 1])
             chunk = next_chunk(chunk, spent, every)
     return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), seen
 

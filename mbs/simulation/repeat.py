@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import WARNED_ERROR, Accuracy
+from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
@@ -28,6 +28,15 @@ FALLS = 1.2  # times what a share falls to as its step does: above, shorter step
 SURELY = 1.2  # times what steps resolve: what repeats miss by the run's own share differs from what they do
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
+Watch = Callable[[NDArray[np.float64]], None]
+
+
+class TooFarError(Exception):
+    """A coarser run is given up: it differs by more than it may."""
+
+
+class TooDearError(Exception):
+    """A repeat would cost more than is left."""
 
 
 @dataclass
@@ -40,7 +49,8 @@ class Repeats:
         The first run, and its coordinates where they are compared in place of sensors.
     march : callable
         Makes a run of a step, s, the steps from one sample to the next, what takes its progress from 0 to 1, whether
-        coordinates are kept, and most Newton iterations of a step (0: as the settings say).
+        coordinates are kept, most Newton iterations of a step (0: as the settings say), and what looks at its samples
+        on the way.
     h : float
         Step of the first run, s.
     every : int
@@ -53,6 +63,8 @@ class Repeats:
         Whether a repeat goes on from the one of a run before, so that there is a single one.
     inputs : dict of str to Signal, optional
         Those that follow time.
+    most : float
+        What all repeats may cost, in first runs.
 
     Attributes
     ----------
@@ -60,6 +72,8 @@ class Repeats:
         Of the repeats, in first runs.
     tried : float
         Step of the last repeat, s.
+    known : Accuracy or None
+        By the last repeat.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     groups : dict of str to list of str
@@ -75,20 +89,21 @@ class Repeats:
 
     system: System
     run: Run
-    march: Callable[[float, int, Callable[[float], None], bool, int], Run]
+    march: Callable[[float, int, Callable[[float], None], bool, int, Watch | None], Run]
     h: float
     every: int
     update: Callable[[float], None]
     before: dict[str, NDArray[np.float64]] | None = None
     twin: bool = False
     inputs: Mapping[str, Signal] | None = None
+    most: float = MOST_COST
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
         self._finer = dict[int, Run]()
         self._length = length_of(self.system)
-        settings, report = self.run[0].settings, self.run[0].report
+        settings, report, self.known = self.run[0].settings, self.run[0].report, self.run[0].accuracy
         assert settings is not None
         assert report is not None
         self.parts = accuracy.divisor(report.steps, report.halvings)
@@ -102,8 +117,11 @@ class Repeats:
             self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
             self.groups = {accuracy.COORDINATES: list(self._columns)}
 
-    def coarser(self, glance: Glance) -> Accuracy | None:
-        """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere."""
+    def coarser(self, glance: Glance, most: float) -> Accuracy | None:
+        """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere.
+
+        Raises `TooFarError`: a sensor was off by more than `most` of the range before it ended.
+        """
         # About `glance.times` of its steps: some that end at all samples where it can, else one in `thin` samples.
         steps, thin = max(round(self.every / glance.times), 1), max(round(glance.times / self.every), 1)
         times = thin * self.every / steps
@@ -113,22 +131,27 @@ class Repeats:
         enough = glance.times == 2 or intervals // thin >= FEWEST
         if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
             return None
-        try:
-            twin = self._again(h, steps, 1.0 / times, glance.iterations)
-        except SimulationError:
-            return None
         run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
+        watch = None if coordinates else self._watch(run[0], most)
+        try:
+            twin = self._again(h, steps, 1.0 / times, glance.iterations, watch)
+        except (SimulationError, TooDearError):
+            return None
         shared = min(len(run[0].t), len(twin[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(twin[1]) != len(run[1])):
             return None
         return self._compared(run, twin, h, 1.0 / times)
 
     def finer(self, parts: int) -> Accuracy:
-        """By a run whose steps are shorter by so many times. Raises `SimulationError`: it does not end."""
+        """By a run whose steps are shorter by so many times.
+
+        Raises `SimulationError`: it does not end; `TooDearError`: it costs more than is left.
+        """
         again = self._finer[parts] = self._again(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
-        return self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
+        self.known = self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
+        return self.known
 
     @property
     def nothing_abrupt(self) -> bool:
@@ -177,8 +200,9 @@ class Repeats:
             first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
             if parts > 2 * self.parts and not self.has_order:
                 known = by_limit(known, [self._table(self.run), first, second], self.groups, self.before, self._length)
-            if parts == 8 * self.parts:
-                break
+                self.known = known
+            if parts == 8 * self.parts or (parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR):
+                break  # of this one and the last the larger error counts
             apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
             if self.has_order and not self.coarse:  # the finer one errs by less than that, by order two at least
                 apart = {unit: gap / 3.0 for unit, gap in apart.items()}
@@ -198,15 +222,38 @@ class Repeats:
         """The estimated error in a sentence."""
         return accuracy.error_text(known, self._ranges, self.groups)
 
-    def _again(self, h: float, every: int, cost: float, iterations: int = 0) -> Run:
-        before, self.tried = 1.0 + self.cost, h
+    def _again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
+        before, self.tried, share = 1.0 + self.cost, h, 0.0
+        if self.cost + cost > self.most:
+            raise TooDearError
         self.cost += cost
         whole = 1.0 + self.cost
 
         def update(done: float) -> None:
+            nonlocal share
+            share = done
             self.update((before + cost * done) / whole)
 
-        return self.march(h, every, update, bool(self.run[1]), iterations)
+        try:
+            return self.march(h, every, update, bool(self.run[1]), iterations, watch)
+        except TooFarError:
+            self.cost -= cost * (1.0 - share)
+            raise
+
+    def _watch(self, run: Trajectory, most: float) -> Watch:
+        """What gives up a run with the samples of this one where they differ by more than `most` of the range."""
+        ranges = accuracy.differences(run, run, self.groups, self.before, self._length)[2]
+        column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
+        judged = [(unit, column[n], run[n], most * size) for unit, size in ranges.items() for n in self.groups[unit]]
+        rows = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}
+
+        def look(values: NDArray[np.float64]) -> None:
+            for unit, k, own, allowed in judged:
+                there = rows[unit][rows[unit] < len(values)]
+                if np.abs(values[there, k] - own[there]).max() > allowed:
+                    raise TooFarError
+
+        return look
 
     def _missed(self, run: Run) -> float:
         report = run[0].report
@@ -247,6 +294,8 @@ class Repeats:
 def check(repeats: Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
+    Where the next repeat costs more than is left, that is said in place of a verdict.
+
     Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
     the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
     with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
@@ -266,10 +315,12 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         return known
     last = 0.0
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        for glance in glances(
-            run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report
-        ):
-            screened = repeats.coarser(glance)
+        chosen = glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report)
+        for glance in chosen:
+            try:
+                screened = repeats.coarser(glance, glance.difference if glance is chosen[-1] else HOPELESS)
+            except TooFarError:
+                break
             apart = math.inf if screened is None else difference_from(screened, method, h)
             sure = apart <= max(ALONE, NEARER * last) or repeats.nothing_abrupt
             if screened is not None and apart <= glance.difference and sure:
@@ -287,6 +338,12 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
             least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
         if not repeats.twin and least < (known.error or 0.0) < most:
             known = repeats.decided(known)
+    except TooDearError:
+        ahead = [repeats.h / repeats.tried * times for times in (1, 2, 4, 8)]
+        needed = repeats.cost + sum(cost for cost in ahead if cost < 8.5 * repeats.parts)
+        known = repeats.known or known
+        text = accuracy.open_text(known, repeats.tried, repeats.most, needed)
+        return replace(known, repeat_cost=repeats.cost, message=text)
     except SimulationError as error:
         text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps

@@ -49,7 +49,7 @@ def simulate(
     t0: float = 0.0,
     pose: Pose | None = None,
     method: str | None = None,
-    estimate_error: bool | None = None,
+    estimate_error: bool | float | None = None,
     tolerance: float | None = None,
     times: ArrayLike | None = None,
 ) -> Trajectory:
@@ -84,10 +84,11 @@ def simulate(
     method : str, optional
         Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
         System and tolerance best; so does a tolerance without a method.
-    estimate_error : bool, optional
+    estimate_error : bool or float, optional
         Whether to repeat the run with half the step, near the limit with less, which gives `Trajectory.accuracy` the
         error of the sensors. None repeats suspect runs, by energy balance, halvings, predictors or peaks of tables
-        between steps. False checks nothing. Functions among `inputs` are called again, so they must depend on time.
+        between steps, which costs 32 runs at most; a number does the same and says how many. False checks nothing.
+        Functions among `inputs` are called again, so they must depend on time.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
@@ -157,7 +158,7 @@ def simulate(
             t0=t0,
         )
 
-    def equal_steps(step: float, used: Settings, estimate: bool | None) -> Trajectory:
+    def equal_steps(step: float, used: Settings, estimate: bool | float | None) -> Trajectory:
         return fixed_step_run(system, lambda h: start(h, used), t0, t_end, step, inputs, every, progress, estimate)
 
     if wanted is None and h is not None and chosen != "auto":

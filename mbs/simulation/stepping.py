@@ -365,7 +365,7 @@ class Simulation(SteppedSystem):
         inputs: Mapping[str, Signal] | None = None,
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
-        estimate_error: bool | None = None,
+        estimate_error: bool | float | None = None,
         tolerance: float | None = None,
     ) -> Trajectory:
         """Step from the present time to `t_end`; what is by hand in between, such as switches, stays as it is.
@@ -385,7 +385,7 @@ class Simulation(SteppedSystem):
         progress : bool or callable, optional
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
-        estimate_error : bool, optional
+        estimate_error : bool or float, optional
             As of `simulate`, in the first run in doubt, of ten steps or more; its last repeat is a twin that goes on
             from run to run with half the step and is given the same inputs, parameters and switches, until a step by
             hand.

@@ -131,13 +131,31 @@ def test_a_step_that_is_divided_at_an_abrupt_force_has_no_derivative(prototype_f
     assert min(asked.values()) > 3
 
 
-def test_a_run_that_ends_soon_is_judged_at_its_end(prototype_fmu: Path, host: HostMaker) -> None:
+@pytest.mark.parametrize("end", ["terminate", "reset", "freeInstance"])
+def test_a_run_that_ends_soon_is_judged_at_its_end(end: str, prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu).start(FALL | {"step_size": EVERY})
     for k in range(round(0.3 / EVERY)):
         driven.step(k * EVERY, EVERY)
     assert driven.messages == []
-    driven.slave.terminate()
+    getattr(driven.slave, end)()
     assert [m for m in driven.messages if WORDS in m]
+
+
+def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host: HostMaker) -> None:
+    """Else all of them were made in that call, and what is told would say "about": the hand brake is not pulled."""
+    told = []
+    for torques in ((450.0, 450.0), (450.0, 400.0)):
+        driven = host(prototype_fmu).start(
+            {"initial.z": 0.6, "initial.speed": 30.0, "steering": 0.3, "step_size": 2.5e-3}
+        )
+        rows = []
+        for k in range(1040):
+            assert driven.set("brakes.hand_torque", torques[k % 2]) == 0
+            driven.step(k * 2.5e-3, 2.5e-3)
+            rows.append([driven.get(name) for name in FORCES])
+        told.append((rows, [m for m in driven.messages if WORDS in m]))
+    assert told[0] == told[1]
+    assert "at least" in told[0][1][0]
 
 
 def test_a_run_that_starts_before_0_is_told_the_same(prototype_fmu: Path, host: HostMaker) -> None:

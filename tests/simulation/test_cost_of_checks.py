@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks.methods import random_mechanisms
+from benchmarks.methods import random_machines, random_mechanisms
 from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
 from mbs.results.smooth_laws import LOOPS, OPEN
-from tests.simulation.test_coarser_runs import beside_a_wall, place
+from tests.simulation.test_coarser_runs import ball, beside_a_wall, place
 
 
 def swing() -> mbs.System:
@@ -87,3 +87,46 @@ def test_a_half_that_surely_is_coarse_is_not_made() -> None:
     truth = place(w * w, gap, run.t)
     assert np.abs(run["x"] - truth).max() < 0.05 * np.ptp(truth)
     assert not run.accuracy.message
+
+
+def test_a_coarser_run_is_given_up_where_it_differs() -> None:
+    """At 0.625 s, after an impact at 0.5 s: half of the 0.5 of a run to 1.25 s, then two for half the step."""
+    run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.01, every=2, progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeat_cost == 2.25
+    assert run.accuracy.repeated_with == 0.005
+
+
+def machine(number: int) -> tuple[mbs.System, float]:
+    """A random one of seed 1, and its span, s."""
+    _, made = random_machines.machine(np.random.default_rng([1, number]))
+    return mbs.compile(random_machines.model_of(made)), made.span
+
+
+def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
+    """The larger error counted: 15 runs in place of 31, and the same verdict on 5.1 %."""
+    system, span = machine(56)
+    with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.1 %"):
+        run = mbs.simulate(system, span, span / 100, every=2, progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeat_cost == 14.0
+
+
+def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
+    system, span = machine(97)
+
+    def judged(most: float | None) -> mbs.Trajectory:
+        return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
+
+    for most, spent, said in ((1.0, 0.12, "none has shorter steps"), (10.0, 6.12, "tells 3.9 % of the largest range")):
+        with pytest.warns(mbs.AccuracyWarning, match=f"not judged: .* more than {most:g} runs, .*{said}") as told:
+            run = judged(most)
+        assert run.accuracy is not None
+        assert run.accuracy.repeat_cost == pytest.approx(spent)
+        needed = float(str(told[0].message).split("estimate_error=")[1].split(",")[0])
+        enough, free = judged(needed).accuracy, judged(None).accuracy
+        assert enough == free
+        assert enough is not None
+        assert enough.repeat_cost <= needed <= enough.repeat_cost + 1.0
+        assert not enough.message
+    assert "at most 32, or estimate_error=N" in str(run.accuracy)

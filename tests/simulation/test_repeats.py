@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -73,7 +74,7 @@ def test_a_longer_repeat_that_is_refused_does_not_overrule_a_finer_one(refused: 
     m.sense_position("y", mass, None, "y")
     system, tried = mbs.compile(m), []
 
-    def march(h: float, every: int, update: Callable[[float], None], look: bool, iterations: int) -> Run:
+    def march(h: float, every: int, update: Callable[[float], None], look: bool, iterations: int, *_: Any) -> Run:
         tried.append(round(0.02 / h))
         if tried[-1] in refused:
             raise mbs.SimulationError("it did not converge", 0.0, Status.NOT_CONVERGED)

@@ -49,13 +49,13 @@ static size_t inputs_of(const slave *s) { return (size_t)ali3_system_sizes(s->fi
 static size_t forces_of(const slave *s, bool all) { return (size_t)ali3_contact_forces(s->fidelity.kernel, all, NULL); }
 
 /* Work of one block: snapshots of this motion at the end of the step and where the other one begins, and of the other,
- * its forces, inputs, parameters; of each step that waits inputs and both kinds of forces. */
+ * its forces, inputs; of each step that waits inputs, both kinds of forces, parameters. */
 static bool allocate(slave *s) {
   slave_half_steps *t = &s->half_steps;
   const size_t size = ali3_snapshot_size(s->fidelity.system), n = forces_of(s, true), nu = inputs_of(s),
-               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + n + forces_of(s, false);
+               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + n + forces_of(s, false) + np;
   if (t->end != NULL) return true;
-  t->end = s->memory.allocate(1, 3 * size + (n + 2 * nu + np + MOST_LATE * each) * sizeof(double) +
+  t->end = s->memory.allocate(1, 3 * size + (n + 2 * nu + MOST_LATE * each) * sizeof(double) +
                                      MOST_LATE * sizeof(slave_late_step));
   if (t->end == NULL) return false;
   t->other = (unsigned char *)t->end + size;
@@ -63,8 +63,10 @@ static bool allocate(slave *s) {
   t->late = (slave_late_step *)((unsigned char *)t->start + size);
   t->force = (double *)(t->late + MOST_LATE);
   t->input = t->force + n;
-  t->parameter = t->input + 2 * nu;
-  for (size_t i = 0; i < MOST_LATE; i++) t->late[i].number = t->parameter + np + i * each;
+  for (size_t i = 0; i < MOST_LATE; i++) {
+    t->late[i].number = t->input + 2 * nu + i * each;
+    t->late[i].parameter = t->late[i].number + each - np;
+  }
   return true;
 }
 
@@ -93,8 +95,8 @@ static int64_t parts_of(double h) {
   return n;
 }
 
-/* One inner step of the communication step that waits longest, by the other motion, which the kernel has; parameters are
- * those of all that wait, slopes those of the present one, which does not wait if it has them. */
+/* One inner step of the communication step that waits longest, by the other motion, which the kernel has; slopes are
+ * those of the present one, which does not wait if it has them. */
 static ali3_status make(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const size_t nu = inputs_of(s);
@@ -102,7 +104,7 @@ static ali3_status make(slave *s, const slave_late_step *step) {
   memcpy(t->input, step->number, nu * sizeof(double));
   if (t->made++ == 0) {
     t->jumped = t->jumped || jumps(s, t->input);
-    const ali3_status status = slave_set_step(s, t->parameter, t->input);
+    const ali3_status status = slave_set_step(s, step->parameter, t->input);
     if (status != ALI3_OK) return status;
   }
   if (step->sloped) slave_inputs_at(s, (double)t->made * h, t->input);
@@ -193,8 +195,8 @@ static void catch_up(slave *s, size_t most, int64_t made, int64_t room) {
   ali3_snapshot_restore(kernel, t->end);
 }
 
-/* The communication step that was made, to those that wait; parameters are those of all of them. `span`: s for which an
- * abrupt one is followed, 0: it is none. */
+/* The communication step that was made, to those that wait. `span`: s for which an abrupt one is followed, 0: it is
+ * none. */
 static void put_off(slave *s, double now, double span) {
   slave_half_steps *t = &s->half_steps;
   const double begin = now - (double)s->made.n * s->made.h;
@@ -205,7 +207,7 @@ static void put_off(slave *s, double now, double span) {
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->started = starts || (t->started && t->n_late > 1);
   if (span > 0.0) t->sure = fmax(t->sure, begin + span);
-  slave_look_at_step(s, t->parameter, step->number);
+  slave_look_at_step(s, step->parameter, step->number);
   slave_inputs_at(s, 0.0, step->number);
   ali3_contact_forces(s->fidelity.kernel, 1, own);
   ali3_contact_forces(s->fidelity.kernel, 0, own + forces_of(s, true));
@@ -216,19 +218,9 @@ static void put_off(slave *s, double now, double span) {
                             .driven = t->driven,
                             .largest = t->largest,
                             .number = step->number,
+                            .parameter = step->parameter,
                             .sloped = s->made.sloped,
                             .starts = starts};
-}
-
-/* Whether a parameter is another one than in the steps that wait. */
-static bool tuned(const slave *s) {
-  const int32_t np = ali3_system_sizes(s->fidelity.system).np;
-  bool same = true;
-  for (int32_t i = 0; i < np && same; i++) {
-    double is;
-    same = ali3_get_parameter(s->fidelity.kernel, i, &is) == ALI3_OK && is == s->half_steps.parameter[i];
-  }
-  return !same;
 }
 
 /* The largest difference, when what comes later has shown how large forces are. */
@@ -258,10 +250,10 @@ static slave_status tell(slave *s, const ali3_report *r, double now, bool ended)
   return slave_say_event(s, r);
 }
 
-/* What is not judged when the run ends. */
+/* What is not judged when the run ends, also where the host resets or frees it without a word. */
 void slave_half_steps_end(slave *s) {
   ali3_report report;
-  if (s->event_said) return;
+  if (s->event_said || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
   if (s->half_steps.n_late > 0) catch_up(s, 0, 0, 0);
   if (ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK) tell(s, &report, 0.0, true);
 }
@@ -282,7 +274,6 @@ slave_status slave_halve_steps(slave *s) {
   if (begins && !(t->driven > 0.0)) t->spent = -START; /* beside what abrupt forces may cost */
   t->driven += length;
   t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
-  if (t->n_late > 0 && tuned(s)) catch_up(s, 0, 0, 0);
   if (abrupt && !allocate(s)) t->alone = true;
   if (t->end != NULL && (abrupt || t->left > 0.0 || t->n_late > 0)) {
     const bool waits = parts_of(s->made.h) == 2 && !s->made.sloped;

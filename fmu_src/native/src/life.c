@@ -110,6 +110,7 @@ slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bo
 void slave_free(slave *s) {
   if (s == NULL) return;
   void (*const release)(void *) = s->memory.release;
+  slave_half_steps_end(s);
   if (s->value != NULL) release(s->value);
   slave_half_steps_free(s);
   slave_fidelity_free(s, &s->fidelity);
@@ -151,6 +152,7 @@ slave_status slave_terminate(slave *s) {
 }
 
 slave_status slave_reset(slave *s) {
+  slave_half_steps_end(s);
   ali3_reset(s->fidelity.kernel);
   start_values(s);
   return slave_texts_start(s) ? SLAVE_OK : SLAVE_ERROR;

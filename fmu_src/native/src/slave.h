@@ -129,13 +129,14 @@ typedef struct { /* a communication step that waits to be made a second time, se
   double span; /* s from its start on for which the other motion follows, as it was abrupt; 0: it was not */
   double driven, largest; /* those of slave_half_steps, then */
   double *number; /* inputs; forces of tyres and contacts at its end: all, then those that are compared after a jump */
+  double *parameter;
   bool sloped, starts; /* inputs have slopes; the other motion starts here from `start` if it rests */
 } slave_late_step;
 
 typedef struct { /* of a motion that is made a second time with half the step, see half_steps.c */
   void *end, *other, *start; /* snapshots: this motion after the communication step, the other one, where it starts
                                 next; NULL: not needed yet */
-  double *force, *input, *parameter; /* work; parameters of the steps that wait */
+  double *force, *input; /* work */
   slave_late_step *late; /* communication steps that wait, a ring of n_late from first on */
   size_t first, n_late;
   double sure; /* s: time up to which the other motion will go at least */

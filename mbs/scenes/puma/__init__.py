@@ -90,7 +90,7 @@ def replay(
     system: System,
     h: float | tuple[float, float, float],
     settings: Settings | None = None,
-    estimate_error: bool | None = None,
+    estimate_error: bool | float | None = None,
 ) -> Replay:
     """Two seconds from rest to rest, four with the hand pinned, two back: torques from the table, steps of `h`.
 
@@ -107,7 +107,7 @@ def stages(
     simulation: Simulation,
     h: float | tuple[float, float, float],
     jumps: list[float] | None = None,
-    estimate_error: bool | None = None,
+    estimate_error: bool | float | None = None,
 ) -> Iterator[Trajectory]:
     """The three runs of the replay, one after the other.
 
@@ -119,7 +119,7 @@ def stages(
         s; one step, or one for each stage.
     jumps : list, optional
         Takes the change of the kinetic energy when the pin closes and when it opens, J.
-    estimate_error : bool, optional
+    estimate_error : bool or float, optional
         As of `Simulation.run`.
 
     Yields
