@@ -37,7 +37,7 @@ struct ali3_tabled_base {
 };
 
 struct ali3_tabled_parameter {
-  int32_t column, loc; /* the coordinate, its place in the front of the base */
+  int32_t column;               /* the coordinate */
   int32_t at[ALI3_TABLED_BODY]; /* where F has the entries between it and the base */
 };
 
