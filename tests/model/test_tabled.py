@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from mbs import Model, Simulation, SimulationError, System, Trajectory, compile, simulate
 from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
-from mbs.elements import BodyForce, HubWrench, ScalarSpringDamper, SpringDamper
+from mbs.elements import BodyForce, HubWrench, Lift, ScalarSpringDamper, SpringDamper
 from mbs.kernel import binding
 from mbs.kernel.binding import KernelError
 from mbs.kernel.binding.instance import Instance
@@ -171,6 +171,7 @@ def coupled(whole: bool) -> Model:
     for name, (k, length, gap) in springs.items():
         m.add(SpringDamper(k, free_length=length).record(name, gap))
     m.add(BodyForce(u[:3]).record("push", elbow, axes))
+    m.add(Lift(5.0).record("lift", hand, axes[0], axes[2]))
     m.add(HubWrench(u).record("wrench", hand, axes[1], level + 2.0 * wheel))
     lone = [(hand - elbow).components[0], hand.components[1], end.components[2]]
     lone += [hand.components[2] + level, *(level + k * other for k in range(1, 6))]
@@ -313,7 +314,7 @@ def test_the_tangent_is_that_of_differences(system: Callable[[], System]) -> Non
 
 
 def test_sums_by_vectors_and_numbers_are_those_of_the_whole() -> None:
-    """Gyroscopic moments too, which couple vectors with a spin by their rates."""
+    """In motion, where a lift and gyroscopic moments couple vectors of a body with each other and with a spin."""
     simulation, other = on_its_way(compile(coupled(whole=False))), Simulation(compile(coupled(whole=True)))
     q, qd = np.array(simulation.state.q), np.array(simulation.state.qd)
     one, two = (tangent(s.instance, q, qd, 0.1) for s in (simulation, other))

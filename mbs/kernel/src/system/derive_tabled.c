@@ -112,7 +112,7 @@ static int32_t parameter_of(ali3_system *s, ali3_tabled_base *base, int32_t colu
   int32_t p = base->first;
   while (p < base->end && s->tabled_parameter[p].column != column) p++;
   if (p < base->end) return p;
-  s->tabled_parameter[base->end++] = (ali3_tabled_parameter){.column = column, .loc = loc};
+  s->tabled_parameter[base->end++] = (ali3_tabled_parameter){.column = column};
   entries_of_base(s, base, loc, s->tabled_parameter[p].at);
   return p;
 }

@@ -37,7 +37,7 @@ struct ali3_tabled_base {
 };
 
 struct ali3_tabled_parameter {
-  int32_t column, loc; /* the coordinate, its place in the front of the base */
+  int32_t column;               /* the coordinate */
   int32_t at[ALI3_TABLED_BODY]; /* where F has the entries between it and the base */
 };
 
@@ -69,13 +69,13 @@ struct ali3_tabled_group {
 
 /* B and S B of the parts of a group, sums of the tangents of its elements. */
 typedef struct {
+  real base[4][4][9]; /* sums over the groups of a base */
   real share[ALI3_TABLED_VECTORS][4], along[ALI3_TABLED_VECTORS][ALI3_TABLED_SINGLES][3];
   real slope[ALI3_TABLED_NUMBERS][ALI3_TABLED_SINGLES];
   real vectors[ALI3_TABLED_VECTORS][ALI3_TABLED_VECTORS][9], mixed[ALI3_TABLED_NUMBERS][ALI3_TABLED_VECTORS][3];
   real numbers[ALI3_TABLED_NUMBERS][ALI3_TABLED_NUMBERS];
   real by_share[ALI3_TABLED_VECTORS][4][9], by_single[ALI3_TABLED_VECTORS][ALI3_TABLED_SINGLES][3];
   real number_by_single[ALI3_TABLED_NUMBERS][ALI3_TABLED_SINGLES];
-  real base[4][4][9]; /* sums over the groups of a base */
 } ali3_tabled_parts;
 
 struct ali3_tabled_work { /* what ali3_tabled_prepare leaves of an item; its members are numbers of each lane */
