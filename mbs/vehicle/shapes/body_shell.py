@@ -19,8 +19,7 @@ from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, SILL, Looks, Paint
-from mbs.vehicle.shapes.occupants import driver_place
-from mbs.vehicle.shapes.steering import HANDS
+from mbs.vehicle.shapes.occupants import driver_place, steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
 GREY: Paint = {"material": "plastic", "color": "#565c65"}
@@ -203,6 +202,30 @@ class BodyShell:
         over = (point >= RIM) & (point < ring - RIM) & (at >= rear) & (at <= front)
         return places, triangles[~over.all(axis=1)]
 
+    def wheel_houses(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """From the arches inwards, as far as steered tyres reach: without them one looks through the car.
+
+        Seen from the wheels counter-clockwise.
+        """
+        places, triangles, count = list[NDArray[np.float64]](), list[NDArray[np.int64]](), 0
+        for axle in (self.car.front, self.car.rear):
+            cx, cy, _ = axle.wheel.centre
+            ways = np.concatenate([[-1.002], -np.cos(np.linspace(0.0, np.pi, 17)), [1.002]])
+            x = cx + (axle.tyre.radius + ARCH) * ways
+            low, lip = self.lower_edge(x), 0.94 * self.deck(x)[1]
+            inner, sill = np.minimum(lip, cy - axle.tyre.radius), float(low.min())
+            profile = zip(x, lip, inner, low, strict=True)
+            house, faces = loft(
+                [
+                    np.array([(a, out, z), (a, within, z), (a, within, sill), (a, 0.0, sill)])
+                    for a, out, within, z in profile
+                ]
+            )
+            places.append(house)
+            triangles.append(faces[~np.any(faces % 7 == 3, axis=1), ::-1] + count)  # nothing from wall to wall
+            count += len(house)
+        return np.vstack(places), np.vstack(triangles)
+
     def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Middle and size of a box from a place ahead of the steering wheel to the windscreen, m."""
         front = float(self.place(self.windscreen))
@@ -255,11 +278,12 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     SlidingVocabulary.mesh_shape(m, chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
     SlidingVocabulary.mesh_shape(m, chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
     SlidingVocabulary.mesh_shape(m, chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
+    SlidingVocabulary.mesh_shape(m, chassis, *shell.wheel_houses(), name="wheel houses", cover=clear, **DARK)
     half = 0.5 * car.vehicle.width
     x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
     floor = SILL * car.front.tyre.radius + 0.03
     looks.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
-    dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
+    dash, size = shell.dashboard(steering_wheel_place(car)[0] + DASHBOARD[0])
     looks.shape(chassis, "box", at=dash, size=size, **GREY)
     pillar, place, height = shell.outline.details.tolist()
     panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])
