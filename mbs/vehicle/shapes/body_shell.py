@@ -19,7 +19,7 @@ from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, SILL, Looks, Paint
-from mbs.vehicle.shapes.occupants import driver_place, steering_wheel_place
+from mbs.vehicle.shapes.occupants import steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
 GREY: Paint = {"material": "plastic", "color": "#565c65"}
@@ -214,11 +214,10 @@ class BodyShell:
             x = cx + (axle.tyre.radius + ARCH) * ways
             low, lip = self.lower_edge(x), 0.94 * self.deck(x)[1]
             inner, sill = np.minimum(lip, cy - axle.tyre.radius), float(low.min())
-            profile = zip(x, lip, inner, low, strict=True)
             house, faces = loft(
                 [
                     np.array([(a, out, z), (a, within, z), (a, within, sill), (a, 0.0, sill)])
-                    for a, out, within, z in profile
+                    for a, out, within, z in zip(x, lip, inner, low, strict=True)
                 ]
             )
             places.append(house)
