@@ -8,8 +8,11 @@ from types import SimpleNamespace
 
 import pytest
 
+from ali3.cones import cone_places
+from hosts.driving.courses import course_of
 from hosts.run.command import main as run
 from hosts.view.command import main as view
+from mbs.vehicle import load
 from tests.hosts.test_view import shown
 
 
@@ -21,7 +24,7 @@ def test_a_run_on_the_proving_ground_is_viewed_on_it(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """From another folder; what is not drawn is said: cones on its terrain, and the world when it has gone."""
+    """From another folder, with the cones of its driver; when the world has gone that is said."""
     for file in (proving_ground.road, proving_ground.json):
         shutil.copy(file, tmp_path)
     (tmp_path / "out").mkdir()
@@ -39,9 +42,11 @@ def test_a_run_on_the_proving_ground_is_viewed_on_it(
 
     scene, said = seen()
     assert scene["roads"] == proving_ground.record["roads"]
-    assert scene["scenery"] == proving_ground.record["scenery"]
-    assert said.count("not drawn") == 1
-    assert "cones of ISO 3888-1 is not drawn: they are put onto level roads" in said
+    own = len(proving_ground.record["scenery"])
+    assert scene["scenery"][:own] == proving_ground.record["scenery"]
+    cones = cone_places(course_of("iso_3888_1", load("prototype").vehicle.width).gates)
+    assert [tuple(cone["at"][:2]) for cone in scene["scenery"][own:]] == cones
+    assert "not drawn" not in said
     (tmp_path / "proving_ground.json").unlink()
     (tmp_path / "proving_ground.road").unlink()
     scene, said = seen()
