@@ -40,7 +40,7 @@ def with_marks(scene: Mapping[str, Any], marks: Sequence[Mark], name: str) -> di
     flat = np.array([p for thing in things for p in thing.get("points", [thing.get("at")])], float).reshape(-1, 2)
     places = np.column_stack([flat, _heights(scene.get("roads", []), *flat.T)])
     if not np.all(np.isfinite(places)):
-        why = "they are put onto level roads, planes, kerbs and within grids of heights only"
+        why = "they are put onto level roads, planes, kerbs and within grids of heights and terrains only"
         return dict(scene) | {"missing": [*scene.get("missing", []), {"name": name, "why": why}]}
     rest = iter(places.tolist())
     things = [
@@ -89,8 +89,10 @@ def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
             (ox, oy, oz), (dx, dy, _) = road.get("origin", (0.0, 0.0, 0.0)), road.get("direction", (1.0, 0.0, 0.0))
             along = ((x - ox) * dx + (y - oy) * dy) / math.hypot(dx, dy)
             found = oz + np.interp(along, road["stations"], road["heights"])
-        elif road["kind"] == "grid" and road.get("axes") is None:
-            found = _heights_of_grid(road, x, y)
+        elif road["kind"] in ("grid", "terrain") and road.get("axes") is None:
+            found = np.full(len(x), math.nan)
+            for grid in road.get("patches", [road]):
+                found = np.where(np.isnan(found), _heights_of_grid(grid, x, y), found)
         else:
             return np.full(len(x), math.nan)
     return found

@@ -14,8 +14,7 @@ from mbs.vehicle import car_names, load
 from mbs.vehicle.shapes import car_shapes as shapes_module
 from mbs.vehicle.shapes.body_shell import ARCH, DASHBOARD, BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
-from mbs.vehicle.shapes.occupants import SHIRT, TROUSERS, driver_place
-from mbs.vehicle.shapes.steering import HANDS, RADIUS, TILT
+from mbs.vehicle.shapes.occupants import RADIUS, SHIRT, SKIN, TILT, TROUSERS, steering_wheel_place
 from mbs.vehicle.shapes.tube_frame import FRAME
 from mbs.vehicle.suspensions import Suspension
 from viewer.poses import FramePoses
@@ -145,8 +144,8 @@ def test_the_body_encloses_its_wheels_and_faces_outwards(name: str) -> None:
     assert np.ptp(places[:, 0]) == pytest.approx(car.vehicle.length, abs=1e-9)
     assert np.ptp(places[:, 1]) == pytest.approx(car.vehicle.width, rel=0.01)
     for axle in (car.front, car.rear):
-        x, _, z = axle.wheel.centre
-        near = places[np.abs(places[:, 0] - x) < 0.7 * axle.tyre.radius]
+        x, y, z = axle.wheel.centre
+        near = places[(np.abs(places[:, 0] - x) < 0.7 * axle.tyre.radius) & (np.abs(places[:, 1]) > y)]
         ways = np.hypot(near[:, 0] - x, near[:, 2] - z)
         assert ways.min() > axle.tyre.radius + ARCH - 1e-3  # the tyre is free in its arch
 
@@ -165,18 +164,55 @@ def test_a_driver_sees_the_steering_wheel_and_the_road_ahead(name: str) -> None:
     """No body and no dashboard stands between the driver's eyes, the upper rim, and a road 12 m ahead."""
     car = load(name)
     shell = BodyShell(car)
-    x, y, z = driver_place(car)
-    wheel = np.array([x + HANDS[0], y, z + HANDS[1]])
+    wheel = np.array(steering_wheel_place(car))
     eye = wheel + np.array([-0.48, 0.0, 0.24])
     angles = np.linspace(0.0, np.pi, 13)
     up = np.array([math.sin(TILT), 0.0, math.cos(TILT)])
     seen = wheel + RADIUS * (np.outer(np.cos(angles), [0.0, 1.0, 0.0]) + np.outer(np.sin(angles), up))
-    seen = np.vstack([seen, [wheel[0] + 12.0, y, 0.0]])
+    seen = np.vstack([seen, [wheel[0] + 12.0, wheel[1], 0.0]])
     places, triangles = shell.lower_body()
     assert not any(meets(eye, point, places[triangles]) for point in seen)
     middle, size = (np.array(part) for part in shell.dashboard(wheel[0] + DASHBOARD[0]))
     ways = np.linspace(0.0, 1.0, 2001)[:, None, None] * (seen - eye) + eye
     assert not (np.abs(ways - middle) < 0.5 * size).all(axis=2).any()
+
+
+@pytest.mark.parametrize("name", [name for name in car_names() if name != "prototype"])
+def test_nobody_looks_through_the_car_between_tyre_and_arch(name: str) -> None:
+    """Level or from above, straight or aslant: the wheel's house ends each line."""
+    shell = BodyShell(load(name))
+    places, triangles = shell.lower_body()
+    for axle in (shell.car.front, shell.car.rear):
+        x, y, z = axle.wheel.centre
+        for angle in np.radians([20.0, 50.0, 90.0, 130.0, 160.0]):
+            way = axle.tyre.radius + 0.5 * ARCH
+            start = np.array([x + way * math.cos(angle), y, z + way * math.sin(angle)])
+            for ahead, down in ((0.0, 0.0), (0.5, 0.0), (-0.5, 0.0), (0.0, 0.4), (0.4, 0.3), (-0.4, 0.3)):
+                end = start + 3.0 * np.array([ahead, -1.0, -down])
+                for side in ([1.0, 1.0, 1.0], [1.0, -1.0, 1.0]):
+                    assert meets(start * side, end * side, places[triangles]), (angle, ahead, down, side)
+        beside = places[(np.abs(places[:, 0] - x) < axle.tyre.radius) & (places[:, 2] < z)]
+        assert (np.abs(beside[:, 1]) < y - 0.99 * axle.tyre.radius).all()  # the tyre is free at any steering angle
+
+
+@pytest.mark.parametrize("name", ["prototype", "hatchback", "saloon", "ferrari_250_lm"])
+def test_the_hands_of_the_driver_lie_at_the_rim_at_any_steering_angle(name: str) -> None:
+    found = scene(name)
+    (wheel,) = [shape for shape in found["shapes"] if shape["kind"] == "steering_wheel"]
+    hands = [shape for shape in found["shapes"] if shape.get("color") == SKIN["color"] and shape["radius"] < 0.1][:2]
+    chassis, frame = found["frames"]["chassis"], found["frames"][wheel["frame"]]
+    angles = np.linspace(-7.0, 7.0, 29)
+    columns = {frame["angle"]: angles}
+    for key, start in zip(("position", "quaternion"), chassis["start"], strict=True):
+        columns |= {name: np.full(len(angles), value) for name, value in zip(chassis[key], start, strict=True)}
+    poses = FramePoses(found, columns, len(angles))
+    middle, ahead = (poses.points([wheel["frame"], place]) for place in ([0.0, 0.0, 0.0], frame["axis"]))
+    places = [poses.points([hand["frame"], hand["at"]]) for hand in hands]
+    for place in places:
+        along = np.einsum("ij,ij->i", place - middle, ahead - middle)
+        out = np.linalg.norm(place - middle - along[:, None] * (ahead - middle), axis=1)
+        assert np.hypot(along, out - wheel["radius"]).max() < 0.5 * hands[0]["radius"]
+    assert np.linalg.norm(places[0] - places[1], axis=1).min() > wheel["radius"]
 
 
 def meets(start: np.ndarray, end: np.ndarray, triangles: np.ndarray) -> bool:

@@ -19,8 +19,7 @@ from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.loft import interpolated, loft
 from mbs.vehicle.shapes.looks import ACCENT, DARK, SILL, Looks, Paint
-from mbs.vehicle.shapes.occupants import driver_place
-from mbs.vehicle.shapes.steering import HANDS
+from mbs.vehicle.shapes.occupants import steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}
 GREY: Paint = {"material": "plastic", "color": "#565c65"}
@@ -84,7 +83,7 @@ VAN = Outline(
 ARCH = 0.055  # m between tyre and arch
 GAP = 0.02  # m between an arch and what the cabin opens
 DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
-RIM = 4  # cross-sections of the lower body: its points from here on are over the cabin
+RIM = 6  # cross-sections of the lower body: its points from here on are over the cabin
 FRONT_OVERHANG = 0.53  # share of both overhangs
 SLIM = 0.36  # height over length, and at most
 TALL = 4.4  # height over the radius of a front tyre, where nothing tells it
@@ -147,11 +146,15 @@ class BodyShell:
         height, width = interpolated(self.outline.roof, self.share(x)).T
         return height * self.height, 0.5 * width * self.car.vehicle.width
 
+    def sill(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Height of sills and bumpers, m."""
+        sill, share = SILL * self.car.front.tyre.radius, self.share(x)
+        ends = 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
+        return np.asarray(sill + ends)
+
     def lower_edge(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Height of sills, bumpers and arches, m."""
-        sill = SILL * self.car.front.tyre.radius
-        share = self.share(x)
-        edge = sill + 0.10 * np.clip((0.06 - share) / 0.06, 0.0, 1.0) + 0.04 * np.clip((share - 0.95) / 0.05, 0.0, 1.0)
+        edge = self.sill(x)
         for axle in (self.car.front, self.car.rear):
             cx, _, cz = axle.wheel.centre
             inside = (axle.tyre.radius + ARCH) ** 2 - (x - cx) ** 2
@@ -160,8 +163,8 @@ class BodyShell:
 
     def stations(self) -> NDArray[np.float64]:
         """x of the cross-sections, m: dense along the arches."""
-        ways = [self.place(np.linspace(0.0, 1.0, 29)), self.place(np.array([0.005, 0.015, 0.985, 0.995]))]
-        ways.append(np.array(self.cabin))
+        shares = np.concatenate([np.linspace(0.0, 1.0, 29), [0.005, 0.015, 0.985, 0.995]])
+        ways = [self.place(shares), np.array(self.cabin)]
         for axle in (self.car.front, self.car.rear):
             radius = axle.tyre.radius + ARCH
             ways.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
@@ -175,15 +178,20 @@ class BodyShell:
         return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(self.windscreen)) - GAP
 
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel."""
-        x = self.stations()
-        (deck, half), low = self.deck(x), self.lower_edge(x)
+        """Wheel houses, sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel.
+
+        The houses reach as far inwards as steered tyres: without them one looks through the car.
+        """
+        x, inner = self.stations(), min(a.wheel.centre[1] - a.tyre.radius for a in (self.car.front, self.car.rear))
+        (deck, half), low, sill = self.deck(x), self.lower_edge(x), self.sill(x)
         top = np.maximum(deck, low + 0.02)  # over a wheel that is higher than the bonnet
         rise = top - low
         places, triangles = loft(
             [
                 np.array(
                     [
+                        (x[k], inner, sill[k]),
+                        (x[k], inner, low[k]),
                         (x[k], 0.94 * half[k], low[k]),
                         (x[k], half[k], low[k] + 0.35 * rise[k]),
                         (x[k], half[k], low[k] + 0.62 * rise[k]),
@@ -197,7 +205,7 @@ class BodyShell:
             ],
             ends=True,
         )
-        ring = 13  # points of a cross-section, both sides; those of the caps come last
+        ring = 17  # points of a cross-section, both sides; those of the caps come last
         rear, front = self.cabin
         point, at = triangles % ring, places[triangles, 0]
         over = (point >= RIM) & (point < ring - RIM) & (at >= rear) & (at <= front)
@@ -207,11 +215,8 @@ class BodyShell:
         """Middle and size of a box from a place ahead of the steering wheel to the windscreen, m."""
         front = float(self.place(self.windscreen))
         top, half = (float(value.min()) for value in self.deck(np.array([ahead, front])))
-        return (0.5 * (ahead + front), 0.0, top + 0.012 - 0.5 * DASHBOARD[1]), (
-            front - ahead,
-            1.84 * half,
-            DASHBOARD[1],
-        )
+        middle = 0.5 * (ahead + front), 0.0, top + 0.012 - 0.5 * DASHBOARD[1]
+        return middle, (front - ahead, 1.84 * half, DASHBOARD[1])
 
     def edge(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lower and upper edge of the side windows, left: arrays of shape (n, 3), m."""
@@ -230,12 +235,8 @@ class BodyShell:
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """The roof."""
-        return loft(
-            [
-                section[1:]
-                for section in self._above(np.linspace(self.outline.panel[0], self.outline.panel[1], 15), 0.006)
-            ]
-        )
+        share = np.linspace(self.outline.panel[0], self.outline.panel[1], 15)
+        return loft([section[1:] for section in self._above(share, 0.006)])
 
     def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
         lower, upper = self.edge(share)
@@ -259,7 +260,7 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
     floor = SILL * car.front.tyre.radius + 0.03
     looks.shape(chassis, "box", at=(0.5 * (x0 + x1), 0.0, floor), size=(x1 - x0, 1.05 * half, 0.05), **DARK)
-    dash, size = shell.dashboard(driver_place(car)[0] + HANDS[0] + DASHBOARD[0])
+    dash, size = shell.dashboard(steering_wheel_place(car)[0] + DASHBOARD[0])
     looks.shape(chassis, "box", at=dash, size=size, **GREY)
     pillar, place, height = shell.outline.details.tolist()
     panel, rear = shell.outline.panel.tolist(), float(shell.outline.roof[0, 0])

@@ -15,6 +15,10 @@ TROUSERS: Paint = {"material": "plastic", "color": "#2f3440"}
 RECLINE = math.radians(15.0)  # of the backs of the seats
 CASE: Paint = {"material": "plastic", "color": "#6b4f34"}
 COS, SIN = math.cos(RECLINE), math.sin(RECLINE)
+TILT = math.radians(24.0)  # of the steering column from the level
+AHEAD = 0.42, 0.26  # m: middle of the steering wheel before and above the driver's centre of mass
+RADIUS = 0.185  # m, of the steering wheel
+UP, ASIDE = RADIUS * math.sin(math.radians(20.0)), RADIUS * math.cos(math.radians(20.0))  # hands, on its rim
 PERSON = 30.0  # kg: a payload of so much and more is drawn as a person
 
 
@@ -27,6 +31,12 @@ def driver_place(car: CarContent) -> Point:
         return x, -y, z
     x = car.front.wheel.centre[0] - 0.55 * car.wheelbase
     return x, 0.2 * car.vehicle.width, car.vehicle.reference_point[2] + 0.1
+
+
+def steering_wheel_place(car: CarContent) -> Point:
+    """Middle of the steering wheel: before the driver."""
+    x, y, z = driver_place(car)
+    return x + AHEAD[0], y, z + AHEAD[1]
 
 
 def occupant_shapes(looks: Looks) -> None:
@@ -55,7 +65,8 @@ def _person(looks: Looks, at: Point, driver: bool) -> None:
     looks.shape(chassis, "sphere", at=(x - 0.17, y, z + 0.53), radius=0.115, **(HELMET if driver else SKIN))
     for side in (1.0, -1.0):
         limb(0.072, TROUSERS, (-0.02, 0.09 * side, -0.14), (0.38, 0.12 * side, -0.02), (0.66, 0.11 * side, -0.32))
-        hands = (0.36, 0.16 * side, 0.24) if driver else (0.24, 0.16 * side, 0.0)
+        hands = (AHEAD[0] + UP * math.sin(TILT), ASIDE * side, AHEAD[1] + UP * math.cos(TILT))
+        hands = hands if driver else (0.24, 0.16 * side, 0.0)
         limb(0.045, SHIRT, (-0.13, 0.19 * side, 0.26), (0.08, 0.23 * side, 0.04), hands)
         looks.shape(chassis, "sphere", at=(x + hands[0], y + hands[1], z + hands[2]), radius=0.05, **SKIN)
     looks.shape(chassis, "box", at=(x + 0.10, y, max(z - 0.26, floor + 0.06)), size=(0.50, 0.44, 0.12), **CLOTH)

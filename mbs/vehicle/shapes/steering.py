@@ -11,13 +11,9 @@ from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.looks import BARE, CAST, DARK, POLISHED, Looks
-from mbs.vehicle.shapes.occupants import driver_place
+from mbs.vehicle.shapes.occupants import RADIUS, TILT, driver_place, steering_wheel_place
 from mbs.vehicle.side import Point
 from mbs.vehicle.steering.pitman_arm import LINK, PitmanArm
-
-TILT = math.radians(24.0)  # of the column from the level
-HANDS = 0.42, 0.26  # m: steering wheel before and above the driver's centre of mass
-RADIUS = 0.185  # m, of the steering wheel
 
 
 def rack_of(b: CarBuilder, car: CarContent) -> Owner:
@@ -39,8 +35,7 @@ def steering_shapes(looks: Looks) -> None:
     steering = looks.car.steering
     foot = _linkage(looks, steering) if isinstance(steering, PitmanArm) else _rack(looks)
     chassis = looks.chassis
-    seat = driver_place(looks.car)
-    centre = seat[0] + HANDS[0], seat[1], seat[2] + HANDS[1]
+    centre = steering_wheel_place(looks.car)
     axis = -math.cos(TILT), 0.0, math.sin(TILT)  # to the driver: positive turns are to the left
     wheel = ShapeVocabulary.turning(
         looks.m, "steering wheel", chassis, at=centre, axis=axis, angle="steering_wheel_angle"

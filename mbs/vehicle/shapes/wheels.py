@@ -23,12 +23,6 @@ def tyre_width(tyre: Tyre) -> float:
 
 def wheel_shapes(looks: Looks, name: str, axle: Axle) -> None:
     """Draw the wheels of an axle."""
+    sizes = {"radius": axle.tyre.radius, "width": tyre_width(axle.tyre), "rim": rim_radius(axle.tyre)}
     for side in sides(name):
-        looks.shape(
-            looks.spins[side.wheel],
-            "wheel",
-            radius=axle.tyre.radius,
-            width=tyre_width(axle.tyre),
-            rim=rim_radius(axle.tyre),
-            name=f"wheel {side.wheel}",
-        )
+        looks.shape(looks.spins[side.wheel], "wheel", **sizes, name=f"wheel {side.wheel}")

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import hosts.simulator.car as car_module
@@ -106,6 +107,37 @@ def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_pa
     (folder / "recording.json").write_text(json.dumps(meta | {"guid": "{another}"}))
     with Repeater(read_recording(folder)) as repeater:
         assert len(list(repeater.along(last, 9700))) == 9700
+
+
+@pytest.mark.slow
+def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_found_again(
+    fmu: Callable[[str], Path], tmp_path: Path
+) -> None:
+    """Every 105 steps of 2 ms all outputs, which the recording lacks at most rows."""
+    folder, random, seen = tmp_path / "drive", np.random.default_rng(4), dict[int, bytes]()
+    with Car(settings(fmu("prototype_car"), folder, step=0.002)) as car:
+        for _ in range(30):
+            hands = {
+                "throttle": random.uniform(),
+                "brake": 0.3 * random.uniform(),
+                "steering": random.uniform(-0.4, 0.4),
+            }
+            car.want({name: (value, 3.0) for name, value in hands.items()})
+            steps(car, 105)
+            now = car.latest()
+            seen[now.count] = now.values[len(car.inputs) :].tobytes()
+        outputs = car.names[len(car.inputs) :]
+    size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+    assert size / (0.002 * 3150) * 3600.0 < 200e6
+    drive = read_recording(folder)
+    made = replay(drive)
+    assert (made.rows, made.different) == (3151, 0)
+    with Repeater(drive) as repeater:
+        get = repeater.fmu.getter(outputs)
+        for count in repeater.along(last_drive(drive), 3150):
+            if count + 1 in seen:
+                assert np.array(get()).tobytes() == seen.pop(count + 1)
+    assert seen == {}
 
 
 @pytest.mark.slow

@@ -1,0 +1,54 @@
+"""Tables of runs in a world, opened later: its ground and what stands on it, or a word about what is not drawn."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from ali3.cones import cone_places
+from hosts.driving.courses import course_of
+from hosts.run.command import main as run
+from hosts.view.command import main as view
+from mbs.vehicle import load
+from tests.hosts.test_view import shown
+
+
+@pytest.mark.slow
+def test_a_run_on_the_proving_ground_is_viewed_on_it(
+    proving_ground: SimpleNamespace,
+    prototype_fmu: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """From another folder, with the cones of its driver; when the world has gone that is said."""
+    for file in (proving_ground.road, proving_ground.json):
+        shutil.copy(file, tmp_path)
+    (tmp_path / "out").mkdir()
+    monkeypatch.chdir(tmp_path)
+    Path("lanes.toml").write_text('stop_time = 0.1\n[driver]\ncourse = "iso_3888_1"\nspeed = 10.0\n')
+    assert run([str(prototype_fmu), "-m", "lanes.toml", "--road", "proving_ground.road", "--out", "out"]) == 0
+    (table,) = Path("out").glob("*.csv")
+    monkeypatch.chdir(tmp_path / "out")
+    capsys.readouterr()
+
+    def seen() -> tuple[dict, str]:
+        assert view([table.name, "--no-open"]) == 0
+        (found,) = shown(Path(table.stem + ".html"))
+        return found["scene"], capsys.readouterr().out
+
+    scene, said = seen()
+    assert scene["roads"] == proving_ground.record["roads"]
+    own = len(proving_ground.record["scenery"])
+    assert scene["scenery"][:own] == proving_ground.record["scenery"]
+    cones = cone_places(course_of("iso_3888_1", load("prototype").vehicle.width).gates)
+    assert [tuple(cone["at"][:2]) for cone in scene["scenery"][own:]] == cones
+    assert "not drawn" not in said
+    (tmp_path / "proving_ground.json").unlink()
+    (tmp_path / "proving_ground.road").unlink()
+    scene, said = seen()
+    assert scene["roads"] == []
+    assert "proving_ground.road is not drawn: its file is not there; that of a world is made again by: " in said
