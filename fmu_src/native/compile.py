@@ -1,4 +1,8 @@
-"""Compiles the kernel and the shell into the library of an FMU, for any platform from any platform."""
+"""Compiles the kernel and the shell into the library of an FMU, for any platform from any platform.
+
+The compiler knows an object by the place of its source. Sources are compiled in a place that their content names, so
+that other clones and environments find what one of them has compiled.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +10,15 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
+from ali3.files import whole_file
+from ali3.folders import whole_folder
+from fmu_src.native.archive import identity_of
+from fmu_src.native.sources import DETOUR, HERE, shell_files
 from fmu_src.native.universal import universal
 from mbs.kernel import build
 
-_INCLUDE = (KERNEL_INCLUDE, HERE, DETOUR)
+_ROOMS = {build.HERE: "kernel", HERE: "shell", DETOUR: "detour"}
+_INCLUDE = ("kernel/include", "shell", "detour")
 # The kernel's own functions are not for hosts: only those of FMI are exported.
 _DEFINES = ("ALI3_INSIDE",)
 
@@ -31,7 +39,7 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
     name : str
         Of the library, with its suffix.
     """
-    return _library(targets, _files(face, table), _INCLUDE, folder, name)
+    return _library(targets, *_files(face, table), folder, name)
 
 
 def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: str) -> bytes:
@@ -52,13 +60,13 @@ def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Pa
 
 def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:
     """Command line of the compiler by which `compile_library` makes the library for a target."""
-    files = _files(face, table)
-    return build.compiler_command(files, target, library, include=_INCLUDE, defines=_DEFINES, exports=exports(files))
+    files, include = _files(face, table)
+    return build.compiler_command(files, target, library, include=include, defines=_DEFINES, exports=exports(files))
 
 
 def library_digest(face: str, target: str) -> str:
-    """A hash of that command and of the sources with their place."""
-    return build.digest_of(library_command(face, target, Path("table.c"), Path("library")), build.HERE, HERE, DETOUR)
+    """A hash of that command, in which places name the contents of the sources."""
+    return build.digest_of(library_command(face, target, Path("table.c"), Path("library")))
 
 
 def exports(files: Sequence[Path]) -> list[str]:
@@ -68,5 +76,25 @@ def exports(files: Sequence[Path]) -> list[str]:
     return [*found, *build.WASM_HELPERS]
 
 
-def _files(face: str, table: Path) -> list[Path]:
-    return [*build.sources(lanes=False), *shell_files(face), table]
+def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
+    """C files and folders of headers: copies, but the table. All headers name their folder, each file itself."""
+    headers = {_inside(file): file.read_bytes() for root in _ROOMS for file in root.rglob("*.h")}
+    place = build.cache_directory() / "sources" / identity_of(headers, None)[0]
+    if not place.is_dir():
+        with whole_folder(place) as made:
+            for name, data in headers.items():
+                (made / name).parent.mkdir(parents=True, exist_ok=True)
+                (made / name).write_bytes(data)
+    copies = []
+    for file in [*build.sources(lanes=False), *shell_files(face)]:
+        data = file.read_bytes()
+        copy = (place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}")
+        if not copy.is_file():
+            with whole_file(copy) as written:
+                written.write_bytes(data)
+        copies.append(copy)
+    return [*copies, table], [place / name for name in _INCLUDE]
+
+
+def _inside(file: Path) -> str:
+    return next(f"{name}/{file.relative_to(r).as_posix()}" for r, name in _ROOMS.items() if file.is_relative_to(r))

@@ -73,7 +73,7 @@ def test_another_car_has_its_own_references(capsys):
 
 @pytest.mark.slow
 def test_measures_of_a_car(tmp_path, capsys, monkeypatch):
-    """What a car has is in `tests/vehicle/test_hatchback.py`; here where it is written."""
+    """What a car has is held by `benchmarks.figures`; here where it is written."""
     file, picture = tmp_path / "handling.json", tmp_path / "axles.png"
     told = {m.name: 0.5 + k for k, m in enumerate(MEASURES)}
     monkeypatch.setattr(handling, "measure", lambda car: told)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import time
 from contextlib import AbstractContextManager, nullcontext
@@ -12,7 +13,7 @@ import pytest
 
 import mbs
 from fmu_src.build.build import build_fmu
-from fmu_src.native import ahead
+from fmu_src.native import ahead, compile, sources
 from fmu_src.native.ahead import compiled_ahead
 from mbs.kernel import build
 from tests.fmu import scenes
@@ -104,6 +105,30 @@ def test_what_a_build_has_compiled_is_not_begun_again(
     read = Path.read_bytes
     monkeypatch.setattr(Path, "read_bytes", lambda file: read(file) + b" " * (file.name == "ali3.h"))
     assert (count(), count()) == (2, 0)
+
+
+def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A changed C file is another file for the compiler, a changed header makes all of them others."""
+
+    def given() -> set[str]:
+        command = compile.library_command("python", build.host_target(), tmp_path / "table.c", tmp_path / "library")
+        return {part for part in command if part.endswith(".c") or part.startswith("-I")}
+
+    rooms, here = compile._ROOMS, given()
+    for root, name in rooms.items():
+        shutil.copytree(root, tmp_path / name, ignore=shutil.ignore_patterns("lib", "__pycache__"))
+    monkeypatch.setattr(compile, "_ROOMS", {tmp_path / name: name for name in rooms.values()})
+    monkeypatch.setattr(build, "HERE", tmp_path / "kernel")
+    monkeypatch.setattr(sources, "HERE", tmp_path / "shell")
+    monkeypatch.setattr(sources, "DETOUR", tmp_path / "detour")
+    assert given() == here
+    with (tmp_path / "shell" / "step.c").open("a") as file:
+        file.write("\n")
+    (other,) = given() - here
+    assert Path(other).read_text() == (tmp_path / "shell" / "step.c").read_text()
+    with (tmp_path / "kernel" / "src" / "instance.h").open("a") as file:
+        file.write("\n")
+    assert given() & here == {str(tmp_path / "table.c")}
 
 
 @pytest.mark.slow
