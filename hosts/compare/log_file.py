@@ -80,8 +80,8 @@ class RawLog:
 def read_log(path: Path, dialect: Dialect) -> RawLog:
     """Read a log.
 
-    `path`: a file that ends in ``.parquet``, or CSV; `dialect`: what is known of a CSV file. Raises `HostError`: it cannot
-    be read; one sentence.
+    `path`: a file that ends in ``.parquet``, or CSV; `dialect`: what is known of a CSV file. Raises `HostError`: it
+    cannot be read.
     """
     check_file(path, LARGEST, HostError, f"The log {path}")
     if path.suffix.lower() in _MDF:

@@ -14,7 +14,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import wishes_with_road
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
-from hosts.compare.log_aliases import LogAliases, refuse_log_aliases, read_log_aliases
+from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
