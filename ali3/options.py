@@ -81,7 +81,7 @@ SHARED: dict[str, Option] = {
     "--stop-time": Option("T", "how long a run is, s", number),
     "--from": Option("T", "use what was recorded from this time on, s", number),
     "--to": Option("T", "use what was recorded up to this time, s", number),
-    "--seed": Option("S", "a driver without sense moves the inputs, as this whole number says", int),
+    "--seed": Option("S", "a driver moves the inputs at random, the same for the same whole number", int),
     "--manoeuvre": Option(
         "NAME|FILE",
         "what the inputs do: the name of a manoeuvre, its TOML file, a CSV table over time, or the folder of a "
