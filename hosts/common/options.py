@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from ali3.options import add_option
-from hosts.common.numbers import Value
 
 ROAD = "road.file"
 """Parameter of an FMU for the file of its road."""
@@ -48,9 +46,3 @@ def add_setting_options(parser: argparse._ActionsContainer) -> None:
 def wishes(options: argparse.Namespace) -> Wishes:
     """What was given by the options of `add_setting_options`."""
     return Wishes(options.parameters, options.set)
-
-
-def set_words(values: Mapping[str, Value]) -> list[str]:
-    """Words of a command line that set these values by ``--set``."""
-    texts = {name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in values.items()}
-    return [word for name, text in texts.items() for word in ("--set", f"{name}={text}")]

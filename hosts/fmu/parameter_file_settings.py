@@ -25,11 +25,8 @@ def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
 def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, source: str) -> Setting:
     variable = variables.settable(entry.name, source)
     value = _taken(variable, entry.kind, entry.value, source)
-    if (
-        entry.unit is None
-        or variable.kind != "Real"
-        or (entry.unit == variable.unit and entry.unit not in parameters.units)
-    ):
+    own_unit = entry.unit == variable.unit and entry.unit not in parameters.units
+    if entry.unit is None or variable.kind != "Real" or own_unit:
         return Setting(variable, variable.check(value, source), source)
     assert isinstance(value, float)
     definition = parameters.units.get(entry.unit)

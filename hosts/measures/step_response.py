@@ -20,8 +20,7 @@ class StepResponse:
     response_time: float
     """From the reference time to 90 % of `steady`, s."""
     peak: float
-    """Largest value in the direction of `steady` after the step, in the unit of the quantity; `steady` if the response
-    does not overshoot."""
+    """Largest value after the step, in the direction and the unit of `steady`; `steady` if there is no overshoot."""
     peak_response_time: float
     """From the reference time to the peak, s; NaN if the response does not overshoot."""
     overshoot: float

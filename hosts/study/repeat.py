@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import set_words
+from hosts.common.set_words import set_words
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import read_record
 
@@ -79,9 +79,8 @@ def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[st
 def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
     write_manoeuvre(job.manoeuvre, file)
-    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_words(values)]
-    drive = _line("run", [*words, "--out", str(file.parent)])
-    return Repeat(drive, _line("view", [*words, "--out", str(file.parent)]))
+    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_words(values), "--out", str(file.parent)]
+    return Repeat(_line("run", words), _line("view", words))
 
 
 def _line(command: str, words: list[str]) -> str:
