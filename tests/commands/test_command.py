@@ -173,9 +173,9 @@ def test_an_option_of_two_commands_is_one_option() -> None:
     for key, option in SHARED.items():
         for action in found[key]:
             assert action.option_strings == [key, *option.other_names]
-            assert action.help.startswith(option.text)
-            if option.form:
-                assert (action.metavar, action.type) == (option.form, option.type)
+            assert action.help.startswith(option.help)
+            if option.metavar:
+                assert (action.metavar, action.type) == (option.metavar, option.type)
             else:
                 assert action.nargs == 0
     assert sum(len(set(map(id, options_of(c.name).values()))) - 1 for c in COMMANDS) <= MOST_OPTIONS
