@@ -14,19 +14,19 @@ _WINDOWS_CRASH = 0xC0000000
 
 
 @contextmanager
-def kept_from_children() -> Iterator[None]:
-    """A context in which processes and threads are started that this program ends: they never meet `STOPPING`.
+def stop_signals_blocked() -> Iterator[None]:
+    """A context that blocks the signals of `STOPPING` for processes and threads started in it, which this program ends.
 
-    A terminal sends Ctrl-C to all processes of a command. What comes meanwhile is met after the context.
+    A terminal sends Ctrl-C to all processes of a command. One that comes meanwhile is delivered after the context.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
     from multiprocessing import resource_tracker
 
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)  # which what is started inherits
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)  # children inherit the mask
     try:
-        resource_tracker.ensure_running()  # Python's own process beside others; it unblocks some at its end
+        resource_tracker.ensure_running()  # Python's own process; this call unblocks SIGINT and SIGTERM
         signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)
         yield
     finally:
@@ -34,13 +34,13 @@ def kept_from_children() -> Iterator[None]:
 
 
 def ignore_stopping() -> None:
-    """Leave it to the program that has started this one to end it: signals of a terminal reach both."""
+    """Ignore `STOPPING`: the program that has started this one ends it, and a terminal's signals reach both."""
     for number in STOPPING:
         signal.signal(number, signal.SIG_IGN)
 
 
 def how_ended(code: int | None, said: str = "") -> str:
-    """How a process has ended that was to go on, as the end of a sentence such as ``crashed (SIGSEGV)``.
+    """How a process has ended that was to go on, as the end of a sentence, such as ``crashed (SIGSEGV)``.
 
     `code`: as `subprocess` and `multiprocessing` give it; `said`: what it wrote to its standard error; the last line is
     quoted.

@@ -28,7 +28,7 @@ def parse_number(text: str) -> float:
 
 
 def number(text: str) -> float:
-    """A number of the command line; whether it may be infinite or none at all depends on its use."""
+    """A number of the command line; whether it may be infinite or NaN depends on its use."""
     try:
         return float(text) if _NOT_FINITE.fullmatch(text.strip()) else parse_number(text)
     except ValueError as error:

@@ -13,7 +13,7 @@ from ali3.words import brief, shortened
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of a command line whose messages quote the beginning of what is long."""
+    """A parser of a command line; its messages shorten long words."""
 
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""
@@ -26,14 +26,13 @@ class Parser(argparse.ArgumentParser):
 class Option(NamedTuple):
     """What an option is wherever it stands."""
 
-    form: str
+    metavar: str
     """Of its value in the help; empty for one without a value."""
-    text: str
-    """Help, without the default."""
+    help: str
+    """Without the default."""
     type: Callable[[str], Any] = str
     """Makes the value of the text."""
-    short: tuple[str, ...] = ()
-    """Further names."""
+    other_names: tuple[str, ...] = ()
 
 
 def folder(text: str) -> Path:
@@ -81,7 +80,7 @@ SHARED: dict[str, Option] = {
     "--stop-time": Option("T", "how long a run is, s", number),
     "--from": Option("T", "use what was recorded from this time on, s", number),
     "--to": Option("T", "use what was recorded up to this time, s", number),
-    "--seed": Option("S", "a driver without sense moves the inputs, as this whole number says", int),
+    "--seed": Option("S", "a driver moves the inputs at random, the same for the same whole number", int),
     "--manoeuvre": Option(
         "NAME|FILE",
         "what the inputs do: the name of a manoeuvre, its TOML file, a CSV table over time, or the folder of a "
@@ -117,15 +116,15 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
     ``action``, ``dest``.
     """
     option = SHARED[name]
-    words = option.text + (f"; default: {usual}" if usual else "")
-    if option.form:
-        more |= {"metavar": option.form, "type": option.type}
+    words = option.help + (f"; default: {usual}" if usual else "")
+    if option.metavar:
+        more |= {"metavar": option.metavar, "type": option.type}
     else:
         more["action"] = "store_true"
     if more.get("action") == "append":
         more.setdefault("default", [])
-        words = words if option.text.endswith("repeatable") else words + "; repeatable"
-    parser.add_argument(name, *option.short, help=words, **more)
+        words = words if option.help.endswith("repeatable") else words + "; repeatable"
+    parser.add_argument(name, *option.other_names, help=words, **more)
 
 
 def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:

@@ -30,7 +30,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class ParameterSet:
-    """What a file holds."""
+    """Parameters with their values and the units that these have."""
 
     name: str
     entries: Sequence[Entry]
@@ -46,8 +46,8 @@ class ParameterSet:
         return sha256((text + units).encode()).hexdigest()[:16]
 
 
-def told(description: str, bounds: str, variability: str) -> str:
-    """Description of a parameter for who edits the file: what it is, its range, and when it may change.
+def parameter_text(description: str, bounds: str, variability: str) -> str:
+    """Description of a parameter for those who edit the file: what it is, its range, and when it may change.
 
     `bounds`: the range in words; empty where it is open; `variability`: ``fixed`` or ``tunable``.
     """

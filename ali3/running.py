@@ -19,7 +19,7 @@ _prefix: str | None = None
 
 
 def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
-    """Do the work of a command. SIGTERM and SIGHUP are met in it as Ctrl-C is, by a `KeyboardInterrupt`.
+    """Do the work of a command. In it SIGTERM and SIGHUP raise a `KeyboardInterrupt`, as Ctrl-C does.
 
     `work`: gives the exit code; `errors`: besides `UserError` and `OSError`, what the user can put right: the message
     is shown, the exit code is 2. Returns the exit code.

@@ -16,30 +16,27 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-def done_by(
+def as_completed(
     work: Callable[[T, Tell], R], tasks: Sequence[T], jobs: int, told: Callable[[int, Any], None]
 ) -> Generator[tuple[int, R | Lost]]:
     """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
 
-    `work`: see `Isolated`; `jobs`: at a time; `told`: called with the place of a task and what its work tells. Raises
-    `UserError`: the work of a task has raised one; no further task is begun.
-
-    Notes
-    -----
-    Where the iteration is left early, as by Ctrl-C, the processes are ended.
+    `work`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and what its work tells. Where
+    the iteration is left early, as by Ctrl-C, the processes are ended. Raises `UserError`: the work of a task has
+    raised one; no further task is begun.
     """
     workers: list[Isolated[T, R]] = [Isolated(work) for _ in range(max(1, min(jobs, len(tasks))))]
     try:
-        yield from shared_by(workers, tasks, told)
+        yield from as_completed_by(workers, tasks, told)
     finally:
         for worker in workers:
             worker.close()
 
 
-def shared_by(
+def as_completed_by(
     workers: Sequence[Isolated[T, R]], tasks: Sequence[T], told: Callable[[int, Any], None] = lambda place, word: None
 ) -> Generator[tuple[int, R | Lost]]:
-    """As `done_by`, by processes that are there and stay; where the iteration is left early, they are ended."""
+    """As `as_completed`, by processes that go on to exist at its end."""
     idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()
     arrived: queue.SimpleQueue[tuple[int, Future[R | Lost] | None, Any]] = queue.SimpleQueue()
     for worker in workers:

@@ -31,7 +31,7 @@ def heeded() -> list[signal.Signals]:
 
 @contextmanager
 def stopped_by_signals() -> Iterator[None]:
-    """A context in which all that ends programs is met as Ctrl-C is: by an exception, so that what is done is kept."""
+    """A context in which signals that end programs raise an exception, as Ctrl-C does, so that what is done is kept."""
     if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
         yield
         return

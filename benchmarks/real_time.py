@@ -1,6 +1,6 @@
 """Worst steps of wild driving: ``python -m benchmarks.real_time [--json FILE] [--chart FILE]``.
 
-A car is driven without sense over kerbs, rough ground and ramps at each fidelity and step, once without a limit of the
+A car is driven at random over kerbs, rough ground and ramps at each fidelity and step, once without a limit of the
 iterations of a step and once with `LIMITS`; the prototype with all modes of its frame makes the paper's kerb test too.
 Measured is processor time of the thread, which leaves out what others do in between; the worst steps are repeated from
 their saved states by a C program, and their instructions are counted where valgrind is installed. An hour each

@@ -1,4 +1,9 @@
-"""Penalty and index-1 augmented Lagrangian formulations (E. Bayo and co-workers): no multipliers as unknowns."""
+"""Penalty and index-1 augmented Lagrangian formulations, which have no multipliers as unknowns.
+
+E. Bayo, J. García de Jalón, M. A. Serna, A modified Lagrangian formulation for the dynamic analysis of constrained
+mechanical systems, 1988; projections: E. Bayo, R. Ledesma, Augmented Lagrangian and mass-orthogonal projection methods
+for constrained multibody dynamics, 1996.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +13,12 @@ import scipy.linalg
 from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
 DAMPING, FREQUENCY = 1.0, 10.0  # of the constraint oscillators, -, 1/s
-ITERATIONS, SETTLED = 30, 1e-10
-PROJECTIONS, CLOSED = 5, 1e-12
+ITERATIONS, SETTLED = 30, 1e-10  # of the accelerations; change of a component in parts of 1 + the largest
+PROJECTIONS, CLOSED = 5, 1e-12  # of the positions; mass-normalised Phi
 
 
 class Penalty:
-    """``(M + Phi_q' a Phi_q) qdd = Q - Phi_q' a (gamma + 2 z w Phi' + w^2 Phi)``.
+    """``(M + Phi_q' a Phi_q) qdd = Q - Phi_q' a (gamma + 2 z w Phi_q qd + w^2 Phi)``, z `DAMPING`, w `FREQUENCY`.
 
     `penalty`: a, of the mass-normalised rows; `augmented`: iterate on the accelerations until the rows are met (index-1
     augmented Lagrangian) and project positions and velocities onto the constraints, in the metric of M, after each

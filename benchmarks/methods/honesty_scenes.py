@@ -20,9 +20,8 @@ from mbs.results.accuracy import extent, judged_sensors
 from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
-CLOSE = (
-    1e-3  # of the extent: a run that shall tell the sensors without an exact motion is this near to it where there is
-)
+CLOSE = 1e-3
+"""In parts of the extent: how near a fine run, which stands for sensors without an exact motion, is to the others'."""
 CRANK_ANGLE = 758.62661  # rad after 2 s: its one degree of freedom under DOP853 at 1e-12
 TUMBLING = np.diag([0.1, 0.2, 0.3]), np.array([0.01, 5.0, 0.01])  # kg m2, rad/s: about the middle axis, slightly off
 TUMBLES = 20.0  # s
@@ -41,7 +40,7 @@ BEST = {
     "bicycle": ("runge_kutta_8", 20),
     "spatial_chain": ("semi_recursive", 40),
 }
-"""Method and division that come nearest to the exact motion: for sensors that it does not name."""
+"""Method, and steps from one sample to the next, that come nearest to the exact motion: for sensors that it lacks."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +56,7 @@ class Scene:
     system: Callable[[], mbs.System]
     """Whose length tells what is rest."""
     methods: Callable[[], list[str]]
-    """Names of those that take it."""
+    """Names of the methods that can run it."""
     steps: tuple[float, ...]
     """From coarse to fine, s."""
 
@@ -77,10 +76,14 @@ class Scene:
         return worst, estimated
 
 
+def _recorded(system: mbs.System, end: float, method: str, h: float, **more: Any) -> mbs.Trajectory:
+    """A run that is recorded at its `SAMPLES` instants."""
+    every = max(1, round(end / SAMPLES / h))
+    return mbs.simulate(system, end, h, method=method, every=every, progress=False, **more)
+
+
 def _case_run(name: str, method: str, h: float, **more: Any) -> mbs.Trajectory:
-    case = CASES[name]
-    every = round(case.end / SAMPLES / h)
-    return mbs.simulate(system_of(name), case.end, h, method=method, every=every, progress=False, **more)
+    return _recorded(system_of(name), CASES[name].end, method, h, **more)
 
 
 @cache
@@ -125,8 +128,7 @@ def printed_model() -> mbs.System:
 
 
 def _crank_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
-    every = round(2.0 / SAMPLES / h)
-    return mbs.simulate(printed_model(), 2.0, h, {"torque": 4.0}, method=method, every=every, progress=False, **more)
+    return _recorded(printed_model(), 2.0, method, h, inputs={"torque": 4.0}, **more)
 
 
 @cache
@@ -149,8 +151,7 @@ def tumbling_body() -> mbs.System:
 
 
 def _tumbling_run(method: str, h: float, **more: Any) -> mbs.Trajectory:
-    every = max(1, round(TUMBLES / SAMPLES / h))
-    return mbs.simulate(tumbling_body(), TUMBLES, h, method=method, every=every, progress=False, **more)
+    return _recorded(tumbling_body(), TUMBLES, method, h, **more)
 
 
 @cache
@@ -216,4 +217,3 @@ SCENES: dict[str, Scene] = {
     ),
     **{f"car, {name}": _car(name) for name in manoeuvres.NAMES},
 }
-"""Scenes by name."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.parameter_set import Entry, ParameterSet, told
+from ali3.parameter_set import Entry, ParameterSet, parameter_text
 from ali3.unit_definition import UnitDefinition
 from ali3.words import range_words
 from ali3.write_parameter_set import is_as_built, write_parameter_set
@@ -20,7 +20,7 @@ def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVari
     chosen = [v for v in table if v.causality == "parameter" and v.start is not None]
     units = {v.unit: parse_unit(v.unit, foreign=bool(v.ours)) for v in chosen if not v.whole}
     definitions = {n: UnitDefinition(u.exponents, u.factor) for n, u in sorted(units.items())}
-    written = [Entry(t.name, "String", t.start, None, told(t.description, "", "fixed")) for t in texts]
+    written = [Entry(t.name, "String", t.start, None, parameter_text(t.description, "", "fixed")) for t in texts]
     return ParameterSet(name, [_entry(v) for v in chosen] + written, definitions)
 
 
@@ -37,7 +37,7 @@ def _entry(v: Variable) -> Entry:
     bounds = range_words(
         -math.inf if v.min is None else v.min, math.inf if v.max is None else v.max, "1" if v.whole else v.unit
     )
-    text = told(v.description, bounds, v.variability)
+    text = parameter_text(v.description, bounds, v.variability)
     if v.whole:
         return Entry(v.name, "Integer", str(int(v.start)), None, text)
     return Entry(v.name, "Real", repr(float(v.start)), v.unit, text)

@@ -166,7 +166,7 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
     from ali3.bars import bar as bar_of
     from ali3.isolated import Lost
-    from ali3.shared_tasks import done_by
+    from ali3.shared_tasks import as_completed
     from hosts.catalogue.kept import keep
     from hosts.catalogue.task import do
 
@@ -179,7 +179,7 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        with closing(done_by(do, tasks, jobs, progress)) as done:
+        with closing(as_completed(do, tasks, jobs, progress)) as done:
             for place, outcome in done:
                 progress(place, 1.0)
                 words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.isolated import Isolated, Lost
-from ali3.shared_tasks import shared_by
+from ali3.shared_tasks import as_completed_by
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu
@@ -41,7 +41,7 @@ class Crew:
         """Drive all stretches; results in their order. Raises `HostError`: a process has ended."""
         tasks: list[_Task] = [(k, dict(values or {}), can_reset) for k in range(len(self._stretches))]
         results: dict[int, Result] = {}
-        for k, result in shared_by(self._workers, tasks):
+        for k, result in as_completed_by(self._workers, tasks):
             if isinstance(result, Lost):
                 raise HostError(
                     f"The process that drove the window from {self._stretches[k].begin:g} s {result.how}. --jobs 1 "

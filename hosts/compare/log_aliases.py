@@ -17,7 +17,7 @@ TIME_UNITS: Mapping[str, float | None] = {
 }  # fmt: skip
 """Seconds of a unit of time; None: texts such as ``2024-05-03T12:00:00.010``."""
 _TABLES = ("file", "time", "signals")
-_FILE = ("delimiter", "decimal", "encoding", "heading", "units")
+_DIALECT = ("delimiter", "decimal", "encoding", "heading", "units")
 _TIME = ("name", "unit", "factor", "offset")
 _SIGNAL = ("name", "unit", "factor", "offset", "time")
 
@@ -46,8 +46,8 @@ class Clock:
 
 
 @dataclass(frozen=True)
-class Form:
-    """How a CSV file is written; None: found out."""
+class Dialect:
+    """How a CSV file is written; what is None is found out from its first lines."""
 
     delimiter: str | None = None
     decimal: str | None = None
@@ -60,9 +60,9 @@ class Form:
 
 @dataclass(frozen=True)
 class LogAliases:
-    """What an alias file says; without one columns have our names already."""
+    """What an alias file says; without one the columns have our names."""
 
-    form: Form = field(default_factory=Form)
+    dialect: Dialect = field(default_factory=Dialect)
     clock: Clock = field(default_factory=Clock)
     columns: Mapping[str, Column] = field(default_factory=dict)
     file: str = ""
@@ -82,12 +82,12 @@ def read_log_aliases(file: Path) -> LogAliases:
     for key in _TABLES:
         if not isinstance(content.get(key, {}), dict):
             raise HostError(f"{file}: '{key}' must be a table, [{key}].")
-    form, clock = _form(content.get("file", {}), file), _clock(content.get("time", {}), file)
+    dialect, clock = _dialect(content.get("file", {}), file), _clock(content.get("time", {}), file)
     columns = {ours: _column(value, f"{file}: '{ours}'") for ours, value in content.get("signals", {}).items()}
-    return LogAliases(form, clock, columns, str(file))
+    return LogAliases(dialect, clock, columns, str(file))
 
 
-def check_of_fmu(file: Path) -> None:
+def refuse_log_aliases(file: Path) -> None:
     """Refuse the alias file of a log where that of an FMU is asked for.
 
     Raises `HostError`: it has only tables of a log's file.
@@ -96,8 +96,8 @@ def check_of_fmu(file: Path) -> None:
         raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")
 
 
-def _form(table: dict[str, Any], file: Path) -> Form:
-    _known(table, _FILE, f"{file}: [file]")
+def _dialect(table: dict[str, Any], file: Path) -> Dialect:
+    _known(table, _DIALECT, f"{file}: [file]")
     for key in ("delimiter", "decimal", "encoding"):
         value = table.get(key)
         if value is not None and (not isinstance(value, str) or (key != "encoding" and len(value) != 1)):
@@ -107,9 +107,10 @@ def _form(table: dict[str, Any], file: Path) -> Form:
         value = table.get(key)
         if value is not None and (isinstance(value, bool) or not isinstance(value, int) or value < least):
             raise HostError(f"{file}: [file] {key} is {value!r}; it must be the number of a line.")
-    if table.get("delimiter") is not None and table.get("delimiter") == table.get("decimal"):
-        raise HostError(f"{file}: [file] delimiter and decimal are both {table['decimal']!r}.")
-    return Form(**table)
+    for key, other in (("delimiter", "decimal"), ("heading", "units")):
+        if table.get(key) is not None and table[key] == table.get(other):
+            raise HostError(f"{file}: [file] {key} and {other} are both {table[key]!r}; they must differ.")
+    return Dialect(**table)
 
 
 def _clock(table: dict[str, Any], file: Path) -> Clock:
@@ -118,7 +119,7 @@ def _clock(table: dict[str, Any], file: Path) -> Clock:
     name, unit = table.get("name"), table.get("unit")
     if name is not None and not isinstance(name, str):
         raise HostError(f"{where} name is {name!r}; it must be the name of a column.")
-    if unit is not None and unit not in TIME_UNITS:
+    if unit is not None and (not isinstance(unit, str) or unit not in TIME_UNITS):
         raise HostError(f"{where} unit is {unit!r}; known are {', '.join(TIME_UNITS)}.")
     return Clock(name, unit, _factor(table, where), _number(table.get("offset", 0.0), f"{where} offset"))
 

@@ -15,8 +15,8 @@ from ali3.tables import LARGEST
 from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
-from hosts.compare.csv_form import find_form
-from hosts.compare.log_aliases import Form
+from hosts.compare.csv_dialect import find_dialect
+from hosts.compare.log_aliases import Dialect
 from hosts.driving.run_record import RunRecord, rows_before_jumps
 
 _MDF = (".mf4", ".mdf", ".dat")
@@ -77,11 +77,11 @@ class RawLog:
         return values
 
 
-def read_log(path: Path, form: Form) -> RawLog:
+def read_log(path: Path, dialect: Dialect) -> RawLog:
     """Read a log.
 
-    `path`: a file that ends in ``.parquet``, or CSV; `form`: what is known of a CSV file. Raises `HostError`: it cannot
-    be read; one sentence.
+    `path`: a file that ends in ``.parquet``, or CSV; `dialect`: what is known of a CSV file. Raises `HostError`: it
+    cannot be read.
     """
     check_file(path, LARGEST, HostError, f"The log {path}")
     if path.suffix.lower() in _MDF:
@@ -91,7 +91,7 @@ def read_log(path: Path, form: Form) -> RawLog:
         )
     if path.suffix.lower() in (".parquet", ".pq"):
         return _read_parquet(path)
-    found = find_form(path, form)
+    found = find_dialect(path, dialect)
     try:
         table = pd.read_csv(
             path,

@@ -14,7 +14,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import wishes_with_road
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
-from hosts.compare.log_aliases import LogAliases, check_of_fmu, read_log_aliases
+from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
@@ -71,8 +71,8 @@ def prepare(options: argparse.Namespace) -> Task:
     """Read log and FMU, and check them. Raises `HostError`: one sentence."""
     log_aliases = LogAliases() if options.log_aliases is None else read_log_aliases(options.log_aliases)
     if options.aliases is not None:
-        check_of_fmu(options.aliases)
-    raw = read_log(options.log, log_aliases.form)
+        refuse_log_aliases(options.aliases)
+    raw = read_log(options.log, log_aliases.dialect)
     with Fmu(options.fmu) as opened:
         aliases = aliases_of(options.aliases, opened.table)
         fmu = AliasedFmu(opened, aliases)

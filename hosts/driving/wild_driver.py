@@ -1,4 +1,4 @@
-"""A driver without sense: random steps and sines of every control, sudden turns, and full speed at ramps.
+"""A driver at random: steps and sines of every control, sudden turns, and full speed at ramps.
 
 The same seed gives the same drive: the numbers come from Python's `random.Random`, whose `random()` is the same on all
 platforms, and from what the car senses.

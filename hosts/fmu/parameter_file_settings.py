@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from ali3.parameter_set import Entry, ParameterSet
@@ -17,7 +16,7 @@ from hosts.fmu.variables import Variable, Variables, kind_words
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
     """Values of an SSV file.
 
-    Raises `HostError`: a name, value, kind or unit is wrong. Raises `ParameterSetError`: it is no such file.
+    Raises `HostError`: a name, value, kind or unit is wrong. Raises `ParameterSetError`: the file is no parameter set.
     """
     parameters = read_parameter_set(file)
     return [_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]
@@ -26,11 +25,8 @@ def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
 def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, source: str) -> Setting:
     variable = variables.settable(entry.name, source)
     value = _taken(variable, entry.kind, entry.value, source)
-    if (
-        entry.unit is None
-        or variable.kind != "Real"
-        or (entry.unit == variable.unit and entry.unit not in parameters.units)
-    ):
+    own_unit = entry.unit == variable.unit and entry.unit not in parameters.units
+    if entry.unit is None or variable.kind != "Real" or own_unit:
         return Setting(variable, variable.check(value, source), source)
     assert isinstance(value, float)
     definition = parameters.units.get(entry.unit)
@@ -40,8 +36,7 @@ def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, sour
         else _converted(variable, value, entry.unit, definition, source)
     )
     given = "" if converted == value else f"{value:g} {entry.unit}"
-    setting = Setting(variable, converted, source, given)
-    return replace(setting, value=variable.check(converted, f"{source}, {given}" if given else source))
+    return Setting(variable, variable.check(converted, f"{source}, {given}" if given else source), source, given)
 
 
 def _taken(variable: Variable, kind: str, text: str, source: str) -> Value:

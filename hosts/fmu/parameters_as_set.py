@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ali3.parameter_set import Entry, ParameterSet, told
+from ali3.parameter_set import Entry, ParameterSet, parameter_text
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable, Variables
 
@@ -21,7 +21,7 @@ def parameter_set_of(variables: Variables, name: str, values: Mapping[str, Value
         unit = v.unit if v.kind == "Real" and v.definition is not None else None
         if unit is not None and v.definition is not None:
             units[unit] = v.definition
-        text = told(v.description, v.range, v.variability)
+        text = parameter_text(v.description, v.range, v.variability)
         entries.append(Entry(v.name, v.kind, written(v, value), unit, text))
     return ParameterSet(name, entries, dict(sorted(units.items())))
 

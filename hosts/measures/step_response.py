@@ -1,4 +1,4 @@
-"""Response of a quantity to a step of the steering: times, overshoot, gain, as ISO 7401 has them."""
+"""Response of a quantity to a step of the steering: times, overshoot, steady value, as ISO 7401 has them."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ class StepResponse:
     response_time: float
     """From the reference time to 90 % of `steady`, s."""
     peak: float
-    """Largest value in the direction of `steady` after the step, in the unit of the quantity."""
+    """Largest value after the step, in the direction and the unit of `steady`; `steady` if there is no overshoot."""
     peak_response_time: float
-    """From the reference time to it, s; NaN if the response does not overshoot."""
+    """From the reference time to the peak, s; NaN if the response does not overshoot."""
     overshoot: float
     """(`peak` - `steady`) / `steady`; 0 if the response does not overshoot."""
     unsteadiness: float
-    """Standard deviation in the window of the steady state over the size of `steady`."""
+    """Standard deviation in the window of the steady state, in parts of the absolute value of `steady`."""
 
 
 NOTHING = StepResponse(*6 * (float("nan"),))
@@ -35,7 +35,7 @@ NOTHING = StepResponse(*6 * (float("nan"),))
 def mean_between(
     time: NDArray[np.float64], values: NDArray[np.float64], begin: float, end: float
 ) -> tuple[float, float]:
-    """Mean and standard deviation of a signal between two times; NaN if there is no sample."""
+    """Mean and standard deviation of a signal between two times, s; NaN if there is no sample."""
     part = values[(time >= begin) & (time <= end)]
     return (float(part.mean()), float(part.std())) if len(part) else (float("nan"), float("nan"))
 
@@ -48,8 +48,8 @@ def reference_time(
 ) -> float:
     """When the steering has passed half of its step.
 
-    `time`, `steering`: s and the angle of the steering wheel, shape (n,); `before`, `steady`: begin and end, s, of the
-    windows over which the angles before and after the step are averaged. Result: in s; NaN if there is no step.
+    `time`, `steering`: s and the angle of the steering wheel, shape (n,); `before`, `steady`: beginning and end, s, of
+    the windows over which the angles before and after the step are averaged. Result: in s; NaN if there is no step.
     """
     first, last = mean_between(time, steering, *before)[0], mean_between(time, steering, *steady)[0]
     return crossing(time, steering, 0.5 * (first + last), before[1])
@@ -71,8 +71,8 @@ def step_response(
     Notes
     -----
     The peak is the largest sample improved by a parabola through it and its neighbours, so that the step of the record
-    does not round its time. An excess below 1 % over the steady value is no overshoot but a rest of the settling, or of
-    the speed that the turn has taken.
+    does not round its time. An excess below 1 % over the steady value is no overshoot: the response still settles, or
+    the car loses speed in the turn.
     """
     if not np.isfinite(reference) or len(time) < 3 or time[-1] < steady[1] - 1e-6 or not np.isfinite(values).all():
         return NOTHING
@@ -87,10 +87,10 @@ def step_response(
     at, peak = top(time[first:], relative[first:])
     over = peak > 1.01
     return StepResponse(
-        final,
-        response,
-        final * peak if over else final,
-        at - reference if over else float("nan"),
-        peak - 1.0 if over else 0.0,
-        deviation / abs(final),
+        steady=final,
+        response_time=response,
+        peak=final * peak if over else final,
+        peak_response_time=at - reference if over else float("nan"),
+        overshoot=peak - 1.0 if over else 0.0,
+        unsteadiness=deviation / abs(final),
     )

@@ -9,7 +9,7 @@ from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 
 LIFTED = 1.0
-"""A wheel with a load up to this has left the road, N: solvers leave a rest of rounding errors."""
+"""A wheel with a load up to this has left the road, N: solvers leave rounding errors."""
 
 
 def at_wheels(result: Result, quantity: str) -> NDArray[np.float64] | None:

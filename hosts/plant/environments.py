@@ -57,7 +57,7 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
         self.car.read(self._reads, self._now)
 
     def _held(self, action: Floats) -> NDArray[np.float64]:
-        """An action, held within its space; refused where it is none, before anything changes."""
+        """An action, held within its space; refused if it is not one, before anything changes."""
         box = self.action_space
         assert isinstance(box, spaces.Box)
         try:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import shlex
 import zipfile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.scene_file import scene_from
@@ -67,9 +69,10 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
             columns |= dict.fromkeys(rigid, np.zeros(len(time)))
     recording = Recording(scene, time, columns, drive.meta["units"], name)
     if drive.left_out:
+        again = shlex.join([str(drive.meta["fmu"]), "--manoeuvre", str(folder)])
         recording.notes.append(
-            f"{len(drive.left_out)} outputs are not recorded, such as {drive.left_out[0]}; --interval records all, and "
-            f"'ali3 run {drive.meta['fmu']} --manoeuvre {folder}' computes them again."
+            f"{len(drive.left_out)} outputs are not recorded, such as {drive.left_out[0]}; --interval records all; to "
+            f"compute them again: {command_name('run')} {again}"
         )
     kinds = [event["kind"] for event in drive.events]
     jumps = [f"{kind} {kinds.count(kind)} times" for kind in ("reset", "rewind", "upright") if kind in kinds]

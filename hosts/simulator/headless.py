@@ -1,4 +1,4 @@
-"""Driving without a page: inputs are held, or come from a manoeuvre or from a driver without sense."""
+"""Driving without a page: inputs are held, or come from a manoeuvre or from a driver at random."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def with_start_of(asked: Asked, manoeuvre: Manoeuvre | None) -> Asked:
 
 
 def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:
-    """Who moves the inputs of a car. `wild`: seed of a driver without sense."""
+    """Who moves the inputs of a car. `wild`: seed of a driver at random."""
     if manoeuvre is not None:
         return OfManoeuvre(manoeuvre, car)
     return Held() if wild is None else WildDriver(wild, car.inputs)

@@ -10,7 +10,7 @@ from struct import Struct
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.children import kept_from_children
+from ali3.children import stop_signals_blocked
 from hosts.simulator.step_times import TIMES_SIZE
 
 MOMENT = (
@@ -190,7 +190,7 @@ class SharedValues:
         counters = 12
         doubles = 2 * moment + 2 * wants + 3 * _COMMANDS + row * sizes.rows + TIMES_SIZE
         size = 8 * (_FLAGS + counters + doubles) + _MESSAGE_BYTES + _STATE_BYTES
-        with kept_from_children():  # shared memory has a process of Python's beside it
+        with stop_signals_blocked():  # shared memory has a process of Python's beside it
             self._memory = SharedMemory(name) if name else SharedMemory(create=True, size=size)
         self.name = self._memory.name
         assert self._memory.buf is not None

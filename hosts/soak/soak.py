@@ -69,7 +69,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     try:
         _drive_all(tasks, outcomes, options.jobs or available_cores())
     finally:  # after Ctrl-C too, of what is done
-        print_outcomes(tasks, outcomes, f"{prog} --soak")
+        print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
         if options.json is not None:
             record = {"tasks": [asdict(task) for task in tasks], "outcomes": [asdict(outcome) for outcome in outcomes]}
             write_text(options.json, json.dumps(record, indent=1) + "\n")
@@ -81,7 +81,7 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
     """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
     from ali3.bars import bar as bar_of
     from ali3.isolated import Lost
-    from ali3.shared_tasks import done_by
+    from ali3.shared_tasks import as_completed
     from hosts.soak.drive import Failure, drive
 
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
@@ -92,7 +92,7 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
             outcomes[place].simulated = min(seconds, tasks[place].seconds)
             bar.update(min(int(sum(outcome.simulated for outcome in outcomes)), total) - bar.n)
 
-        with closing(done_by(drive, tasks, jobs, progress)) as done:
+        with closing(as_completed(drive, tasks, jobs, progress)) as done:
             for place, outcome in done:
                 if isinstance(outcome, Lost):
                     seconds, words = outcomes[place].simulated, f"The process of the drive {outcome.how}."

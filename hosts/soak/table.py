@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import shlex
+from collections.abc import Callable, Sequence
 
 from ali3.columns import in_columns
 from ali3.running import command_name
+from hosts.common.set_words import set_words
 from hosts.soak.drive import Outcome, Task
 from hosts.soak.memory import LARGEST_GROWTH
 
-_HEADINGS = (
-    *("seed", "fidelity", "s", "runs", "km/h", "km away", "jumps", "longest", "rolled", "upright", "rewound"),
-    *("failed", "balance", "open", "iterations", "halved", "capped", "memory", "grown", "wall s"),
-)
+_COLUMNS: dict[str, Callable[[Outcome], str]] = {
+    "seed": lambda o: f"{o.seed}",
+    "fidelity": lambda o: "-" if o.fidelity is None else f"{o.fidelity}",
+    "s": lambda o: f"{o.simulated:.0f}",
+    "runs": lambda o: f"{o.runs}",
+    "km/h": lambda o: f"{3.6 * o.counts.top_speed:.0f}",
+    "km away": lambda o: f"{1e-3 * o.counts.farthest:.0f}",
+    "jumps": lambda o: f"{o.counts.jumps}",
+    "longest": lambda o: f"{o.counts.longest_jump:.2f} s",
+    "rolled": lambda o: f"{o.counts.rollovers}",
+    "upright": lambda o: f"{o.uprights}",
+    "rewound": lambda o: f"{o.rewinds}",
+    "failed": lambda o: f"{len(o.failures)}",
+    "balance": lambda o: f"{o.counts.largest_balance:.4f}",
+    "open": lambda o: f"{o.counts.largest_open_energy:.4f}",
+    "iterations": lambda o: f"{o.counts.most_iterations:.0f}",
+    "halved": lambda o: f"{o.counts.halvings:.0f}",
+    "capped": lambda o: f"{o.counts.capped:.0f}",
+    "memory": lambda o: f"{o.memory_last:.1f} MB",
+    "grown": lambda o: f"{o.memory_growth:+.2f} MB",
+    "wall s": lambda o: f"{o.wall:.0f}",
+}
 
 
 def is_good(outcome: Outcome) -> bool:
@@ -20,14 +40,15 @@ def is_good(outcome: Outcome) -> bool:
     return not outcome.failures and outcome.memory_growth <= LARGEST_GROWTH
 
 
-def print_outcomes(tasks: Sequence[Task], outcomes: Sequence[Outcome], prog: str) -> None:
+def print_outcomes(tasks: Sequence[Task], outcomes: Sequence[Outcome], prog: str, worlds: Sequence[str] = ()) -> None:
     """Print a row for each drive, the failures with the commands that repeat them, and the sum.
 
-    `outcomes`: one for each task; `prog`: how the user typed the command.
+    `outcomes`: one for each task; `prog`: how the user typed the command; `worlds`: those of ``--world``.
     """
-    print("\n".join(in_columns([_HEADINGS, *map(_row, outcomes)], range(len(_HEADINGS)))))
+    rows = [[cell(outcome) for cell in _COLUMNS.values()] for outcome in outcomes]
+    print("\n".join(in_columns([[*_COLUMNS], *rows], range(len(_COLUMNS)))))
     for task, outcome in zip(tasks, outcomes, strict=True):
-        _print_failures(task, outcome, prog)
+        _print_failures(task, outcome, prog, worlds)
     messages: dict[str, int] = {}
     for outcome in outcomes:
         for message, count in outcome.messages.items():
@@ -41,41 +62,16 @@ def print_outcomes(tasks: Sequence[Task], outcomes: Sequence[Outcome], prog: str
     print(f"{hours:.3g} h simulated in {steps} steps: {bad} failures, {grown} drives whose memory grew.")
 
 
-def _row(outcome: Outcome) -> tuple[str, ...]:
-    counts = outcome.counts
-    return (
-        f"{outcome.seed}",
-        "-" if outcome.fidelity is None else f"{outcome.fidelity}",
-        f"{outcome.simulated:.0f}",
-        f"{outcome.runs}",
-        f"{3.6 * counts.top_speed:.0f}",
-        f"{1e-3 * counts.farthest:.0f}",
-        f"{counts.jumps}",
-        f"{counts.longest_jump:.2f} s",
-        f"{counts.rollovers}",
-        f"{outcome.uprights}",
-        f"{outcome.rewinds}",
-        f"{len(outcome.failures)}",
-        f"{counts.largest_balance:.4f}",
-        f"{counts.largest_open_energy:.4f}",
-        f"{counts.most_iterations:.0f}",
-        f"{counts.halvings:.0f}",
-        f"{counts.capped:.0f}",
-        f"{outcome.memory_last:.1f} MB",
-        f"{outcome.memory_growth:+.2f} MB",
-        f"{outcome.wall:.0f}",
-    )
-
-
-def _print_failures(task: Task, outcome: Outcome, prog: str) -> None:
+def _print_failures(task: Task, outcome: Outcome, prog: str, worlds: Sequence[str]) -> None:
     where = f"seed {outcome.seed}" + ("" if outcome.fidelity is None else f", fidelity {outcome.fidelity}")
     for failure in outcome.failures:
         road = failure.road or "the built-in road"
         print(f"{where}, run {failure.run}, {failure.time:g} s on {road}: {failure.kind}: {failure.text}")
         if failure.manoeuvre:
-            again = f"{task.fmu} -m {failure.manoeuvre} --step {task.step:g}"
-            print(f"  the last seconds again: {command_name('run')} {again}")
+            words = [task.fmu, "-m", failure.manoeuvre, "--step", repr(task.step)]
+            print(f"  the last seconds again: {command_name('run')} {shlex.join(words)}")
     if outcome.failures or outcome.memory_growth > LARGEST_GROWTH:
-        fidelity = "" if outcome.fidelity is None else f" --fidelity {outcome.fidelity}"
-        again = f"{task.fmu} --seed {task.seed}{fidelity} --stop-time {task.seconds!r} --drives 1"
-        print(f"  the whole drive again: {prog} {again}")
+        words = [task.fmu, "--seed", str(task.seed), "--stop-time", repr(task.seconds), "--drives", "1"]
+        words += [] if outcome.fidelity is None else ["--fidelity", str(outcome.fidelity)]
+        words += ["--step", repr(task.step), *(part for name in worlds for part in ("--world", name))]
+        print(f"  the whole drive again: {prog} {shlex.join([*words, *set_words(task.start)])}")

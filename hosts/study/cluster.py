@@ -16,7 +16,7 @@ import dask
 from distributed import Client, KilledWorker, LocalCluster, Security
 
 from ali3.cache import cache_folder
-from ali3.children import kept_from_children
+from ali3.children import stop_signals_blocked
 from ali3.cores import available_cores
 from hosts.common.errors import HostError
 from hosts.study.plan import Plan
@@ -83,7 +83,7 @@ def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
     }
     places = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
     with dask.config.set(settings):
-        with kept_from_children():
+        with stop_signals_blocked():
             cluster = LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,

@@ -7,6 +7,7 @@ runs that are missing. A folder of results takes the place of the file to repeat
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -134,7 +135,5 @@ def _of_folder(folder: Path, prog: str) -> str:
     record = read_record(folder)
     if record is None:
         return f"{folder} is a folder; a study is a TOML file."
-    return (
-        f"{folder} holds the results of {record['file']}; to go on: {prog} {record['file']} --out {folder}; "
-        "else give --run or --report."
-    )
+    line = shlex.join([record["file"], "--out", str(folder)])
+    return f"{folder} holds the results of {record['file']}; to go on: {prog} {line}; else give --run or --report."

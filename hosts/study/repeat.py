@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.common.set_words import set_words
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import read_record
 
@@ -71,24 +72,15 @@ def _alias_file(name: str, file: Path) -> str:
 def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
     step = [] if math.isnan(job.step) else ["--step", repr(job.step)]
     settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
-    words = [str(fmu), "--tests", job.test, *_sets({**job.start, **values}), *settings, *step, *aliases]
+    words = [str(fmu), "--tests", job.test, *set_words({**job.start, **values}), *settings, *step, *aliases]
     return Repeat(_line("catalogue", [*words, "--out", str(out)]), "")
 
 
 def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
     write_manoeuvre(job.manoeuvre, file)
-    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *_sets(values)]
-    drive = _line("run", [*words, "--out", str(file.parent)])
-    return Repeat(drive, _line("view", [*words, "--out", str(file.parent)]))
-
-
-def _sets(values: Mapping[str, Value]) -> list[str]:
-    return [part for name, value in values.items() for part in ("--set", f"{name}={_text(value)}")]
-
-
-def _text(value: Value) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value) if isinstance(value, str) else repr(value)
+    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_words(values), "--out", str(file.parent)]
+    return Repeat(_line("run", words), _line("view", words))
 
 
 def _line(command: str, words: list[str]) -> str:

@@ -10,6 +10,7 @@ import zipfile
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from fmpy.model_description import ModelDescription
@@ -111,8 +112,8 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
 def build_line(path: Path) -> str:
     """The command that builds an FMU of this file's name with what a page needs."""
     snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
-    what = f"--car {snake}" if _has_car(path) else f"--scene {snake}"
-    out = "" if path.parent == Path("dist") else f" --out {path.parent}"
+    what = f"{'--car' if _has_car(path) else '--scene'} {quote(snake)}"
+    out = "" if path.parent == Path("dist") else f" --out {quote(str(path.parent))}"
     return f"{command_name('build')} {what} --kind native --platforms this,{PLATFORM}{out}"
 
 

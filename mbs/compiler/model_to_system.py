@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,19 +18,14 @@ from mbs.compiler.consistent import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
 from mbs.compiler.extent import check_near, coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
-from mbs.compiler.flexible import (
-    deformation_metric,
-    flexible_arrays,
-    flexible_cliques,
-    flexible_coordinates,
-)
+from mbs.compiler.flexible import deformation_metric, flexible_arrays, flexible_cliques, flexible_coordinates
 from mbs.compiler.frames import frames_of
 from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compiler.fronts import Fronts, build_fronts
 from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
 from mbs.compiler.locked import check_motion
 from mbs.compiler.metadata import metadata
-from mbs.compiler.natural import natural_coordinates
+from mbs.compiler.natural import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
 from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
@@ -96,7 +92,38 @@ def compiled(
     trees : callable, optional
         `tree_arrays`: makes what methods in relative coordinates step; without it the report has none.
     """
-    checked(model)
+    reduced = _reduced(checked(model))
+    ordered = _ordered(model, reduced)
+    start = _start(model, reduced, ordered)
+    tables, no_tree, modes = _tables(model, reduced, ordered, start, watch, trees)
+    meta = _metadata(model, reduced, ordered, start.rank, closed or {}, no_tree)
+    frames = frames_of(model, ordered.T[:, ordered.fronts.order], ordered.z0)
+    if flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
+        parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
+        resting = CompiledModel(tables, meta)
+        q = equilibrium(resting, parameters)
+        tables.update(start_arrays(resting, parameters))
+        tables.update(q0=q, qd0=np.zeros_like(q), **_pose(model, reduced, ordered, q))
+    return CompiledModel(tables, meta, frames, modes)
+
+
+@dataclass(frozen=True)
+class _Reduced:
+    """Coordinates z and rows that a model is reduced to."""
+
+    natural: NaturalCoordinates
+    known: Dependents
+    rows: list[RowTerms]
+    counts: Mapping[str, int]
+    """What was eliminated, for the report."""
+    length: float
+    """Of the model, m."""
+    size: float
+    """Of the model as drawn, m."""
+
+
+def _reduced(model: Mechanism) -> _Reduced:
+    """Linear equations are eliminated; what is left are rows, without those that follow from others."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
     held = {*tabled_coordinates(model)}
@@ -105,72 +132,123 @@ def compiled(
             raise refuse_joint(equation.name)
     length, size = model_length(model), drawn_length(model)
     stay = flexible_coordinates(model) | base_coordinates(model)
-    reduced = reduce_coordinates(natural, linear, model.grounded, stay, size)
-    remaining, full, of_z, redundant, left = reduced
+    remaining, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, stay, size)
     known = tell_apart(model, remaining, full, of_z, left)
-    remaining, full, of_z, left = known.remaining, known.full, known.of_z, known.left
-    nz = len(remaining)
     candidates = [row_terms(e, j, k, known.seen, size) for j, k, e in others]
     for row in candidates:
-        if row.columns() and row.columns()[-1] >= nz:
+        if row.columns() and row.columns()[-1] >= len(known.remaining):
             raise refuse_joint(row.name)
-    for row in candidates:
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
-    candidates += left
-    candidates += [row for body in model.bodies for row in rigid_rows(body, full)]
-    check_near(model, candidates, [natural.info[k].kind for k in remaining], size)
+    candidates += known.left
+    candidates += [row for body in model.bodies for row in rigid_rows(body, known.full)]
+    check_near(model, candidates, [natural.info[k].kind for k in known.remaining], size)
     rows, dependent = independent_rows(candidates, joints_of_bodies(model), size)
-    if not remaining:
+    if not known.remaining:
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate.")
+    counts = {"linear_equations": len(linear), "redundant_equations": redundant, "dependent_rows": dependent}
+    return _Reduced(natural, known, rows, counts, length, size)
 
-    T, z0 = transformation(full, nz)
+
+@dataclass(frozen=True)
+class _Ordered:
+    """Mass and rows in the order of elimination."""
+
+    T: sparse.csr_matrix
+    """q_full = T z + z0, z as before ordering."""
+    z0: Array
+    M_full: sparse.csr_matrix
+    mass: sparse.csr_matrix
+    fronts: Fronts
+    new: NDArray[np.int64]
+    """Place of each z."""
+    arrays: RowArrays
+    tangent_nonzeros: int
+
+
+def _ordered(model: Mechanism, reduced: _Reduced) -> _Ordered:
+    known, rows = reduced.known, reduced.rows
+    T, z0 = transformation(known.full, len(known.remaining))
     M_full = full_mass(model)
     mass = symmetric(T.T @ M_full @ T)
-    fronts, tangent_nonzeros = _symbolic(model, rows, full, mass, known)
+    fronts, tangent_nonzeros = _symbolic(model, rows, known.full, mass, known)
     order = fronts.order
     new = np.argsort(order)
     mass = mass[order][:, order].tocsr()
-    mass = with_room(mass, [new[c].tolist() for c in _added_mass(model, full)])
+    mass = with_room(mass, [new[c].tolist() for c in _added_mass(model, known.full)])
     mass.sort_indices()
-    arrays = RowArrays(rows, new)
+    return _Ordered(T, z0, M_full, mass, fronts, new, RowArrays(rows, new), tangent_nonzeros)
 
+
+@dataclass(frozen=True)
+class _Start:
+    """Assembled position and velocity."""
+
+    q: Array
+    qd: Array
+    guides: Array
+    """Values of the guides."""
+    holding: list[RowTerms]
+    """Rows that are on."""
+    rank: int | None
+    """Of these rows; None: it could not be computed."""
+
+
+def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
+    known, rows, new = reduced.known, reduced.rows, ordered.new
+    T, z0, mass, order = ordered.T, ordered.z0, ordered.mass, ordered.fronts.order
     guides, guide_rates = guide_start(model)
     holding = [row for row in rows if row.switch < 0 or model.switches[row.switch].on]
-    start = arrays if len(holding) == len(rows) else RowArrays(holding, new)
+    arrays = ordered.arrays if len(holding) == len(rows) else RowArrays(holding, new)
     placing = [row for row in holding if not row.rates]
-    shape = start if len(placing) == len(holding) else RowArrays(placing, new)
-    stiffness = deformation_metric(model, full, new)
-    drawn = reference_position(model, natural, remaining, T, z0, M_full)[order]
+    shape = arrays if len(placing) == len(holding) else RowArrays(placing, new)
+    stiffness = deformation_metric(model, known.full, new)
+    drawn = reference_position(model, reduced.natural, known.remaining, T, z0, ordered.M_full)[order]
+    fine = fineness(reduced.size)
     q = close_position(
-        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fineness(size)
+        placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
     )
-    qd = velocity(model, full, T, q[new], mass, stiffness, order, start, guides, guide_rates)
-    _, Phiq, phi_t = start.evaluate(q, guides, guide_rates)
+    qd = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates)
+    _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
-    rank = rank_at(Phiq, mass.diagonal())
+    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()))
+
+
+def _tables(
+    model: Mechanism,
+    reduced: _Reduced,
+    ordered: _Ordered,
+    start: _Start,
+    watch: LoopWatch | None,
+    trees: Trees | None,
+) -> tuple[Tables, str, Callable[[], Tables] | None]:
+    """All arrays of the System, with the start as it is drawn; why there is no tree; and what makes those of modes."""
+    known, rows, natural = reduced.known, reduced.rows, reduced.natural
+    remaining, full, of_z, seen = known.remaining, known.full, known.of_z, known.seen
+    T, mass, fronts, new, arrays = ordered.T, ordered.mass, ordered.fronts, ordered.new, ordered.arrays
+    order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
     _, Phiq, _ = arrays.evaluate(q, guides)
     carried = (T.multiply(T).T @ carried_mass(model))[order]
-    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(size))
+    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(reduced.size))
     arrays.scale(scale)
 
     gravity = full_gravity(model)
-    behind = [[int(new[j]) for j in places] for places in columns_of(model, known.seen)]
+    behind = [[int(new[j]) for j in places] for places in columns_of(model, seen)]
     places = np.concatenate([new, np.arange(nz, nz + len(behind))])
-    signals = Signals(known.seen, places, axis_room(model, known.seen))
+    signals = Signals(seen, places, axis_room(model, seen))
     locate = locator(fronts)
     row_of = {(r.joint, r.part): n for n, r in enumerate(rows) if r.joint >= 0}
     tree, no_tree = trees(model, signals, remaining, new) if trees else ({}, "nobody asked for one")
-    triads, modes = watch(model, holding, full, q[new], guides, signals) if watch else ({}, None)
+    triads, modes = watch(model, start.holding, full, q[new], guides, signals) if watch else ({}, None)
     tables: Tables = {
         "q0": q,
-        "qd0": qd,
+        "qd0": start.qd,
         "mass_ptr": mass.indptr,
         "mass_col": mass.indices,
         "mass_val": mass.data,
         "mass_pos": mass_positions(mass, fronts),
         "gravity_force": (T.T @ gravity)[order],
-        "gravity_const": [-gravity @ z0],
+        "gravity_const": [-gravity @ ordered.z0],
         **arrays.arrays,
         "row_scale": scale,
         "row_measure": measure,
@@ -184,10 +262,10 @@ def compiled(
         **payload_arrays(model, signals),
         **armature_arrays(model, full, new),
         **inertia_arrays(model, signals),
-        **axis_arrays(model, signals, known.seen, new),
+        **axis_arrays(model, signals, seen, new),
         **flexible_arrays(model, full, new, locate),
-        **tabled_arrays(model, known.seen, new),
-        **pose_arrays(model, natural, remaining, of_z, q[new], order),
+        **tabled_arrays(model, seen, new),
+        **_pose(model, reduced, ordered, q),
         **NO_TREE,
         **tree,
         **triads,
@@ -195,28 +273,31 @@ def compiled(
         "pose_partner": pose_partners(model, natural, remaining, of_z, signals, order),
         **signals.arrays(),
     }
+    return tables, no_tree, modes
+
+
+def _pose(model: Mechanism, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:
+    """Arrays by which a pose is set, at a position."""
+    known, new = reduced.known, ordered.new
+    return pose_arrays(model, reduced.natural, known.remaining, known.of_z, q[new], ordered.fronts.order)
+
+
+def _metadata(
+    model: Mechanism, reduced: _Reduced, ordered: _Ordered, rank: int | None, closed: Corrections, no_tree: str
+) -> Tables:
     report = {
-        **structure_report(model, fronts, rank, len(rows)),
-        "linear_equations": len(linear),
-        "redundant_equations": redundant,
-        "dependent_rows": dependent,
-        "tangent_nonzeros": tangent_nonzeros,
+        **structure_report(model, ordered.fronts, rank, len(reduced.rows)),
+        **reduced.counts,
+        "tangent_nonzeros": ordered.tangent_nonzeros,
         "no_tree": no_tree,
-        "closed": closed or {},
+        "closed": closed,
+        "length": reduced.length,
+        "length_stated": model.length is not None,
     }
-    frames = frames_of(model, T[:, order], z0)
-    info = [natural.info[remaining[k]] for k in order]
-    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, [remaining[k] for k in order]), length)
-    report["length"], report["length_stated"] = length, model.length is not None
-    meta = metadata(model, [c.name for c in info], rows, report, lengths)
-    if not flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
-        return CompiledModel(tables, meta, frames, modes)
-    parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
-    resting = CompiledModel(tables, meta)
-    q = equilibrium(resting, parameters)
-    tables.update(start_arrays(resting, parameters))
-    tables.update(q0=q, qd0=np.zeros_like(q), **pose_arrays(model, natural, remaining, of_z, q[new], order))
-    return CompiledModel(tables, meta, frames, modes)
+    coordinates = [reduced.known.remaining[k] for k in ordered.fronts.order]
+    info = [reduced.natural.info[k] for k in coordinates]
+    lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, coordinates), reduced.length)
+    return metadata(model, [c.name for c in info], reduced.rows, report, lengths)
 
 
 def _equations(model: Mechanism) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:

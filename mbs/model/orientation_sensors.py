@@ -18,7 +18,7 @@ from mbs.model.sensors import order_number, spatial
 
 
 class OrientationSensorVocabulary(Mechanism):
-    """What can be read of the orientation. A body is a rigid one, a node of a flexible one or the frame of it."""
+    """Sensors of orientation. A body is a rigid one, or a node or the frame of a flexible one."""
 
     def sense_rotation(
         self, name: str, body: Body, component: str = "z", *, order: int = 0, unit: str = "", description: str = ""
@@ -65,12 +65,12 @@ class OrientationSensorVocabulary(Mechanism):
         unit: str = "rad",
         description: str = "",
     ) -> Sensor:
-        """Angle of a body against the earth, of a wheel against its carrier, or between vectors, rad.
+        """Angle of a body relative to the earth, of a wheel relative to its carrier, or between vectors, rad.
 
         The angle of a wheel is 0 at the start, positive as the rate of the spin counts, and not wrapped: the wheel is
-        oriented like its carrier after a turn by it. (The coordinate of a spin is another, its rate is the absolute
-        one.) The first call for a spin adds an element without force, whose states sum the angle over the steps;
-        methods for Systems without states then do not apply.
+        oriented like its carrier after a turn by it. (The coordinate of a spin differs: its rate is the absolute one.)
+        The first call for a spin adds an element without force, whose states sum the angle over the steps; methods for
+        Systems without states then do not apply.
 
         Parameters
         ----------
@@ -78,14 +78,14 @@ class OrientationSensorVocabulary(Mechanism):
             A body; a wheel of `Model.spin`; or vectors a, b, c in space for the angle from b to a about c,
             ``atan2((b x a) . c, a . b)``.
         kind : {"yaw", "pitch", "roll"}
-            Of a body only. Yaw: of its x axis in the earth's x-y plane, in the plane its rotation. Pitch: minus the
-            arcsine of the z component of its x axis, positive nose down. Roll: the arctangent of the z components of
-            its y and z axes, positive left side up.
+            Of a body only, as ISO 8855 has them. Yaw: of its x axis in the earth's x-y plane, in the plane its
+            rotation. Pitch: minus the arcsine of the z component of its x axis, positive nose down. Roll: the
+            arctangent of the z components of its y and z axes, positive left side up.
 
         Raises
         ------
         ModelError
-            The body has no axes, or there is no such angle of it.
+            The body has no axes, or this angle does not exist for it.
         """
         what = f"The sensor '{name}'"
         if isinstance(of, Body):

@@ -11,7 +11,7 @@ from mbs.common.errors import ModelError
 
 @dataclass(frozen=True)
 class Follower:
-    """A joint whose value is `multiplier` times that of its leader, and `offset`; rad or m."""
+    """A joint whose value is `multiplier` times that of its leader plus `offset`; rad or m."""
 
     name: str
     leader: str
@@ -22,8 +22,8 @@ class Follower:
 def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -> dict[str, Follower]:
     """The joints that follow others, by their names, each after those that it follows.
 
-    `given`: joints that the user places or moves. Raises `ModelError`: one follows a joint that does not move or is not
-    there, or itself; its multiplier is zero; it is given.
+    `given`: joints that the user places or moves; `what`: the robot, for messages. Raises `ModelError`: one follows a
+    joint that does not move or is not there, or itself; its multiplier is zero; it is given.
     """
     left: dict[str, Follower] = {}
     for name, joint in joints.items():
@@ -50,7 +50,7 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
 
 
 def start_of(followers: Mapping[str, Follower], at: Mapping[str, float]) -> dict[str, float]:
-    """Values of joints that follow others, which have those of `at`, else 0."""
+    """Values of the joints that follow others, rad or m. `at`: values of joints by name; those left out are 0."""
     values = dict(at)
     for name, f in followers.items():
         values[name] = f.multiplier * values.get(f.leader, 0.0) + f.offset

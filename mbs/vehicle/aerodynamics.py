@@ -1,4 +1,4 @@
-"""Forces of the air."""
+"""Aerodynamic drag and lift."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mbs.vehicle.section import Section
 
 
 class Aerodynamics(Section):
-    """Still air, but for a wind by ports; drag of every direction is that of the drag area."""
+    """Still air, but for a wind by ports; the drag area is the same for every direction of the flow."""
 
     drag_area: Area
     """Drag coefficient times frontal area."""
@@ -30,30 +30,17 @@ class Aerodynamics(Section):
         `centre`: where the drag acts, m; `axles`: "front" and "rear"; `wind`: how the air moves; by default it is
         still.
         """
-        drag = b.m.drag(
-            "drag",
-            b.chassis.frame,
-            centre,
-            drag_area=self.drag_area,
-            air_density=self.air_density,
-            wind=wind,
-        )
+        frame, air_density = b.chassis.frame, self.air_density
+        drag = b.m.drag("drag", frame, centre, drag_area=self.drag_area, air_density=air_density, wind=wind)
         b.tie(self, "drag_area", drag, "drag_area")
-        frame = b.chassis.frame
         for name, axle in axles.items():
             area = getattr(self, f"lift_area_{name}")
             if area is None:
                 continue
             x, _, z = axle.wheel.centre
+            place = (x, 0.0, z)
             lift = b.m.lift(
-                f"lift {name}",
-                frame,
-                (x, 0.0, z),
-                forward=FORWARD,
-                up=UP,
-                lift_area=area,
-                air_density=self.air_density,
-                wind=wind,
+                f"lift {name}", frame, place, forward=FORWARD, up=UP, lift_area=area, air_density=air_density, wind=wind
             )
             b.tie(self, f"lift_area_{name}", lift, "lift_area")
             b.tie(self, "air_density", lift, "air_density")

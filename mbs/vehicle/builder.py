@@ -99,7 +99,7 @@ class CarBuilder:
         inverse : bool
             Whether `scale` over the value is written, in place of their product.
         late : bool
-            Whether it comes behind the parameters of the road, as all that came later do.
+            Whether it is listed behind the parameters of the road, so that the older ones keep their places.
         """
         quantity = section.quantity(name)
         assert quantity is not None, f"{section.key(name)} is no quantity"
@@ -125,13 +125,10 @@ class CarBuilder:
         """Write what was tied into the model.
 
         `order`: place of a key path in the file's type; `works`: by key path, between which values the car works;
-        `late`: those that come late, in place of all others.
+        `late`: whether those of `tie` with ``late`` are written, or all others.
         """
-
-        def place(item: tuple[str, _Tied]) -> int:
-            return order(item[1].section.key(item[1].name))
-
-        for path, tied in sorted(((p, t) for p, t in self._tied.items() if t.late == late), key=place):
+        written = [(path, tied) for path, tied in self._tied.items() if tied.late == late]
+        for path, tied in sorted(written, key=lambda item: order(item[1].section.key(item[1].name))):
             q, text = tied.quantity, type(tied.section).model_fields[tied.name].description or ""
             self.m.parameter(
                 path,

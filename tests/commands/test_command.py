@@ -169,13 +169,13 @@ def test_an_option_of_two_commands_is_one_option() -> None:
         for name, action in options_of(command.name).items():
             found.setdefault(name, []).append(action)
     shared = {name for name, actions in found.items() if len(actions) > 1 and name not in ("-h", "--help")}
-    assert shared <= {name for key, option in SHARED.items() for name in (key, *option.short)}
+    assert shared <= {name for key, option in SHARED.items() for name in (key, *option.other_names)}
     for key, option in SHARED.items():
         for action in found[key]:
-            assert action.option_strings == [key, *option.short]
-            assert action.help.startswith(option.text)
-            if option.form:
-                assert (action.metavar, action.type) == (option.form, option.type)
+            assert action.option_strings == [key, *option.other_names]
+            assert action.help.startswith(option.help)
+            if option.metavar:
+                assert (action.metavar, action.type) == (option.metavar, option.type)
             else:
                 assert action.nargs == 0
     assert sum(len(set(map(id, options_of(c.name).values()))) - 1 for c in COMMANDS) <= MOST_OPTIONS

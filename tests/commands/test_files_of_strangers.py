@@ -23,7 +23,7 @@ from ali3.alias_file import read_content
 from ali3.commands import COMMANDS
 from ali3.errors import UserError
 from ali3.read_parameter_set import read_parameter_set
-from hosts.compare.log_aliases import Form, read_log_aliases
+from hosts.compare.log_aliases import Dialect, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.driving.manoeuvre_file import read_manoeuvre
 from hosts.fmu.geometry import RESOURCE, scene_of
@@ -127,7 +127,7 @@ KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
     "settings of a manoeuvre": ("m.ini", CELLS, "[run]\nstop_time = @\n", lambda path: read_manoeuvre(str(path))),
     "result": ("r.csv", CELLS, "time,u\n0,0\n1,@\n", read_result),
     "log": ("l.csv", CELLS, "time;u\n0;1\n1;2\n2;@\n", lambda path: _log(path)),
-    "log in Parquet": ("l.parquet", {}, "PAR1", lambda path: read_log(path, Form())),
+    "log in Parquet": ("l.parquet", {}, "PAR1", lambda path: read_log(path, Dialect())),
     "points of a study": ("p.csv", CELLS, "mass\n1\n@\n", lambda path: table_points(path, _variable, {})),
     "trajectory": ("t.csv", CELLS, "time [s],u [m]\n0,@\n", Trajectory.from_csv),
     "curve of an axle": ("front_parallel.csv", CELLS, "toe_angle_left [rad]\n@\n", read_curve),
@@ -185,7 +185,7 @@ def _rows(path: Path) -> list[Any]:
 
 
 def _log(path: Path) -> list[Any]:
-    log = read_log(path, Form())
+    log = read_log(path, Dialect())
     return [log.numbers(name) for name in log.table]
 
 

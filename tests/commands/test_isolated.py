@@ -17,7 +17,7 @@ import pytest
 from ali3.children import how_ended
 from ali3.errors import FileError, UserError
 from ali3.isolated import Isolated, Lost
-from ali3.shared_tasks import done_by, shared_by
+from ali3.shared_tasks import as_completed, as_completed_by
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 Tell = Callable[[Any], None]
@@ -120,7 +120,7 @@ def slow(task: int, tell: Tell) -> int:
 def test_an_error_ends_the_others_at_once() -> None:
     begin = time.monotonic()
     with pytest.raises(UserError, match="The first cannot begin"):
-        list(done_by(slow, range(4), 2, lambda *_: None))
+        list(as_completed(slow, range(4), 2, lambda *_: None))
     assert time.monotonic() - begin < 60.0
 
 
@@ -155,10 +155,10 @@ def test_how_a_process_ended() -> None:
 
 def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_left() -> None:
     worker: Isolated[str, tuple[int, int]] = Isolated(Counter())
-    rounds = [[result for _, result in shared_by([worker], ["", ""])] for _ in range(2)]
+    rounds = [[result for _, result in as_completed_by([worker], ["", ""])] for _ in range(2)]
     counts, ids = zip(*(result for found in rounds for result in found if not isinstance(result, Lost)), strict=True)
     assert sorted(counts) == [1, 2, 3, 4]
     assert len(set(ids)) == 1
     with pytest.raises(UserError, match="The value is 3"):
-        list(shared_by([worker], ["wrong", "hang"]))
+        list(as_completed_by([worker], ["wrong", "hang"]))
     assert not psutil.pid_exists(ids[0])

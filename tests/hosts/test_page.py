@@ -106,9 +106,12 @@ def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path
 def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
     tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    bare = changed(tuned, tmp_path, lambda name, content: None if name.endswith(".wasm") else content)
+    folder = tmp_path / "my FMUs"
+    folder.mkdir()
+    bare = changed(tuned, folder, lambda name, content: None if name.endswith(".wasm") else content)
     monkeypatch.setattr(commands, "module_command", lambda *a: ["false"])
     said = refusal(bare, capsys)
+    assert f"--out '{folder}'" in said
     assert "has no binary in WebAssembly, and none could be added" in said
     assert "--scene tuned --kind native --platforms this,wasm32" in said
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -30,7 +32,7 @@ from hosts.soak.checks import BadStepError, Watch
 from hosts.soak.drive import Failure, Outcome, Task, drive
 from hosts.soak.grounds import Ground, ground_of, jump_ground, jump_heights
 from hosts.soak.memory import Memory
-from hosts.soak.table import is_good
+from hosts.soak.table import is_good, print_outcomes
 
 STEP = 0.002
 
@@ -263,6 +265,29 @@ def test_a_process_that_dies_is_a_failure(
     assert "The process of the drive was killed (SIGKILL)" in told or sys.platform == "win32"
     assert re.search(r"the whole drive again: .* --soak .* --seed 9 --stop-time 5.0 --drives 1", told)
     assert "2 failures" in told
+
+
+def test_a_failed_drive_is_repeated_with_all_that_it_was_given(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Step, worlds and values too, in words that a shell reads as they were."""
+    start: dict[str, Any] = {"initial.speed": 12.5, "tyre.fast": True, "initial.note": "two words"}
+    given = task(tmp_path / "my car.fmu", tmp_path, seed=7, fidelity=2, step=1.0 / 300.0, start=start)
+    failure = Failure("step", "odd", 0, 1.0, "", str(tmp_path / "last seconds.toml"))
+    print_outcomes(
+        [given], [Outcome(7, 2, failures=[failure])], "ali3 check --soak", ["proving_ground", "my world.toml"]
+    )
+    told = capfd.readouterr().out
+    last, whole = (re.search(rf"{what} again: (.*)", told)[1] for what in ("seconds", "drive"))  # type: ignore[index]
+    assert shlex.split(last)[-5:] == [given.fmu, "-m", failure.manoeuvre, "--step", repr(given.step)]
+    asked: list[argparse.Namespace] = []
+    monkeypatch.setattr("hosts.soak.soak.soak", lambda options, prog: asked.append(options))
+    main(shlex.split(whole)[2:])
+    options = asked[0]
+    assert (options.fmu, options.seed, options.fidelity) == (Path(given.fmu), 7, [2.0])
+    assert (options.step, options.stop_time, options.drives) == (given.step, given.seconds, 1)
+    assert options.world == ["proving_ground", "my world.toml"]
+    assert options.set == [("initial.speed", "12.5"), ("tyre.fast", "true"), ("initial.note", "two words")]
 
 
 @pytest.mark.slow

@@ -10,9 +10,9 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 42372,
+    "build": 42438,
     "build --kernel": 283,
-    "car": 14919,
+    "car": 14985,
     "run": 3598,
     "run, all of it": 7772,
     "view": 631,
@@ -23,8 +23,8 @@ MOST = {
     "catalogue": 7699,
     "compare": 8903,
     "study": 5440,
-    "study --run": 7579,
-    "study, all of it": 14034,
+    "study --run": 7584,
+    "study, all of it": 14039,
     "road": 543,
 }
 """Lines; a command that needs fewer takes its number down with it."""

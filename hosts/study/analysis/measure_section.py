@@ -80,7 +80,7 @@ def measure_section(
 
 
 def _drawn(what: str, count: int, most: int, more: str) -> HtmlElement:
-    words = f"{most} of {count} {what}s, drawn by chance" if count > most else f"All {count} {what}s"
+    words = f"{most} of {count} {what}s, drawn at random" if count > most else f"All {count} {what}s"
     return paragraph(f"{words}{more}.", "faint")
 
 

@@ -48,7 +48,7 @@ def _wrapped(label: str) -> str:
 
 
 def drawn(count: int, most: int) -> NDArray[np.int64]:
-    """Positions of the runs that a plot shows: all, or so many by chance."""
+    """Positions of the runs that a plot shows: all, or so many at random."""
     if count <= most:
         return np.arange(count)
     return np.sort(np.random.default_rng(0).choice(count, most, replace=False))

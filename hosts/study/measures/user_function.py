@@ -167,7 +167,7 @@ def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
 
 
 def _number(value: Any) -> float:
-    """NaN for what is none."""
+    """NaN for what is no number."""
     try:
         number = float(value) if isinstance(value, numbers.Real) or hasattr(value, "__float__") else math.nan
     except (TypeError, ValueError):

@@ -1,4 +1,4 @@
-"""What owns memory of the kernel."""
+"""Objects that own memory of the kernel."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from typing import NoReturn
 
 
 class KernelMemory:
-    """Base of what has memory of the kernel: a copy would move, and free, the same memory."""
+    """Base of objects that own memory of the kernel: a copy would change, and free, the same memory."""
 
     _reason = "its memory is the kernel's"
+    """End of the sentence that refuses a copy."""
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
         raise TypeError(f"A {type(self).__name__} cannot be copied or pickled, {self._reason}.")

@@ -15,7 +15,7 @@ import pytest
 from hosts.common.errors import HostError
 from hosts.common.units import unit_definition
 from hosts.compare.log import Log, log_for
-from hosts.compare.log_aliases import Form, LogAliases, read_log_aliases
+from hosts.compare.log_aliases import Dialect, LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
@@ -34,7 +34,7 @@ def read(fmu: AliasedFmu, folder: Path, text: str, aliases: str = "", encoding: 
     (folder / "log.csv").write_text(text, encoding=encoding)
     (folder / "log.toml").write_text(aliases, encoding="utf-8")
     named = read_log_aliases(folder / "log.toml") if aliases else LogAliases()
-    return log_for(fmu, read_log(folder / "log.csv", named.form), named)
+    return log_for(fmu, read_log(folder / "log.csv", named.dialect), named)
 
 
 def rows(form: str) -> str:
@@ -57,7 +57,7 @@ def test_a_sample_left_out_is_told_of_what_is_used(
 ) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
     (tmp_path / "log.csv").write_text(text)
-    log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().form), LogAliases(), used=used)
+    log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().dialect), LogAliases(), used=used)
     assert len(log.outputs["bob.x"].values) == ROWS - 1
     assert sum("no neighbour supports" in note for note in log.notes) == told
 
@@ -98,6 +98,11 @@ def test_units_of_the_heading_and_of_the_aliases(fmu: AliasedFmu, tmp_path: Path
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
     assert log.outputs["bob.x"].values == pytest.approx(1e-6 * np.arange(ROWS))
     assert log.outputs["bob.x"].time[-1] == pytest.approx(0.01 * (ROWS - 1))
+
+
+def test_the_line_of_units_may_stand_above_that_of_the_names(fmu: AliasedFmu, tmp_path: Path) -> None:
+    log = read(fmu, tmp_path, "ms,kN,m\ntime,pull,bob.x\n" + rows("{ms},{f},{x}"), "[file]\nunits = 1")
+    assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
 
 
 def test_factor_and_offset_are_those_of_other_alias_files(fmu: AliasedFmu, tmp_path: Path) -> None:
@@ -141,7 +146,7 @@ def test_parquet_with_units(fmu: AliasedFmu, tmp_path: Path) -> None:
     k = np.arange(ROWS)
     table = pd.DataFrame({"time": 0.01 * k, "pull": 0.5 * k, "bob.x": 0.001 * k})
     table.to_parquet(tmp_path / "log.parquet")
-    assert_read(log_for(fmu, read_log(tmp_path / "log.parquet", LogAliases().form), LogAliases()))
+    assert_read(log_for(fmu, read_log(tmp_path / "log.parquet", LogAliases().dialect), LogAliases()))
 
 
 @pytest.mark.parametrize(
@@ -195,6 +200,14 @@ BAD = [
     ),
     ("time;pull;bob.x\n" + rows("{t};{f};{x}"), "[file]\ndelimiter = ','", "is no table of numbers"),
     (rows("{t},{f},{x}"), "", "has no line of 3 names"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[time]\nunit = ["s"]', "[time] unit is ['s']; known are"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 1000", "[file] units is line 1000; values begin in line 2"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 2", "[file] units is line 2; values begin in line 2"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nheading = 2", "[file] heading is line 2; values begin in line 2"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 1", "has no line of 3 names"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nheading = 1\nunits = 1", "heading and units are both 1"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nencoding = 'punycode'", "is not written in punycode"),
+    ("time,F,x\n" + rows("{t},{f},{x}"), '[file]\nencoding = "a\\u0000"', "[file] encoding of the alias file is wrong"),
 ]
 
 
@@ -212,11 +225,11 @@ def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None
     table = pa.Table.from_pandas(frame)
     for notes in (table.schema.metadata, {b"pandas": b'{"index_columns": ["lost"], "columns": 3}'}, {b"pandas": b"{"}):
         pq.write_table(table.replace_schema_metadata(notes), tmp_path / "a.parquet")
-        log = read_log(tmp_path / "a.parquet", Form())
+        log = read_log(tmp_path / "a.parquet", Dialect())
         assert log.numbers("u").tolist() == [1.0, 2.0]
         assert log.numbers("t").tolist() == [0.0, 0.1]
     pq.write_table(pa.Table.from_pandas(pd.DataFrame({"u": [1.0]}, index=[7])), tmp_path / "b.parquet")
-    assert list(read_log(tmp_path / "b.parquet", Form()).table) == ["u"]
+    assert list(read_log(tmp_path / "b.parquet", Dialect()).table) == ["u"]
 
 
 @pytest.mark.parametrize("value", ["1e308", "-2e100"])
@@ -237,4 +250,4 @@ def test_a_file_of_another_kind(tmp_path: Path) -> None:
         if content is not None:
             (tmp_path / name).write_bytes(content)
         with pytest.raises(HostError, match=words):
-            read_log(tmp_path / name, LogAliases().form)
+            read_log(tmp_path / name, LogAliases().dialect)

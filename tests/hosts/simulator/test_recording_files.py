@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -346,6 +347,7 @@ def test_a_view_draws_straight_between_outputs_and_flexible_parts_rigid(
     assert not made["columns"][amplitude].any()
     assert not made["columns"]["computed"].any()
     assert f"such as {whole.names[5]}; --interval records all" in shown.notes[0]
+    assert shlex.split(shown.notes[0])[-3:] == [whole.meta["fmu"], "--manoeuvre", str(folder)]
 
 
 @pytest.fixture(autouse=True)

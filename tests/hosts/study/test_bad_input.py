@@ -10,6 +10,7 @@ import pytest
 
 from hosts.study import trial
 from hosts.study.command import main
+from hosts.study.folder import RECORD
 
 RANGE = '"spring.stiffness" = { range = [50.0, 80.0] }'
 SOBOL = 'method = "sobol"\nruns = 16\nseed = 7'
@@ -66,6 +67,11 @@ def test_what_the_command_line_asks(
     assert capsys.readouterr().err == f"error: {tmp_path}/none.toml cannot be read: there is no such file.\n"
     assert main([str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path} is a folder; a study is a TOML file.\n"
+    results = tmp_path / "my results"
+    results.mkdir()
+    (results / RECORD).write_text('{"file": "my study.toml"}')
+    assert main([str(results)]) == 2
+    assert f"'my study.toml' --out '{results}'; else give --run or --report." in capsys.readouterr().err
     for option, words in (("--jobs", "a whole number of at least 1"), ("--workers", "--workers is now --jobs; ")):
         with pytest.raises(SystemExit) as end:
             main([str(tmp_path), option, "0"])

@@ -1,14 +1,19 @@
 /* Energy that a step adds or removes without a force.
  *
  * By the trapezoidal rule the kinetic energy changes by D'(f0 + f1)/2, f all forces, -Phi_q' lam among them. With
- * Phi = 0 at both ends (Phi_q0 + Phi_q1) D = -2 h R to third order, R the mean of Phi_t over the step, and the work of
- * rows is h R' lam0 - (Phi_q1 D)'(lam1 - lam0)/2, lam1 of Newton's loop. Of this the work of drives is no error: the
- * integral of lam' Phi_t, w'(lam0 + lam) + h (lam - lam0)'(Phi_t1 - Phi_t0)/12 with w = h R/2, where lam is straight and
- * Phi_t a parabola. There lam is that after (25), which sensors show: it differs from lam1 by a term of order h where
- * the rate of a guide bends, and the energy that (24) gives by another; each alone adds up to an error of first order,
- * and together they cancel. Guides that follow an input begin to move within a step: the mean of Phi_t at both ends
- * would be wrong by half. Where one moves, lam0 is that before a jump of its acceleration, for which Newton's loop makes
- * up: there the force is the mean of lam0 and lam1 with what (24) adds, and the work of drives is that of this force. */
+ * Phi = 0 at both ends, to third order, and lam1 of Newton's loop
+ *
+ *   (Phi_q0 + Phi_q1) D = -2 h R, R the mean of Phi_t over the step
+ *   work of rows:   h R' lam0 - (Phi_q1 D)'(lam1 - lam0)/2
+ *   work of drives: w'(lam0 + lam) + h (lam - lam0)'(Phi_t1 - Phi_t0)/12, w = h R/2
+ *
+ * The work of drives is no error: the integral of lam' Phi_t, where lam is straight and Phi_t a parabola. There lam is
+ * that after (25), which sensors show: it differs from lam1 by a term of order h where the rate of a guide bends, and the
+ * energy that (24) gives by another; each alone adds up to an error of first order, and together they cancel.
+ *
+ * Guides that follow an input begin to move within a step: the mean of Phi_t at both ends would be wrong by half. Where
+ * one moves, lam0 is that before a jump of its acceleration, for which Newton's loop makes up: there the force is the
+ * mean of lam0 and lam1 with what (24) adds, and the work of drives is that of this force. */
 #include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../flexible/mass.h"

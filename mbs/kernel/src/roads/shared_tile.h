@@ -1,13 +1,18 @@
 /* Tiles of a road file of version 2: a table says for each tile where its record lies, so equal tiles are stored once,
  * and a record is as short as its tile is simple.
  *
- * Little endian. Behind the header one entry of 24 bytes for each tile, in the order of version 1: place of its record
- * in the file (8), bytes of the record (4), CRC-32 of the record (4), zeros (4), CRC-32 of the number of the tile as 8
- * bytes and of the 20 bytes before (4). A record: rows (4), columns (4), levels (4), zeros (4); rows x columns reals, 32 x
- * 32 heights, y fastest, or up to 8 x 8 coefficients c[a][b] of the height sum c[a][b] u^a v^b at u = (i - 15.5) / 16 and
- * v = (j - 15.5) / 16, where i and j count the points of the tile in x and y; with a map of frictions, 1 level: one for
- * all points; 2 to 255: these frictions, then for each point, y fastest, which of them, 1024 bytes; 1024: the frictions of
- * all points. Without a map there are 0 levels. */
+ * Little endian. Behind the header one entry of 24 bytes for each tile, in the order of version 1:
+ *   8 bytes   place of its record in the file
+ *   4         bytes of the record
+ *   4         CRC-32 of the record
+ *   4         zeros
+ *   4         CRC-32 of the number of the tile as 8 bytes and of the 20 bytes before
+ * A record:
+ *   4 each    rows, columns, levels, zeros
+ *   heights   rows x columns reals: 32 x 32 heights, y fastest, or up to 8 x 8 coefficients c[a][b] of the height
+ *             sum c[a][b] u^a v^b at u = (i - 15.5) / 16, v = (j - 15.5) / 16; i and j count points in x and y
+ *   frictions 0 levels: none, the road has no map of them; 1: a real for all points; 2 to 255: these reals, then for each
+ *             point, y fastest, which of them, 1024 bytes; 1024: the reals of all points */
 #ifndef ALI3_SHARED_TILE_H
 #define ALI3_SHARED_TILE_H
 #include <stdint.h>

@@ -53,8 +53,8 @@ ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   return ali3_factorise(in, in->F);
 }
 
-/* M x + Phi_q' lam = Q, Phi_q x = -b, to the relative tolerance, in corrections with the factorised metric; x and lam
- * start from zero. */
+/* M x + Phi_q' lam = Q, Phi_q x = -b, in corrections with the factorised metric; x and lam start from zero. Ends at the
+ * relative tolerance, or after ITERATIONS: where b and Phi_q x are zero but for round-off, the violation has no scale. */
 ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const double *b, double tolerance, double *x,
                                  double *lam) {
   const ali3_system *S = in->system;

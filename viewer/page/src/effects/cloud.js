@@ -1,5 +1,5 @@
 // Particles that fly, slow down, grow and fade; pure numbers, bounded.
-import { chance } from "../looks/scenery/chance.js";
+import { randomNumbers } from "../common/random.js";
 
 /** What flies up: seconds of life, size at the beginning and at the end in metres, colour, share that is seen, fall in m/s2. */
 export const KINDS = {
@@ -38,7 +38,7 @@ export class Cloud {
     this.last = new Array(wheels).fill(null);
     this.time = null;
     this.epoch = null;
-    this.draw = chance(99);
+    this.draw = randomNumbers(99);
   }
 
   /** Particles in the air. */

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { niceStep } from "../scene/forces.js";
 import { discard } from "./discard.js";
 import { gridSurface } from "./grid.js";
-import { mirrorOf } from "./mirror.js";
+import { environmentMap } from "./environment_map.js";
 import { room } from "./room.js";
 
 /** @param {Data} view the SceneView @param {boolean} fine */
@@ -18,11 +18,11 @@ export function board(view, fine) {
   const reach = 12 * extent;
   const grid = gridSurface({ x: [1, 0, 0], y: [0, 1, 0], step, reach, color: "#ffffff", ink: "#b4bec6", lit: false });
   world.add(grid.mesh);
-  let mirrored = null;
+  let environment = null;
   const bake = () => {
-    mirrored?.dispose();
-    mirrored = mirrorOf(renderer, room([0, 0.6, 0.8]), fine);
-    world.environment = mirrored.texture;
+    environment?.dispose();
+    environment = environmentMap(renderer, room([0, 0.6, 0.8]), fine);
+    world.environment = environment.texture;
     world.environmentIntensity = 0.8;
   };
   bake();
@@ -37,7 +37,7 @@ export function board(view, fine) {
     tell: [],
     dispose() {
       discard(grid.mesh);
-      mirrored.dispose();
+      environment.dispose();
     },
   };
 }

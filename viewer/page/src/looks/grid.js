@@ -1,6 +1,6 @@
 // A floor or wall with a grid in metres, fixed to the earth.
 import * as THREE from "three";
-import { dot } from "../scene/math.js";
+import { dot, modulo } from "../scene/math.js";
 import { atEachPixel, onTheEarth } from "./vertex_code.js";
 
 const CODE = /* glsl */ `
@@ -45,7 +45,7 @@ export function gridSurface({ x, y, step, reach, color, ink, lit }) {
   mesh.renderOrder = -1;
   const follow = (origin) => {
     const at = [dot(origin, x), dot(origin, y)];
-    [step, 5 * step].forEach((period, i) => uniforms.aOffset.value[i].fromArray(at.map((a) => a - period * Math.floor(a / period))));
+    [step, 5 * step].forEach((period, i) => uniforms.aOffset.value[i].fromArray(at.map((a) => modulo(a, period))));
   };
   return { mesh, follow };
 }

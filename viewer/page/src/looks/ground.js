@@ -1,6 +1,6 @@
 // The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
 import * as THREE from "three";
-import { across, cross, dot } from "../scene/math.js";
+import { across, cross, dot, modulo } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { oneLevel } from "./noise.js";
 import { SKYLIGHT } from "./skylight.js";
@@ -107,8 +107,6 @@ function patterned(shader) {
   atEachPoint(shader, "attribute vec2 slick;\nvarying vec2 vSlick;", "vSlick = slick;");
   atEachPixel(shader, PARAMETERS, { map_fragment: ASPHALT });
 }
-
-const modulo = (a, period) => a - period * Math.floor(a / period);
 
 function axisAcross(up, axis) {
   const rest = axis.map((a, i) => a - dot(up, axis) * up[i]);

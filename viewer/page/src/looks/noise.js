@@ -3,7 +3,7 @@ import * as THREE from "three";
 
 const SIZE = 256;
 
-/** Numbers between 0 and 1 that look like chance, the same on every machine. @param {number} n */
+/** Pseudo-random number from 0 to below 1 of a whole one, the same on every machine. @param {number} n */
 function hash(n) {
   let x = Math.imul(n ^ 0x9e3779b9, 0x85ebca6b);
   x = Math.imul(x ^ (x >>> 13), 0xc2b2ae35);

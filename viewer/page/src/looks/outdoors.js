@@ -5,7 +5,7 @@ import { contactShadows } from "./contact_shadows.js";
 import { discard } from "./discard.js";
 import { makeDraft } from "./draft/index.js";
 import { groundMaterial } from "./ground.js";
-import { mirrorOf } from "./mirror.js";
+import { environmentMap } from "./environment_map.js";
 import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
 import { HAZE, seenSky, skyBall } from "./sky.js";
@@ -25,17 +25,17 @@ export function outdoors(view, fine) {
   const held = {};
   const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
-  /** Draws the sky once: what is seen, and, small, what things mirror. */
+  /** Draws the sky once: what is seen, and, small, what things reflect. */
   const bake = () => {
     held.cube?.dispose();
-    held.mirrored?.dispose();
+    held.environment?.dispose();
     const ball = skyBall(up, new THREE.Vector3(...direction), noise);
     const around = new THREE.Scene().add(ball);
     held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
     new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, around);
-    held.mirrored = mirrorOf(renderer, around, fine);
+    held.environment = environmentMap(renderer, around, fine);
     sky.material.uniforms.cube.value = held.cube.texture;
-    world.environment = held.mirrored.texture;
+    world.environment = held.environment.texture;
     world.environmentIntensity = 0.75;
     land?.mirror(held.cube.texture);
   };
@@ -88,7 +88,7 @@ export function outdoors(view, fine) {
       discard(sky);
       sun.dispose();
       held.cube.dispose();
-      held.mirrored.dispose();
+      held.environment.dispose();
     },
   };
 }

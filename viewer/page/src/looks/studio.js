@@ -6,7 +6,7 @@ import { niceStep } from "../scene/forces.js";
 import { discard } from "./discard.js";
 import { makeDraft } from "./draft/index.js";
 import { gridSurface } from "./grid.js";
-import { mirrorOf } from "./mirror.js";
+import { environmentMap } from "./environment_map.js";
 import { room } from "./room.js";
 import { sharpen, sunLight } from "./sun.js";
 
@@ -28,11 +28,11 @@ export function studio(view, fine) {
   floor.mesh.receiveShadow = true;
   turn(floor.mesh, fromColumns(x, y, up));
   world.add(floor.mesh);
-  let mirrored = null;
+  let environment = null;
   const bake = () => {
-    mirrored?.dispose();
-    mirrored = mirrorOf(renderer, room(up), fine);
-    world.environment = mirrored.texture;
+    environment?.dispose();
+    environment = environmentMap(renderer, room(up), fine);
+    world.environment = environment.texture;
     world.environmentIntensity = 0.5;
   };
   bake();
@@ -54,7 +54,7 @@ export function studio(view, fine) {
       draft.dispose();
       discard(floor.mesh);
       sun.dispose();
-      mirrored.dispose();
+      environment.dispose();
     },
   };
 }

@@ -1,6 +1,6 @@
-// What a world is made of: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
+// Materials of a world: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
 import * as THREE from "three";
-import { dot } from "../scene/math.js";
+import { dot, modulo } from "../scene/math.js";
 import { prelit } from "./draft/prelit.js";
 import { lift, PAINT, widen } from "./lifted.js";
 import { oneLevel, tonesTexture } from "./noise.js";
@@ -44,9 +44,8 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     paint: surfaceMaterial(shared, true),
     /** The same, lit at their points only. @param {Data} light of `lightOf` */
     drafted(light) {
-      const looked = { aNoise: noise, aShares: cover.texture };
-      const once = Object.fromEntries(Object.entries(looked).map(([name, texture]) => [name, { value: oneLevel(texture) }]));
-      const quick = { ...shared, uniforms: { ...uniforms, ...once, aPatches: { value: tonesTexture() } } };
+      const [aNoise, aShares] = [noise, cover.texture].map((texture) => ({ value: oneLevel(texture) }));
+      const quick = { ...shared, uniforms: { ...uniforms, aNoise, aShares, aPatches: { value: tonesTexture() } } };
       return { ground: draftMaterial(quick, light, false), paint: draftMaterial(quick, light, true) };
     },
     /** @param {THREE.Texture} texture cube of the sky, which wet places mirror */
@@ -63,8 +62,6 @@ export function surfaceMaterials({ noise, axes, sun, cover, corner, fine }) {
     },
   };
 }
-
-const modulo = (a, period) => a - period * Math.floor(a / period);
 
 function surfaceMaterial({ uniforms, fine, viewport }, painted) {
   const settings = settingsOf(painted);

@@ -12,6 +12,8 @@ export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const length = (a) => Math.hypot(a[0], a[1], a[2]);
 export const middle = (a, b) => scale(add(a, b), 0.5);
 export const finite = (a) => a.every(Number.isFinite);
+/** Remainder of a real number, from 0 to below `period`. */
+export const modulo = (a, period) => a - period * Math.floor(a / period);
 
 /** @param {Vector} a @param {Vector} b @returns {Vector} */
 export function cross(a, b) {

@@ -1,10 +1,10 @@
 // The rest of what sounds: whine, squeal, rolling, wind, thumps.
-import { chance } from "../../looks/scenery/chance.js";
+import { randomNumbers } from "../../common/random.js";
 
 /** White noise of two seconds, made by code. @param {BaseAudioContext} context @returns {AudioBuffer} */
 export function noiseBuffer(context) {
   const buffer = context.createBuffer(1, 2 * context.sampleRate, context.sampleRate);
-  const next = chance(2718);
+  const next = randomNumbers(2718);
   const samples = buffer.getChannelData(0);
   for (let k = 0; k < samples.length; k++) samples[k] = 2 * next() - 1;
   return buffer;

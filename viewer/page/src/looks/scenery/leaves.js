@@ -1,7 +1,7 @@
 // A picture of a twig, made by code: leaves with holes between.
 import * as THREE from "three";
 import { smoothTexture } from "../noise.js";
-import { chance } from "./chance.js";
+import { randomNumbers } from "../../common/random.js";
 
 /** Side in points. */
 export const SIDE = 128;
@@ -9,7 +9,7 @@ export const SIDE = 128;
 /** @returns {THREE.DataTexture} */
 export function leafTexture() {
   const pixels = new Uint8Array(SIDE * SIDE * 4);
-  const next = chance(4711);
+  const next = randomNumbers(4711);
   // Behind the leaves stands their colour, so that their edges have no other.
   for (let k = 0; k < pixels.length; k += 4) pixels.set([110, 128, 60, 0], k);
   for (let leaf = 0; leaf < 150; leaf++) {

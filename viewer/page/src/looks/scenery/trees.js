@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import looks from "../../../../looks.json" with { type: "json" };
 import { skylit } from "../skylight.js";
-import { chance } from "./chance.js";
+import { randomNumbers } from "../../common/random.js";
 import { SIDE, leafTexture } from "./leaves.js";
 import { Triangles } from "./triangles.js";
 
@@ -18,11 +18,11 @@ const BARK = looks.things.bark;
 export const FAR = 120;
 
 /** Kind of a tree. @param {number} seed whole */
-export const kindOf = (seed) => Math.floor(3 * chance(seed)());
+export const kindOf = (seed) => Math.floor(3 * randomNumbers(seed)());
 
 /** Size across, turn and colour of one tree. @param {number} seed whole */
 export function formOf(seed) {
-  const next = chance(seed);
+  const next = randomNumbers(seed);
   next();
   return { wide: 0.85 + 0.4 * next(), turn: 2 * Math.PI * next(), light: 0.75 + 0.45 * next(), yellow: 0.9 + 0.25 * next() };
 }
@@ -60,7 +60,7 @@ if (vMapUv.x > 1.5) diffuseColor = vec4(vColor.rgb, 1.0);
 
 function treeGeometry(kind, count, seed) {
   const made = new Triangles();
-  const next = chance(seed);
+  const next = randomNumbers(seed);
   trunk(made, kind, count);
   for (let k = 0; k < count; k++) (kind.tiers ? tier : twig)(made, kind, k, count, next);
   return made.geometry(true);

@@ -1,6 +1,6 @@
 // Guard rails and buildings.
 import looks from "../../../../looks.json" with { type: "json" };
-import { chance } from "./chance.js";
+import { randomNumbers } from "../../common/random.js";
 import { atEachPixel, atEachPoint } from "../vertex_code.js";
 
 const { zinc: ZINC, roof: ROOF } = looks.things;
@@ -44,7 +44,7 @@ const WALLS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 
 export function addBuilding(made, { at, yaw, size }) {
   const [length, width, height] = size;
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-  const next = chance(Math.round(17 * at[0] + 31 * at[1]));
+  const next = randomNumbers(Math.round(17 * at[0] + 31 * at[1]));
   const wall = WALLS[Math.floor(WALLS.length * next())];
   const eaves = height / (1 + (0.22 * Math.min(width, 12)) / height);
   const foot = [at[0], at[1], at[2] - 0.5];

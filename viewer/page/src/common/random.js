@@ -1,7 +1,7 @@
-// Numbers that look like chance and are the same on every machine.
+// Pseudo-random numbers that are the same on every machine.
 
-/** @param {number} seed whole @returns {() => number} 0 to 1, one after the other */
-export function chance(seed) {
+/** Generator mulberry32 (T. Ettinger). @param {number} seed whole @returns {() => number} the next number, from 0 to below 1 */
+export function randomNumbers(seed) {
   let state = (seed ^ 0x9e3779b9) >>> 0;
   return () => {
     state = (state + 0x6d2b79f5) >>> 0;

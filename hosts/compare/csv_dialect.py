@@ -13,7 +13,7 @@ from ali3.errors import reason
 from ali3.reading import other_encoding
 from ali3.tables import cells_of
 from hosts.common.errors import HostError
-from hosts.compare.log_aliases import Form
+from hosts.compare.log_aliases import Dialect
 
 _DELIMITERS = (";", "\t", ",", "|")
 _LINES = 60  # that are looked at: loggers write their settings first
@@ -24,8 +24,8 @@ _NAME_AND_UNIT = re.compile(r"(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
 @dataclass(frozen=True)
-class FoundForm:
-    """The form of a file."""
+class FoundDialect:
+    """How a file is written, and what its columns are."""
 
     delimiter: str
     decimal: str
@@ -38,12 +38,15 @@ class FoundForm:
     """Lines before the first row of values."""
 
 
-def find_form(path: Path, wish: Form) -> FoundForm:
-    """Look at the first lines of a file. Raises `HostError` if it holds no table; one sentence."""
-    lines, encoding = _first_lines(path, wish.encoding)
+def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
+    """Look at the first lines of a file for what is not stated.
+
+    Raises `HostError`: it holds no table, or what is stated does not fit it.
+    """
+    lines, encoding = _first_lines(path, stated.encoding)
     if not any(line.strip() for line in lines):
         raise HostError(f"The log {path} is empty; it needs a line of names and rows of values.")
-    found = [(d, *_rows(lines, d)) for d in ((wish.delimiter,) if wish.delimiter else _DELIMITERS)]
+    found = [(d, *_rows(lines, d)) for d in ((stated.delimiter,) if stated.delimiter else _DELIMITERS)]
     delimiter, first, width = max(found, key=lambda item: item[2])  # the first of the most columns
     if width < 2:
         tried = "' or '".join(repr(d)[1:-1] for d, *_ in found)
@@ -51,7 +54,7 @@ def find_form(path: Path, wish: Form) -> FoundForm:
             f"The log {path} is no table of numbers with a time and signals, divided by '{tried}'; its first line is "
             f'{lines[0].strip()[:60]!r}. [file] delimiter = "..." of the alias file names another.'
         )
-    heading, unit_line = _heading(path, lines, delimiter, first, width, wish)
+    heading, unit_line = _heading(path, lines, delimiter, first, width, stated)
     names, units = [], {}
     for k, cell in enumerate(_cells(lines[heading], delimiter)):
         match = _NAME_AND_UNIT.fullmatch(cell)
@@ -65,8 +68,8 @@ def find_form(path: Path, wish: Form) -> FoundForm:
     twice = next((n for k, n in enumerate(names) if n and n in names[:k]), None)
     if twice is not None:
         raise HostError(f"The log {path} has the column '{twice}' twice.")
-    decimal = wish.decimal or _decimal(lines[first:], delimiter)
-    return FoundForm(delimiter, decimal, encoding, names, units, first)
+    decimal = stated.decimal or _decimal(lines[first:], delimiter)
+    return FoundDialect(delimiter, decimal, encoding, names, units, first)
 
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
@@ -85,10 +88,8 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
         try:
             text = content[: content.rfind(b"\n") + 1 or None].decode(name)
             return text.splitlines()[:_LINES], name
-        except UnicodeDecodeError:
+        except (LookupError, ValueError):  # no such encoding, or not that of the content
             continue
-        except LookupError:
-            break
     raise HostError(f"The log {path} is not written in {encoding}; [file] encoding of the alias file is wrong.")
 
 
@@ -120,26 +121,26 @@ def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int]:
 
 
 def _heading(
-    path: Path, lines: Sequence[str], delimiter: str, first: int, width: int, wish: Form
+    path: Path, lines: Sequence[str], delimiter: str, first: int, width: int, stated: Dialect
 ) -> tuple[int, int | None]:
-    """Lines of the names and of the units."""
-    if wish.heading is not None:
-        if wish.heading > first:
-            raise HostError(f"The log {path}: line {wish.heading} is to be the heading; values begin in {first + 1}.")
-        units = None if not wish.units else wish.units - 1
-        if wish.units is None and wish.heading < first and len(_cells(lines[wish.heading], delimiter)) == width:
-            units = wish.heading
-        return wish.heading - 1, units
-    before = [k for k in range(first) if _is_heading(_cells(lines[k], delimiter), width)]
+    """Places of the line of names and of that of units; `first`: that of the first row of values, 0 of the file's."""
+    for key, line in (("heading", stated.heading), ("units", stated.units)):
+        if line is not None and line > first:
+            raise HostError(f"The log {path}: [file] {key} is line {line}; values begin in line {first + 1}.")
+    units = stated.units - 1 if stated.units else None
+    if stated.heading is not None:
+        below = stated.heading
+        if stated.units is None and below < first and len(_cells(lines[below], delimiter)) == width:
+            units = below
+        return stated.heading - 1, units
+    before = [k for k in range(first) if k != units and _is_heading(_cells(lines[k], delimiter), width)]
     if not before:
         raise HostError(
             f"The log {path} has no line of {width} names before its values in line {first + 1}; "
             f"[file] heading of the alias file can name it."
         )
-    if wish.units is not None:
-        return before[0] if wish.units == 0 else min(before[0], wish.units - 1), wish.units - 1 if wish.units else None
     # Of the lines with as many cells the names come first and the units second.
-    return before[0], before[1] if len(before) > 1 else None
+    return before[0], before[1] if stated.units is None and len(before) > 1 else units
 
 
 def _is_heading(cells: Sequence[str], width: int) -> bool:
