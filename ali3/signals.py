@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
@@ -30,30 +30,40 @@ def heeded() -> list[signal.Signals]:
 
 
 @contextmanager
-def stopped_by_signals() -> Iterator[None]:
-    """A context in which all that ends programs is met as Ctrl-C is: by an exception, so that what is done is kept."""
-    if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
-        yield
-        return
-    numbers = [number for number in heeded() if number != signal.SIGINT]
+def handled(stop: Callable[[signal.Signals], None], numbers: Collection[signal.Signals]) -> Iterator[None]:
+    """A context in which signals call `stop`; what they did before comes back at its end."""
     before = {number: signal.getsignal(number) for number in numbers}
-    _terminals[:] = [place for place in (1, 2) if os.isatty(place)]
 
-    def stop(number: int, _: FrameType | None) -> None:
-        if signal.Signals(number).name == "SIGHUP":
-            lose_terminals()
-        raise Stopped(number)
+    def handle(number: int, _: FrameType | None) -> None:
+        if number == getattr(signal, "SIGHUP", None):
+            _lose_terminals()
+        stop(signal.Signals(number))
 
     try:
         for number in numbers:
-            signal.signal(number, stop)
+            signal.signal(number, handle)
         yield
     finally:
         for number in numbers:
             signal.signal(number, before[number])
 
 
-def lose_terminals() -> None:
+@contextmanager
+def stopped_by_signals() -> Iterator[None]:
+    """A context in which all that ends programs is met as Ctrl-C is: by an exception, so that what is done is kept."""
+    if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
+        yield
+        return
+    _terminals[:] = [place for place in (1, 2) if os.isatty(place)]
+
+    def stop(number: int) -> None:
+        raise Stopped(number)
+
+    with handled(stop, [number for number in heeded() if number != signal.SIGINT]):
+        yield
+
+
+def _lose_terminals() -> None:
     """After SIGHUP: a terminal that was closed can be written to no more, and tells so more than once."""
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     for place in _terminals:

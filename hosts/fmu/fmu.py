@@ -31,7 +31,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
 from hosts.fmu.scalars import TEXTS, Place, element_names, scalars
-from hosts.fmu.variables import Variables
+from hosts.fmu.variables import Variables, check_co_simulation
 
 
 class StepRefusedError(Exception):
@@ -82,12 +82,7 @@ class Fmu(Closing):
 
     def __init__(self, path: Path) -> None:
         description, self._places = _read(path)
-        if description.coSimulation is None or description.fmiVersion[0] not in "23":
-            kind = "" if description.coSimulation is not None else " for model exchange"
-            raise HostError(
-                f"{path} is an FMU of FMI {description.fmiVersion}{kind}; this host drives co-simulation of "
-                "FMI 2.0 and 3.0."
-            )
+        check_co_simulation(path, description)
         self.path, self.description = path, description
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -212,6 +213,16 @@ def _start(text: Any, kind: str) -> Value | None:
     if kind == "Boolean":
         return str(text).strip().lower() in ("true", "1")
     return float(text) if kind == "Real" else int(text)
+
+
+def check_co_simulation(path: Path, description: ModelDescription) -> None:
+    """Raises `HostError`: the FMU is not for co-simulation of FMI 2.0 or 3.0."""
+    if description.coSimulation is None or description.fmiVersion[0] not in "23":
+        kind = "" if description.coSimulation is not None else " for model exchange"
+        raise HostError(
+            f"{path} is an FMU of FMI {description.fmiVersion}{kind}; what is driven here is co-simulation of FMI 2.0 "
+            "and 3.0."
+        )
 
 
 def default_step(description: ModelDescription) -> float:

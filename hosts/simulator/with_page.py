@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ali3.signals import heeded, lose_terminals
+from ali3.signals import handled, heeded
 from hosts.common.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.guard import Guard
@@ -127,17 +127,10 @@ def _interrupted_by_signals(loop: asyncio.AbstractEventLoop, stop: asyncio.Event
     known = heeded()
     before = {number: signal.getsignal(number) for number in known}
 
-    def end(number: int, _: object) -> None:
-        if signal.Signals(number).name == "SIGHUP":
-            lose_terminals()
-        else:
-            signal.signal(number, before[signal.Signals(number)])
+    def end(number: signal.Signals) -> None:
+        if number.name != "SIGHUP":
+            signal.signal(number, before[number])
         loop.call_soon_threadsafe(stop.set)
 
-    try:
-        for number in known:
-            signal.signal(number, end)
+    with handled(end, known):
         yield
-    finally:
-        for number in known:
-            signal.signal(number, before[number])

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+from scipy.interpolate import CubicHermiteSpline
 
 from mbs.common.checks import array, number, positive, shown, text
 from mbs.common.errors import ModelError
@@ -35,11 +35,6 @@ def of_table(guide: Guide, u: float) -> tuple[float, float]:
         return float(y[k] + m[k] * (u - x[k])), float(m[k])
     hermite = CubicHermiteSpline(x, y, m)
     return float(hermite(u)), float(hermite(u, 1))
-
-
-def curve(rows: NDArray[np.float64]) -> PchipInterpolator:
-    """The monotone cubic through rows of two numbers, shape (n, 2)."""
-    return PchipInterpolator(*rows.T)
 
 
 def at_right_angles(directions: object, count: int, dimension: int, what: str) -> NDArray[np.float64]:
