@@ -30,7 +30,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
-from hosts.fmu.scalars import TEXTS, Place, element_names, scalars
+from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of, element_names, scalars
 from hosts.fmu.variables import Variables, check_co_simulation
 
 
@@ -72,7 +72,7 @@ def unpack(path: Path, folder: Path) -> None:
     extract(str(path), str(folder), lambda name: not name.startswith(("sources/", "documentation/")))
 
 
-class Fmu(Closing):
+class Fmu(Closing, NamedScalars):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
     `variables`: scalars by name, in the order of the model description; types are those of FMI 2.0; `table`: the same
@@ -108,15 +108,6 @@ class Fmu(Closing):
         if self._remove.alive:
             self._slave.freeInstance()
             self._remove()
-
-    def names(self, causality: str) -> list[str]:
-        """Names of the real and whole variables of a causality."""
-        return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
-
-    @property
-    def tunable(self) -> list[str]:
-        """Names of the real and whole parameters that may be set between steps."""
-        return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
 
     def places(self, names: Iterable[str]) -> list[Place]:
         """Where the values of scalars stand."""
@@ -258,7 +249,7 @@ class Fmu(Closing):
 
     def constants(self) -> dict[str, float]:
         """Values of the constants, by name."""
-        return {n: float(v.start) for n, v in self.variables.items() if (v.variability, v.type) == ("constant", "Real")}
+        return constants_of(self.variables)
 
     @contextmanager
     def _told(self, what: str, kind: type[HostError] = HostError) -> Iterator[None]:

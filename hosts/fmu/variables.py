@@ -64,6 +64,11 @@ class Variable:
         return f"{self.text(value)}{unit}"
 
     @property
+    def may_be_set(self) -> bool:
+        """Whether it is a parameter or an input that is no constant."""
+        return self.causality in ("parameter", "input") and self.variability != "constant"
+
+    @property
     def range(self) -> str:
         """The range in words; empty where it is open."""
         if self.items:
@@ -165,11 +170,7 @@ class Variables:
         return variable
 
     def _near(self, name: str) -> str:
-        can = [
-            n
-            for n, v in self._variables.items()
-            if v.causality in ("parameter", "input") and v.variability != "constant"
-        ]
+        can = [n for n, v in self._variables.items() if v.may_be_set]
         few, many = f"it has: {', '.join(can) or 'none'}", f"{command_name('check')} FMU --show-parameters lists them"
         return did_you_mean(name, can, few if len(can) <= 2 * MOST else many)
 
