@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 """Signals that ask a program to end."""
@@ -30,14 +31,14 @@ def heeded() -> list[signal.Signals]:
 
 
 @contextmanager
-def handled(stop: Callable[[signal.Signals], None], numbers: Collection[signal.Signals]) -> Iterator[None]:
-    """A context in which signals call `stop`; what they did before comes back at its end."""
+def handled(stop: Callable[[signal.Signals, Any], None], numbers: Collection[signal.Signals]) -> Iterator[None]:
+    """A context in which signals call `stop`, with what handled them before, which comes back at its end."""
     before = {number: signal.getsignal(number) for number in numbers}
 
     def handle(number: int, _: FrameType | None) -> None:
         if number == getattr(signal, "SIGHUP", None):
             _lose_terminals()
-        stop(signal.Signals(number))
+        stop(signal.Signals(number), before[signal.Signals(number)])
 
     try:
         for number in numbers:
@@ -56,7 +57,7 @@ def stopped_by_signals() -> Iterator[None]:
         return
     _terminals[:] = [place for place in (1, 2) if os.isatty(place)]
 
-    def stop(number: int) -> None:
+    def stop(number: signal.Signals, _: object) -> None:
         raise Stopped(number)
 
     with handled(stop, [number for number in heeded() if number != signal.SIGINT]):

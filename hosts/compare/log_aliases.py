@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ali3.alias_file import number
 from ali3.reading import read_toml
 from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
 
 TIME_UNITS: Mapping[str, float | None] = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "epoch": 1.0, "epoch_ms": 1e-3,
@@ -120,7 +120,7 @@ def _clock(table: dict[str, Any], file: Path) -> Clock:
         raise HostError(f"{where} name is {name!r}; it must be the name of a column.")
     if unit is not None and unit not in TIME_UNITS:
         raise HostError(f"{where} unit is {unit!r}; known are {', '.join(TIME_UNITS)}.")
-    return Clock(name, unit, _factor(table, where), number(table.get("offset", 0.0), f"{where} offset"))
+    return Clock(name, unit, _factor(table, where), _number(table.get("offset", 0.0), f"{where} offset"))
 
 
 def _column(value: Any, where: str) -> Column:
@@ -133,7 +133,7 @@ def _column(value: Any, where: str) -> Column:
     for key in ("unit", "time"):
         if key in value and not isinstance(value[key], str):
             raise HostError(f"{where}: {key} is {value[key]!r}; it must be a text.")
-    factor, offset = _factor(value, where), number(value.get("offset", 0.0), f"{where}: offset")
+    factor, offset = _factor(value, where), _number(value.get("offset", 0.0), f"{where}: offset")
     return Column(value["name"], value.get("unit"), factor, offset, value.get("time"))
 
 
@@ -144,7 +144,13 @@ def _known(table: dict[str, Any], keys: tuple[str, ...], where: str) -> None:
 
 
 def _factor(table: dict[str, Any], where: str) -> float:
-    factor = number(table.get("factor", 1.0), f"{where}: factor")
+    factor = _number(table.get("factor", 1.0), f"{where}: factor")
     if factor == 0.0:
         raise HostError(f"{where}: factor is 0; it must be another number.")
     return factor
+
+
+def _number(value: Any, where: str) -> float:
+    if not is_finite(value):
+        raise HostError(f"{where} is {value!r}; it must be a finite number.")
+    return float(value)

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ali3.signals import handled, heeded
 from hosts.common.errors import HostError
@@ -124,13 +124,11 @@ def _torque(car: AliasedCar) -> Callable[[], float | None]:
 @contextmanager
 def _interrupted_by_signals(loop: asyncio.AbstractEventLoop, stop: asyncio.Event) -> Iterator[None]:
     """The first Ctrl-C, or a signal to end, sets `stop`; a second one interrupts."""
-    known = heeded()
-    before = {number: signal.getsignal(number) for number in known}
 
-    def end(number: signal.Signals) -> None:
+    def end(number: signal.Signals, before: Any) -> None:
         if number.name != "SIGHUP":
-            signal.signal(number, before[number])
+            signal.signal(number, before)
         loop.call_soon_threadsafe(stop.set)
 
-    with handled(end, known):
+    with handled(end, heeded()):
         yield

@@ -10,22 +10,22 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 42240,
+    "build": 42243,
     "build --kernel": 283,
-    "car": 15979,
-    "run": 3598,
-    "run, all of it": 7772,
-    "view": 631,
-    "simulator": 8089,
-    "simulator, all of it": 14607,
-    "check": 3339,
-    "check --reference": 5419,
-    "catalogue": 7699,
-    "compare": 8903,
-    "study": 5440,
-    "study --run": 7579,
-    "study, all of it": 14034,
-    "road": 543,
+    "car": 15993,
+    "run": 3629,
+    "run, all of it": 7781,
+    "view": 640,
+    "simulator": 8102,
+    "simulator, all of it": 14615,
+    "check": 3361,
+    "check --reference": 5381,
+    "catalogue": 7731,
+    "compare": 8931,
+    "study": 5478,
+    "study --run": 7521,
+    "study, all of it": 14037,
+    "road": 553,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300
