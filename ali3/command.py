@@ -56,7 +56,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         epilog="commands:\n"
         + "\n".join(f"  {c.name:<{width}}  {c.text}" for c in COMMANDS)
         + f"\n\n{prog} COMMAND --help describes one.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and stop")
     return parser

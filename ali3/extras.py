@@ -60,17 +60,8 @@ def extras() -> dict[str, set[str]]:
 def _extra_of(package: str, wanted: str = "") -> str | None:
     """The extra of the command that runs, the wanted one, or the smallest; None: no extra brings the package."""
     bringing = {extra: names for extra, names in extras().items() if _distribution(package) in names}
-    chosen = next((extra for extra in (_extra_of_command(), wanted) if extra in bringing), None)
+    chosen = next((extra for extra in (_extra, wanted) if extra in bringing), None)
     return min(bringing, key=lambda extra: len(bringing[extra]), default=None) if chosen is None else chosen
-
-
-def _extra_of_command() -> str:
-    if _extra is not None:
-        return _extra
-    from ali3.commands import COMMANDS
-
-    main = getattr(sys.modules["__main__"].__spec__, "name", "").removesuffix(".__main__").removesuffix(".command")
-    return next((c.extra for c in COMMANDS if c.module.removesuffix(".command") == main), "")
 
 
 def _askers(place: TracebackType | None) -> list[str]:

@@ -13,7 +13,10 @@ from ali3.words import brief, shortened
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of a command line; its messages shorten long words."""
+    """A parser of a command line whose messages shorten long words and whose descriptions keep their lines."""
+
+    def __init__(self, **given: Any) -> None:
+        super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | given)
 
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 """Signals that ask a program to end."""
@@ -30,30 +31,40 @@ def heeded() -> list[signal.Signals]:
 
 
 @contextmanager
-def stopped_by_signals() -> Iterator[None]:
-    """A context in which signals that end programs raise an exception, as Ctrl-C does, so that what is done is kept."""
-    if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
-        yield
-        return
-    numbers = [number for number in heeded() if number != signal.SIGINT]
+def handled(stop: Callable[[signal.Signals, Any], None], numbers: Collection[signal.Signals]) -> Iterator[None]:
+    """A context in which signals call `stop`, with what handled them before, which comes back at its end."""
     before = {number: signal.getsignal(number) for number in numbers}
-    _terminals[:] = [place for place in (1, 2) if os.isatty(place)]
 
-    def stop(number: int, _: FrameType | None) -> None:
-        if signal.Signals(number).name == "SIGHUP":
-            lose_terminals()
-        raise Stopped(number)
+    def handle(number: int, _: FrameType | None) -> None:
+        if number == getattr(signal, "SIGHUP", None):
+            _lose_terminals()
+        stop(signal.Signals(number), before[signal.Signals(number)])
 
     try:
         for number in numbers:
-            signal.signal(number, stop)
+            signal.signal(number, handle)
         yield
     finally:
         for number in numbers:
             signal.signal(number, before[number])
 
 
-def lose_terminals() -> None:
+@contextmanager
+def stopped_by_signals() -> Iterator[None]:
+    """A context in which signals that end programs raise an exception, as Ctrl-C does, so that what is done is kept."""
+    if threading.current_thread() is not threading.main_thread():  # Python has signals in the main thread only
+        yield
+        return
+    _terminals[:] = [place for place in (1, 2) if os.isatty(place)]
+
+    def stop(number: signal.Signals, _: object) -> None:
+        raise Stopped(number)
+
+    with handled(stop, [number for number in heeded() if number != signal.SIGINT]):
+        yield
+
+
+def _lose_terminals() -> None:
     """After SIGHUP: a terminal that was closed can be written to no more, and tells so more than once."""
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     for place in _terminals:

@@ -178,7 +178,7 @@ def start_again(case: str, fmu: Path, runs: int, stop_time: float, folder: Path)
     from ali3.running import module_command
 
     file = folder / f"{case}.toml"
-    line = module_command("hosts.study", str(file), "--out", str(folder), "--no-report")
+    line = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")
     begin = time.perf_counter()
     done = subprocess.run(line, check=False, capture_output=True, text=True)
     if done.returncode != 0 or f"{runs} of {runs} runs are there" not in done.stdout:

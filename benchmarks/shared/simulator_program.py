@@ -13,7 +13,7 @@ from pathlib import Path
 @contextmanager
 def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
     """Start the simulator; gives its address."""
-    command = [sys.executable, "-m", "hosts.simulator", str(fmu), "--no-open", "--no-devices", *options]
+    command = [sys.executable, "-m", "ali3", "simulator", str(fmu), "--no-open", "--no-devices", *options]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     said = ""
     try:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -281,7 +280,3 @@ def _need(package: str) -> None:
     if importlib.util.find_spec(package) is None:
         more = ", or leave out --kind python" if package == "pythonfmu" else ""
         raise UserError(missing_package(package) + more)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

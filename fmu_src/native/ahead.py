@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.cores import available_cores
-from fmu_src.native.compile import library_command, library_digest
+from fmu_src.native.compile import library_command
 from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
 from fmu_src.variables.arrays import scalars
@@ -29,6 +29,7 @@ from mbs.kernel import build
 
 # A table of one variable, which stands for that of the model.
 _VARIABLE = Variable("nothing", "local", "constant", "1", "", "constant", 0, 0.0)
+_ANY = (Path("table.c"), Path("library"))
 
 
 @contextmanager
@@ -43,9 +44,8 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
         marks = {
-            build.cache_directory() / "ahead" / library_digest(face, target): (face, target)
-            for face, platform in work
-            for target in TARGETS[platform]
+            build.cache_directory() / "ahead" / build.digest_of(library_command(*library, *_ANY)): library
+            for library in [(face, target) for face, platform in work for target in TARGETS[platform]]
         }
         missing = {mark: library for mark, library in marks.items() if not mark.is_file()}
         commands = [library_command(*library, table, Path(folder, "-".join(library))) for library in missing.values()]

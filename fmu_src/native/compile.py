@@ -64,11 +64,6 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
     return build.compiler_command(files, target, library, include=include, defines=_DEFINES, exports=exports(files))
 
 
-def library_digest(face: str, target: str) -> str:
-    """A hash of that command, in which places name the contents of the sources."""
-    return build.digest_of(library_command(face, target, Path("table.c"), Path("library")))
-
-
 def exports(files: Sequence[Path]) -> list[str]:
     """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
     shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]

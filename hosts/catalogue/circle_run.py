@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import ROLLED
+from hosts.catalogue.preparation import start_at
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
@@ -119,7 +120,6 @@ def drive_circle(
     most = steering.largest / rate if steady else (math.sqrt(_FASTEST * radius) - first) / rate
     stop = _APPROACH + (min(most, 300.0) if math.isfinite(most) else 300.0)
     expected = 0.2 * most * rate if steady else math.sqrt(_USUAL * radius) - first
-    start = {"initial.speed": first} if "initial.speed" in car.parameters else {}
     name = f"circle to the {'left' if side > 0.0 else 'right'}"
     told = 0.0
 
@@ -130,7 +130,7 @@ def drive_circle(
             progress(min(watch.risen(time) / expected, 1.0))
         return watch.ends(time, senses)
 
-    result = car.drive(Manoeuvre(name, np.zeros(0), {}, stop, dict(start)), pilot, ends, record_step=_RECORD)
+    result = car.drive(Manoeuvre(name, np.zeros(0), {}, stop, start_at(car, first)), pilot, ends, record_step=_RECORD)
     if result.failed_steps:
         watch.end = f"the FMU refused the step at {result.time[-1]:.4g} s: {' '.join(result.messages[-1:])}".strip()
     return _signals(result, watch, steering, car.facts.step)

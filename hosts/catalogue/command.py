@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 _PENDING = "Not done yet: the command is at work, or was stopped."
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.catalogue") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -> int:
     """Run the command, which the user typed as `prog`."""
-    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser, "*", name="fmus")
     parser.add_argument(
         "--tests", action="append", default=[], metavar="NAME,...", help="only these tests; repeatable; default: all"
@@ -218,7 +218,3 @@ def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str
     for fault in faults:
         print(fault)
     return 1 if undone or broken or faults else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -13,6 +13,9 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import described
 
+_SETTLED = 1.0  # s, of driving straight at least
+_LONGEST = 120.0  # s, of a car that cannot be started at speed
+
 
 def with_step_up_to(car: TestedCar, longest: float, why: str) -> tuple[TestedCar, tuple[str, ...]]:
     """The car with a communication step that resolves what is measured.
@@ -45,6 +48,26 @@ def held(
     """
     values = {n: np.full(2, x) for n, x in inputs.items() if n in car.facts.inputs}
     return Manoeuvre(name, np.array([0.0, stop_time]), values, stop_time, dict(start))
+
+
+def start_at(car: TestedCar, speed: float) -> dict[str, Value]:
+    """Start values of a car that moves at a speed, m/s, from the first; none where it cannot be started so."""
+    return {"initial.speed": speed} if "initial.speed" in car.facts.parameters else {}
+
+
+class RunUp:
+    """Driving straight until a speed is held.
+
+    `speed`: in m/s. `start`: start values of the car; `longest`: what it may take, s.
+    """
+
+    def __init__(self, car: TestedCar, speed: float) -> None:
+        self.start, self._speed = start_at(car, speed), speed
+        self.longest = _SETTLED + 10.0 if self.start else _LONGEST
+
+    def is_over(self, time: float, senses: Mapping[str, float]) -> bool:
+        """Whether the speed is held."""
+        return time >= _SETTLED - 1e-9 and abs(senses["speed"] - self._speed) <= max(0.005 * self._speed, 0.05)
 
 
 def early_end(run: str, result: Result) -> tuple[str, ...]:

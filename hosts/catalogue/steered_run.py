@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import ROLLED
+from hosts.catalogue.preparation import start_at
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
@@ -151,16 +152,15 @@ def steer(
     `speed`: in m/s; `time`, `angle`: in s from the beginning, rad, shape (n,); `lateral_limit`: lateral acceleration at
     which the run ends, m/s².
     """
-    has_start = "initial.speed" in car.facts.parameters
-    longest = 30.0 if has_start else 90.0
+    start = start_at(car, speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0))
+    longest = 30.0 if start else 90.0
     pilot = SteeredPilot(car, speed, time, angle, pedals, longest)
-    first = speed + (_COAST_FROM if pedals is Pedals.COAST else 0.0)
     manoeuvre = Manoeuvre(
         name,
         np.zeros(1),
         dict.fromkeys([pilot.input.name, "throttle"], np.zeros(1)),
         longest + float(time[-1]) + 2.0 * car.facts.step,
-        {"initial.speed": first} if has_start else {},
+        start,
     )
 
     def ends(t: float, senses: Mapping[str, float]) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 from scipy import stats
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.preparation import start_at
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.speed_holder import SpeedHolder
@@ -31,11 +32,12 @@ def steering_ratio(car: TestedCar) -> float:
     steering = SteeringInput.of(car.facts)
     if not steering.is_angle:
         return car.constants.get(RATIO, math.nan)
-    start = {"initial.speed": _SPEED} if "initial.speed" in car.parameters else {}
     times = np.array([0.0, 1.0, 3.0, 7.0])
     table = steering.per_radian * _ANGLE * np.array([0.0, 0.0, 1.0, -1.0])
     pilot = Together(SpeedHolder(_SPEED, brakes="brake" in car.inputs), SteeringTable(times, table, steering.name))
-    result = car.drive(Manoeuvre("steering ratio", np.zeros(0), {}, 7.0, dict(start)), pilot, record_step=0.02)
+    result = car.drive(
+        Manoeuvre("steering ratio", np.zeros(0), {}, 7.0, start_at(car, _SPEED)), pilot, record_step=0.02
+    )
     wheels = 0.5 * (result[WHEELS[0]] + result[WHEELS[1]])
     rows = result.time > 1.0
     if rows.sum() < 10 or not np.ptp(wheels[rows]) > 1e-3:

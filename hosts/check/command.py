@@ -7,7 +7,6 @@ chance (--soak).
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 import zipfile
 from collections.abc import Mapping, Sequence
@@ -44,7 +43,7 @@ _OF_REFERENCE = ("manoeuvre", "bound")
 _OF_BOTH = ("fidelity", "step")
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.check.command") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> int:
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
@@ -52,11 +51,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.ch
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
-    parser = Parser(
-        prog=prog,
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype")
     parser.add_argument(
         "--steps", type=_steps, metavar="N", help=f"communication steps per run of a check; default: {_STEPS}"
@@ -220,7 +215,3 @@ def _outside(fmu: Path, steps: int, given: Wishes, cases: list[Case]) -> int:
 def print_finding(finding: Finding) -> None:
     """One line of the verdict."""
     print(f"{_MARKS[finding.verdict]:>4}  {finding.check:<{_WIDTH}}  {shortened(finding.words)}", flush=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

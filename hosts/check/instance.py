@@ -16,7 +16,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
 from hosts.fmu.scalars import Place, element_names, scalars
-from hosts.fmu.variables import default_step
+from hosts.fmu.variables import check_co_simulation, default_step
 
 
 @dataclass(frozen=True)
@@ -141,8 +141,7 @@ def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value
         raise
     except Exception as error:
         raise HostError(f"{path} is not an FMU that can be read: {error}") from None
-    if description.coSimulation is None or description.fmiVersion[0] not in "23":
-        raise HostError(f"{path} is no co-simulation FMU of FMI 2.0 or 3.0.")
+    check_co_simulation(path, description)
     by_elements = copy.copy(description)
     arrays = any(v.dimensions for v in description.modelVariables)
     by_elements.modelVariables, places = scalars(description, element_names(path) if arrays else {})

@@ -12,15 +12,15 @@ from hosts.common.errors import HostError
 _ERROR = "error: "
 
 
-def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
-    """Run the command of a module to its end. `hear`: hears each line of its standard error at once.
+def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
+    """Run another command to its end. `hear`: hears each line of its standard error at once.
 
     Result: its standard error. What it prints is left out. Raises `HostError`: it did not succeed; with its words, or
     how its process ended.
     """
     lines: list[str] = []
     with subprocess.Popen(
-        module_command(module, *arguments),
+        module_command("ali3", *arguments),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
@@ -40,5 +40,5 @@ def run_module(module: str, *arguments: str, hear: Callable[[str], None] = lambd
         last = said.strip().splitlines()[-1:]
         if last and last[0].startswith(_ERROR):
             raise HostError(last[0].removeprefix(_ERROR))
-        raise HostError(f"The process of {module} {how_ended(process.returncode, said)}.")
+        raise HostError(f"The process of ali3 {how_ended(process.returncode, said)}.")
     return said

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from ali3.files import make_folder
-from hosts.common.commands import run_module
+from hosts.common.commands import run_ali3
 from hosts.common.options import ROAD, Wishes, wishes
 
 MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
@@ -36,6 +36,6 @@ def road_value(given: str, out: Path) -> str:
     if path.suffix.lower() not in MADE_OF:
         return str(path.absolute()) if path.exists() else given
     made = make_folder(out) / f"{path.stem}.road"
-    said = run_module("ali3", "road", str(path), str(made))
+    said = run_ali3("road", str(path), str(made))
     print(said, end="", file=sys.stderr)  # what is odd about the road
     return str(made.absolute())

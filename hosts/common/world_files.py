@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.cache import cache_folder
-from hosts.common.commands import run_module
+from hosts.common.commands import run_ali3
 from hosts.common.numbers import Value
 from hosts.common.world_record import FORMAT, VERSION, read_world_record
 
@@ -66,6 +66,6 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
         if line.endswith(_GOING_ON):
             tell(line)
 
-    run_module("ali3", "road", "--world", given, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
+    run_ali3("road", "--world", given, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
     content = read_world_record(folder / f"{file.stem}.json")
     return World(str(content["name"]), folder / content["road"], content)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,9 +19,9 @@ from hosts.common.options import add_fmu, add_setting_options
 from hosts.fmu.fmu_file import fmu_file
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.compare") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> int:
     """Run the command, which the user typed as `prog`; 1 if the comparison or the fit is not good."""
-    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser)
     parser.add_argument("log", type=Path, metavar="LOG", help="CSV as data loggers write it, or Parquet")
     parser.add_argument("--log-aliases", type=Path, metavar="FILE", help="alias file of the log: names, units, clock")
@@ -84,7 +83,3 @@ def _compare(options: argparse.Namespace) -> int:
 
     options.fmu = fmu_file(options.fmu)
     return perform(options)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from ali3.reading import read_toml
 from hosts.common.errors import HostError
+from hosts.common.numbers import is_finite
 
 TIME_UNITS: Mapping[str, float | None] = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "epoch": 1.0, "epoch_ms": 1e-3,
@@ -152,6 +152,6 @@ def _factor(table: dict[str, Any], where: str) -> float:
 
 
 def _number(value: Any, where: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if not is_finite(value):
         raise HostError(f"{where} is {value!r}; it must be a finite number.")
     return float(value)

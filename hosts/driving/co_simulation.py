@@ -13,7 +13,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_jumps import missed_end, missed_jumps
-from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.pilots.pilot import Pilot, refuse_missing
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
@@ -108,9 +108,7 @@ def run(
         fmu.restore_bytes(manoeuvre.state)
     senses.read()
     acts = driver.act(0.0, senses) if driver is not None else {}
-    missing = [n for n in acts if n not in inputs]
-    if missing:
-        raise HostError(f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}.")
+    refuse_missing([n for n in acts if n not in inputs], fmu.path.name)
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
     fixed = {*whole, *acts, *manoeuvre.held, *fmu.tunable}
     straight = [n for n in manoeuvre.inputs if n not in fixed] if fmu.follows_slopes else []

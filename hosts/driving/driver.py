@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import fields
 
 from ali3.decimal_number import parse_number
@@ -10,7 +10,7 @@ from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.pilot import ACTS, SENSES
+from hosts.driving.pilots.pilot import ACTS, SENSES, refuse_missing
 from hosts.driving.simulated_fmu import SimulatedFmu
 
 __all__ = ["CONSTANTS", "Driver", "DriverSettings", "make_driver"]
@@ -59,6 +59,11 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
     return Driver(course_of(settings["course"], values.vehicle_width), values)
 
 
+def check_drivable(inputs: Collection[str], outputs: Collection[str], whose: str) -> None:
+    """Raises `HostError`: a driver has nothing to act with, or to sense. `whose`: how messages call the FMU."""
+    refuse_missing([n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs], whose)
+
+
 def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
@@ -66,15 +71,5 @@ def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """
     if not manoeuvre.driver:
         return None
-    _check_drivable(fmu)
+    check_drivable(fmu.names("input"), fmu.names("output"), fmu.path.name)
     return make_driver(manoeuvre.driver, fmu.constants())
-
-
-def _check_drivable(fmu: SimulatedFmu) -> None:
-    inputs, outputs = fmu.names("input"), fmu.names("output")
-    missing = [n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs]
-    if missing:
-        raise HostError(
-            f"The driver needs variables that {fmu.path.name} does not have: {', '.join(missing)}. "
-            "Where they have other names, an alias file says which (ali3 run --aliases)."
-        )

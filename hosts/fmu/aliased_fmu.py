@@ -15,10 +15,11 @@ from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.scalars import NamedScalars
 from hosts.fmu.variables import Variable
 
 
-class AliasedFmu:
+class AliasedFmu(NamedScalars):
     """An `Fmu` seen through aliases; with none of them it is the FMU as it is, to the last bit.
 
     `fmu`: its variables that have no alias keep their names and units.
@@ -50,15 +51,6 @@ class AliasedFmu:
         self._held = dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True))
         self._slopes: dict[str, float] = {}
         self._time = 0.0
-
-    def names(self, causality: str) -> list[str]:
-        """See `Fmu.names`; ours."""
-        return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
-
-    @property
-    def tunable(self) -> list[str]:
-        """See `Fmu.tunable`; ours."""
-        return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """See `Fmu.initialise`; `start` is in our names and units."""

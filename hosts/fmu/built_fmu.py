@@ -16,7 +16,7 @@ from ali3.folders import forget_oldest, whole_folder
 from ali3.locks import locked
 from ali3.reading import read_toml
 from ali3.words import brief
-from hosts.common.commands import run_module
+from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE
 
@@ -84,7 +84,7 @@ def build_fmu(what: str, options: tuple[str, ...], folder: Path) -> None:
     `options`: of the command, that say what is built. Raises `HostError` with the words of the build.
     """
     try:
-        run_module("ali3", "build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))
+        run_ali3("build", "--kind", "native", "--platforms", "this", *options, "--out", str(folder))
     except HostError as error:
         raise HostError(f"The FMU of {what} cannot be built: {error}") from None
 

@@ -30,8 +30,8 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
-from hosts.fmu.scalars import TEXTS, Place, element_names, scalars
-from hosts.fmu.variables import Variables
+from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of, element_names, scalars
+from hosts.fmu.variables import Variables, check_co_simulation
 
 
 class StepRefusedError(Exception):
@@ -72,7 +72,7 @@ def unpack(path: Path, folder: Path) -> None:
     extract(str(path), str(folder), lambda name: not name.startswith(("sources/", "documentation/")))
 
 
-class Fmu(Closing):
+class Fmu(Closing, NamedScalars):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
     `variables`: scalars by name, in the order of the model description; types are those of FMI 2.0; `table`: the same
@@ -82,12 +82,7 @@ class Fmu(Closing):
 
     def __init__(self, path: Path) -> None:
         description, self._places = _read(path)
-        if description.coSimulation is None or description.fmiVersion[0] not in "23":
-            kind = "" if description.coSimulation is not None else " for model exchange"
-            raise HostError(
-                f"{path} is an FMU of FMI {description.fmiVersion}{kind}; this host drives co-simulation of "
-                "FMI 2.0 and 3.0."
-            )
+        check_co_simulation(path, description)
         self.path, self.description = path, description
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
@@ -113,15 +108,6 @@ class Fmu(Closing):
         if self._remove.alive:
             self._slave.freeInstance()
             self._remove()
-
-    def names(self, causality: str) -> list[str]:
-        """Names of the real and whole variables of a causality."""
-        return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
-
-    @property
-    def tunable(self) -> list[str]:
-        """Names of the real and whole parameters that may be set between steps."""
-        return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
 
     def places(self, names: Iterable[str]) -> list[Place]:
         """Where the values of scalars stand."""
@@ -263,7 +249,7 @@ class Fmu(Closing):
 
     def constants(self) -> dict[str, float]:
         """Values of the constants, by name."""
-        return {n: float(v.start) for n, v in self.variables.items() if (v.variability, v.type) == ("constant", "Real")}
+        return constants_of(self.variables)
 
     @contextmanager
     def _told(self, what: str, kind: type[HostError] = HostError) -> Iterator[None]:

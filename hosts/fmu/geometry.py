@@ -11,7 +11,7 @@ from typing import Any
 
 from ali3.json_reading import LARGEST_JSON, read_json
 from ali3.running import command_name
-from hosts.common.commands import run_module
+from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.world_record import world_beside
@@ -110,7 +110,7 @@ def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
             remedy = f"; {_made_by(file)}" if file.is_absolute() else ""
             raise HostError(f"its file is not there{remedy}")
         out = Path(folder, "part.json")
-        run_module("ali3", "road", str(file), "--part", str(out))
+        run_ali3("road", str(file), "--part", str(out))
         part: dict[str, Any] = read_json(out, HostError)
         return part
 

@@ -33,6 +33,26 @@ class Place:
     """`item`, `size`: place in the values of the variable, and how many values it has."""
 
 
+class NamedScalars:
+    """What has scalars by name."""
+
+    variables: dict[str, ScalarVariable]
+
+    def names(self, causality: str) -> list[str]:
+        """Names of the real and whole variables of a causality."""
+        return [n for n, v in self.variables.items() if v.causality == causality and v.type in ("Real", "Integer")]
+
+    @property
+    def tunable(self) -> list[str]:
+        """Names of the real and whole parameters that may be set between steps."""
+        return [n for n in self.names("parameter") if self.variables[n].variability == "tunable"]
+
+
+def constants_of(variables: Mapping[str, ScalarVariable]) -> dict[str, float]:
+    """Values of the constants, by name."""
+    return {n: float(v.start) for n, v in variables.items() if (v.variability, v.type) == ("constant", "Real")}
+
+
 def element_names(path: Path) -> dict[str, list[str]]:
     """Names of the elements of the arrays that say them, by the name of the array."""
     with zipfile.ZipFile(path) as archive:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -61,6 +62,11 @@ class Variable:
         """A value with its unit."""
         unit = "" if self.unit == "1" or self.kind != "Real" else f" {self.unit}"
         return f"{self.text(value)}{unit}"
+
+    @property
+    def may_be_set(self) -> bool:
+        """Whether it is a parameter or an input that is no constant."""
+        return self.causality in ("parameter", "input") and self.variability != "constant"
 
     @property
     def range(self) -> str:
@@ -164,11 +170,7 @@ class Variables:
         return variable
 
     def _near(self, name: str) -> str:
-        can = [
-            n
-            for n, v in self._variables.items()
-            if v.causality in ("parameter", "input") and v.variability != "constant"
-        ]
+        can = [n for n, v in self._variables.items() if v.may_be_set]
         few, many = f"it has: {', '.join(can) or 'none'}", f"{command_name('check')} FMU --show-parameters lists them"
         return did_you_mean(name, can, few if len(can) <= 2 * MOST else many)
 
@@ -212,6 +214,16 @@ def _start(text: Any, kind: str) -> Value | None:
     if kind == "Boolean":
         return str(text).strip().lower() in ("true", "1")
     return float(text) if kind == "Real" else int(text)
+
+
+def check_co_simulation(path: Path, description: ModelDescription) -> None:
+    """Raises `HostError`: the FMU is not for co-simulation of FMI 2.0 or 3.0."""
+    if description.coSimulation is None or description.fmiVersion[0] not in "23":
+        kind = "" if description.coSimulation is not None else " for model exchange"
+        raise HostError(
+            f"{path} is an FMU of FMI {description.fmiVersion}{kind}; what is driven here is co-simulation of FMI 2.0 "
+            "and 3.0."
+        )
 
 
 def default_step(description: ModelDescription) -> float:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -31,14 +30,9 @@ if TYPE_CHECKING:
     from hosts.run.other_names import OtherNames
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.run.command") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
     """Run the command, which the user typed as `prog`; 0 if every step was accepted."""
-    parser = Parser(
-        prog=prog,
-        description=__doc__,
-        epilog=f"manoeuvres: {', '.join(manoeuvre_names())}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = Parser(prog=prog, description=__doc__, epilog=f"manoeuvres: {', '.join(manoeuvre_names())}")
     add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype")
     add_option(parser, "--manoeuvre", "none, inputs keep their start values")
     parser.add_argument(
@@ -142,7 +136,3 @@ def _run(options: argparse.Namespace) -> int:
 
 def _words(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
-
-
-if __name__ == "__main__":
-    sys.exit(main())

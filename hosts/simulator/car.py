@@ -15,6 +15,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
+from hosts.fmu.scalars import constants_of
 from hosts.fmu.steering_ratios import steering_as_set
 from hosts.fmu.variables import Variables
 from hosts.simulator.car_process import COMMANDS, Order
@@ -51,9 +52,7 @@ class Car(Closing):
         if not self.names:
             raise HostError(f"{settings.fmu} has neither inputs nor outputs that are numbers: nothing could be driven.")
         self.units = {n: variables[n].unit or "1" for n in self.names}
-        self.constants = {
-            n: float(v.start) for n, v in variables.items() if v.variability == "constant" and v.type == "Real"
-        }
+        self.constants = constants_of(variables)
         self.constants |= steering_as_set(self.constants, table, start)
         self._table, self._ranges = table, [(table[n].low, table[n].high) for n in self.inputs]
         self._places = {n: k for k, n in enumerate(self.inputs)}

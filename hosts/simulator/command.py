@@ -28,7 +28,7 @@ _BAR = "{desc}: {percentage:3.0f} % |{bar}| {elapsed}<{remaining}"
 _OF_RECORDINGS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu")
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.simulator") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -> int:
     """Run the command, which the user typed as `prog`; 0 unless a run without a page had a refused step."""
     begin = time.monotonic()
     parser = _parser(prog)
@@ -55,9 +55,9 @@ def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> i
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(
         prog=prog,
-        description="Drive a car in real time: from a page in the browser, by keys, gamepad or a steering wheel. "
-        "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat it, or "
-        "make a manoeuvre of it.",
+        description="Drive a car in real time: from a page in the browser, by keys, gamepad or a steering wheel.\n"
+        "Ctrl-C ends with a report of the step times. With --recording: say what a recording holds, repeat\n"
+        "it, or make a manoeuvre of it.",
     )
     add_fmu(parser, "?", "dist/PrototypeCar.fmu, else prototype; of a recording: the one that was recorded")
     add_option(parser, "--world", "proving_ground")

@@ -10,7 +10,7 @@ from typing import Protocol
 
 from ali3.bars import bar
 from hosts.common.errors import HostError
-from hosts.driving.driver import Driver, make_driver
+from hosts.driving.driver import Driver, check_drivable, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import ACTS, SENSES
 from hosts.driving.wild_driver import WildDriver
@@ -52,9 +52,7 @@ class OfManoeuvre:
         self._manoeuvre = manoeuvre
         self._driver: Driver | None = None
         if manoeuvre.driver:
-            missing = [n for n in ACTS if n not in car.inputs] + [n for n in SENSES if n not in car.names]
-            if missing:
-                raise HostError(f"The driver needs variables that this FMU does not have: {', '.join(missing)}.")
+            check_drivable(car.inputs, car.names, "this FMU")
             self._driver = make_driver(manoeuvre.driver, car.constants)
 
     def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:

@@ -21,7 +21,7 @@ from hosts.fmu.fmu import described
 from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
-from hosts.fmu.variables import Variables
+from hosts.fmu.variables import Variables, check_co_simulation
 from hosts.simulator.drivable import not_drivable
 
 ITERATIONS = "solver.step_iterations"
@@ -100,7 +100,7 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
         fmu = find_fmu(asked.fmu, tell, "all")
         description = described(fmu.path)
-        _check_kind(fmu.path, description)
+        check_co_simulation(fmu.path, description)
         variables = Variables(description)
         aliases = aliases_of(asked.aliases, variables)
         drawing = pool.submit(scene_of, fmu.path)
@@ -128,15 +128,6 @@ def _names(variables: Variables, aliases: Aliases, causality: str) -> tuple[str,
     """Our names of the variables of a causality."""
     names = aliases.names([name for name in variables.names if variables[name].causality == causality])
     return (*names, *(d.ours for d in aliases.derived)) if causality == "output" else names
-
-
-def _check_kind(path: Path, description: ModelDescription) -> None:
-    if description.coSimulation is None or description.fmiVersion[0] not in "23":
-        kind = "" if description.coSimulation is not None else " for model exchange"
-        raise HostError(
-            f"{path} is an FMU of FMI {description.fmiVersion}{kind}; the simulator drives co-simulation of FMI "
-            "2.0 and 3.0."
-        )
 
 
 def _check_road(asked: Asked, path: Path, reads: bool) -> None:

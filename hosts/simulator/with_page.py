@@ -10,9 +10,9 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ali3.signals import heeded, lose_terminals
+from ali3.signals import handled, heeded
 from hosts.common.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.guard import Guard
@@ -124,20 +124,11 @@ def _torque(car: AliasedCar) -> Callable[[], float | None]:
 @contextmanager
 def _interrupted_by_signals(loop: asyncio.AbstractEventLoop, stop: asyncio.Event) -> Iterator[None]:
     """The first Ctrl-C, or a signal to end, sets `stop`; a second one interrupts."""
-    known = heeded()
-    before = {number: signal.getsignal(number) for number in known}
 
-    def end(number: int, _: object) -> None:
-        if signal.Signals(number).name == "SIGHUP":
-            lose_terminals()
-        else:
-            signal.signal(number, before[signal.Signals(number)])
+    def end(number: signal.Signals, before: Any) -> None:
+        if number.name != "SIGHUP":
+            signal.signal(number, before)
         loop.call_soon_threadsafe(stop.set)
 
-    try:
-        for number in known:
-            signal.signal(number, end)
+    with handled(end, heeded()):
         yield
-    finally:
-        for number in known:
-            signal.signal(number, before[number])

@@ -78,11 +78,9 @@ class Outcome:
     failures: list[Failure] = field(default_factory=list)
     messages: dict[str, int] = field(default_factory=dict)
     """What the FMU logged, and how often."""
-    memory_first: float = 0.0
     memory_last: float = 0.0
     memory_growth: float = 0.0
-    """`memory_first`, `memory_last`, `memory_growth`: MB: of the process after a quarter of the drive and at its end,
-    and the growth between."""
+    """`memory_last`, `memory_growth`: MB: of the process at the end of the drive, and its growth since a quarter."""
 
 
 class _Drive:
@@ -223,5 +221,5 @@ def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> O
                 made.outcome.simulated += task.step
     outcome = made.outcome
     outcome.wall = clock.perf_counter() - begin
-    outcome.memory_first, outcome.memory_last, outcome.memory_growth = made.memory.growth()
+    _, outcome.memory_last, outcome.memory_growth = made.memory.growth()
     return outcome

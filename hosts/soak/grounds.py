@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ali3.files import make_folder, whole_file
 from ali3.json_reading import read_json
-from hosts.common.commands import run_module
+from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.road import road_value
 from hosts.driving.wild_driver import Target
@@ -123,7 +123,7 @@ def world_ground(name: str, folder: Path) -> Ground:
 
     Raises `HostError`: it is no world; with the words of ``ali3 road --world``.
     """
-    run_module("ali3", "road", "--world", name, "--out", str(make_folder(folder)))
+    run_ali3("road", "--world", name, "--out", str(make_folder(folder)))
     files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)
     if not files:
         raise HostError(f"{name} is no world.")

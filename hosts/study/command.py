@@ -17,9 +17,9 @@ from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.study") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> int:
     """Run the command, which the user typed as `prog`; 0 if every run has a row, and keeps the limits."""
-    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog=prog, description=__doc__)
     parser.add_argument("study", type=Path, metavar="STUDY", help="a study file, or the folder of a study's results")
     add_option(parser, "--out", "out/ and the name of the study")
     parser.add_argument(

@@ -47,13 +47,12 @@ class SobolSequence:
 class Saltelli:
     """Points for Sobol' indices, in the order of `SALib.sample.sobol.sample`.
 
-    For each base point come A, A with one coordinate of B for each dimension, with the second order B with one
-    coordinate of A for each, and B [Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2].
+    For each base point come A, A with one coordinate of B for each dimension, and B [Saltelli et al., Comput. Phys.
+    Commun. 181 (2010) 259, table 2].
     """
 
-    def __init__(self, dimensions: int, base: int, seed: int, second_order: bool) -> None:
-        self._dimensions, self._second_order = dimensions, second_order
-        self._group = (2 * dimensions if second_order else dimensions) + 2
+    def __init__(self, dimensions: int, base: int, seed: int) -> None:
+        self._dimensions, self._group = dimensions, dimensions + 2
         self.count = base * self._group
         self._base = SobolSequence(2 * dimensions, base, seed)
 
@@ -63,13 +62,8 @@ class Saltelli:
         pairs, d = self._base.block(start, stop - start), self._dimensions
         a, b = pairs[:, :d], pairs[:, d:]
         points = np.empty((stop - start, self._group, d))
-        points[:, 0], points[:, -1] = a, b
-        points[:, 1 : d + 1] = a[:, None]
-        if self._second_order:
-            points[:, d + 1 : -1] = b[:, None]
+        points[:], points[:, -1] = a[:, None], b
         for k in range(d):
             points[:, 1 + k, k] = b[:, k]
-            if self._second_order:
-                points[:, 1 + d + k, k] = a[:, k]
         offset = first - start * self._group
         return points.reshape(-1, d)[offset : offset + count]

@@ -30,6 +30,6 @@ def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | Non
     if not isinstance(fmu, AliasedFmu) or name not in fmu.table:
         return None
     found = fmu.table[name]
-    if found.causality in ("parameter", "input") and found.variability != "constant":
+    if found.may_be_set:
         return found
     raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")

@@ -65,7 +65,7 @@ def _drawn(d: int, sampling: SamplingEntry, file: str) -> Sampler:
     if sampling.method == "sobol":
         return SobolSequence(d, n, seed)
     if sampling.method == "saltelli":
-        return Saltelli(d, n, seed, sampling.second_order)
+        return Saltelli(d, n, seed)
     if n * d > _MOST:
         raise HostError(
             f"{file}: a Latin hypercube of {n} points of {d} parameters needs {8e-9 * n * d:.3g} GB of memory; "

@@ -79,7 +79,6 @@ class SamplingEntry(_Part):
     )
     runs: int | None = Field(default=None, ge=1, le=2**30, title="a positive whole number of points")
     seed: int = Field(default=0, ge=0, lt=2**63, title="a whole number from 0")
-    second_order: bool = Field(default=False, title="true or false, for the method saltelli")
     file: str | None = Field(default=None, title="a CSV file whose heading names parameters")
 
     @model_validator(mode="after")
@@ -91,8 +90,6 @@ class SamplingEntry(_Part):
             raise ValueError(f"the method {self.method} gives its number of points itself; leave runs out")
         if (self.method == "table") != (self.file is not None):
             raise ValueError("a file goes with the method table, and this method needs one")
-        if self.second_order and self.method != "saltelli":
-            raise ValueError("second_order goes with the method saltelli")
         return self
 
 

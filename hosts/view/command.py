@@ -7,7 +7,6 @@ other. With --live the page holds the FMUs themselves and runs them, side by sid
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,7 +24,7 @@ _OF_SHOWN = (
 )
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.view.command") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 view") -> int:
     """Run the command, which the user typed as `prog`."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
@@ -33,7 +32,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m hosts.vi
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
-    parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog=prog, description=__doc__)
     parser.add_argument(
         "what", nargs="+", type=Path, metavar="RESULT|FMU|CAR", help="table of a result, a recording, or what is run"
     )
@@ -85,7 +84,3 @@ def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.view.show import show
 
     return show(options)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

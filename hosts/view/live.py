@@ -11,7 +11,7 @@ from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
 
-from hosts.common.commands import run_module
+from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.options import ROAD, Wishes
 from hosts.common.road import wishes_with_road
@@ -202,7 +202,7 @@ def with_binary(fmu: FmuParts) -> FmuParts:
     with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
         arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", folder)
         try:
-            run_module("ali3", *arguments)
+            run_ali3(*arguments)
             return replace(fmu, wasm=fmu_parts(Path(folder, fmu.path.name)).wasm)
         except HostError as error:
             why = str(error).rstrip(".")

@@ -144,9 +144,7 @@ def linearise(simulation: Simulation, *, side: int | None = None) -> LinearModel
     state = evaluator.state
     M = evaluator.mass()
     jacobian = evaluator.jacobian(state.q)
-    V, W = admissible_motions(M, jacobian, simulation.system)
-    rolling = simulation.system.arrays["velocity_row"]
-    P = admissible_motions(M, np.delete(jacobian, rolling, axis=0), simulation.system)[0] if len(rolling) else V
+    V, W, P = admissible_motions(M, jacobian, simulation.system)
     frame = steady_frame(evaluator, P)
     _check_steady(evaluator, frame, M)
     n, places = V.shape[1], P.shape[1]
@@ -216,7 +214,14 @@ def _difference(
     return result
 
 
-def admissible_motions(M: Array, jacobian: Array, system: System) -> tuple[Array, Array]:
+def admissible_motions(M: Array, jacobian: Array, system: System) -> tuple[Array, Array, Array]:
+    """V and W of `_null_space`, and a basis P of the places: V without the conditions on velocities."""
+    V, W = _null_space(M, jacobian, system)
+    rolling = system.arrays["velocity_row"]
+    return V, W, _null_space(M, np.delete(jacobian, rolling, axis=0), system)[0] if len(rolling) else V
+
+
+def _null_space(M: Array, jacobian: Array, system: System) -> tuple[Array, Array]:
     """Null space V (nq, n) of Phi_q with ``V' M V = 1``, and its complement W (nq, nq - n) with ``V' M W = 0``."""
     null = scipy.linalg.null_space(jacobian, rcond=RANK_TOLERANCE) if len(jacobian) else np.eye(len(M))
     inertia = null.T @ M @ null

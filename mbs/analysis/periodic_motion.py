@@ -82,10 +82,7 @@ def floquet(simulation: Simulation, period: float, h: float) -> FloquetModel:
             "Floquet multipliers need force elements without states; tyres, brakes and contacts have some."
         )
     M = evaluator.mass()
-    jacobian = evaluator.jacobian(state.q)
-    V, _ = admissible_motions(M, jacobian, simulation.system)
-    rolling = simulation.system.arrays["velocity_row"]
-    P = admissible_motions(M, np.delete(jacobian, rolling, axis=0), simulation.system)[0] if len(rolling) else V
+    V, _, P = admissible_motions(M, evaluator.jacobian(state.q), simulation.system)
     steps = max(1, round(period / h))
 
     def after(q: Array, qd: Array) -> tuple[Array, Array]:

@@ -33,14 +33,10 @@ start. A world is kept and copied when it is asked for again; ALI3_CACHE names t
 _OF_ROADS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part")
 
 
-def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.worlds.command") -> int:
+def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int:
     """Run the command, which the user typed as `prog`."""
-    parser = Parser(
-        prog=prog,
-        description=__doc__,
-        epilog=f"{_EPILOG}worlds of the package: {', '.join(shipped_worlds())}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    epilog = f"{_EPILOG}worlds of the package: {', '.join(shipped_worlds())}"
+    parser = Parser(prog=prog, description=__doc__, epilog=epilog)
     parser.add_argument("input", type=Path, nargs="?", metavar="INPUT", help="what the road is made of, see below")
     parser.add_argument("output", type=Path, nargs="?", metavar="OUTPUT.road", help="the road file to write")
     parser.add_argument(

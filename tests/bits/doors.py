@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from tests.modules import module_of
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"fmi2": ("native", ""), "fmi3": ("fmi3", "FMI3"), "python": ("python", "Python")}
@@ -25,10 +25,7 @@ def scene(name: str, **arguments: Any) -> mbs.Model:
 
 def example(script: str, function: str, *arguments: Any) -> mbs.Model:
     """The model of a script in the folder of examples."""
-    spec = importlib.util.spec_from_file_location(f"example_{script}", ROOT / "examples" / f"{script}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return getattr(module, function)(*arguments)
+    return getattr(module_of(ROOT / "examples" / f"{script}.py"), function)(*arguments)
 
 
 def car(name: str, fidelity: int = 0, road: Any = None) -> mbs.Model:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
+
+from tests.modules import module_of
 
 CI = Path(__file__).parents[2] / ".ci"
 SECTION = """\
@@ -26,15 +26,6 @@ SECTION = """\
 """
 
 
-def module(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, CI / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    made = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(made)
-    return made
-
-
 @pytest.mark.parametrize(("number", "words"), [("1", ["ali3 build", "ali3 run"]), ("2", ['".[test]"', "-m pytest"])])
 def test_the_commands_of_the_readme(number: str, words: list[str]) -> None:
     command = [sys.executable, CI / "readme_command.py", number]
@@ -47,7 +38,7 @@ def test_the_commands_of_the_readme(number: str, words: list[str]) -> None:
 def test_two_commands_and_no_other_number(
     more: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    reader = module("readme_command")
+    reader = module_of(CI / "readme_command.py")
     file = tmp_path / "README.md"
     file.write_text(SECTION.format(more))
     monkeypatch.setattr(reader, "README", file)
@@ -63,5 +54,5 @@ SKIPPED [1] tests/b/test_y.py:9: extra 'fem'
 SKIPPED [1] tests/c/test_z.py:88: CalculiX (ccx) is not installed
 SKIPPED [1] tests/c/test_w.py:1: The package imageio is not installed; run: python -m pip install "ali3[pictures]"
 """
-    found = module("skipped_for_packages").files(log)
+    found = module_of(CI / "skipped_for_packages.py").files(log)
     assert found == ["tests/a/test_x.py", "tests/b/test_y.py", "tests/c/test_w.py"]

@@ -344,13 +344,8 @@ def test_an_installed_project_of_the_user_stays_in_the_search_path(tmp_path: Pat
     assert done.stdout.split() == ["True", "True"]
 
 
-def test_the_modules_themselves_go_on_working_in_a_clone() -> None:
-    for module in (
-        "hosts.run.command",
-        "hosts.check.command",
-        "ali3",
-    ):
-        done = ran(["-m", module, "--help"], ROOT)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout.startswith(f"usage: python -m {module} ")
+def test_the_module_itself_works_in_a_clone() -> None:
+    done = ran(["-m", "ali3", "--help"], ROOT)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("usage: python -m ali3 ")
     assert ran(["build_fmu.py", "--help"], ROOT).stdout.startswith("usage: python build_fmu.py ")

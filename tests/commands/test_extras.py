@@ -81,16 +81,15 @@ def test_the_extra_of_the_command_comes_first(command: str, extra: str, package:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("start", "told"), [(("ali3", "study"), "study"), (("hosts.study",), "study")])
-def test_a_study_without_its_packages(start: tuple[str, ...], told: str, tmp_path: Path) -> None:
+def test_a_study_without_its_packages(tmp_path: Path) -> None:
     (tmp_path / "s.toml").write_text('fmu = "no.fmu"\n')
     block = "import sys; [sys.modules.__setitem__(n, None) for n in ('pyarrow', 'fmpy', 'pandas')]\n"
-    code = f"{block}import runpy; sys.argv = {[start[0], *start[1:], 's.toml']!r}\n"
-    code += f"sys.path.insert(0, {str(ROOT)!r}); runpy.run_module({start[0]!r}, run_name='__main__', alter_sys=True)"
+    code = f"{block}import runpy; sys.argv = ['ali3', 'study', 's.toml']\n"
+    code += f"sys.path.insert(0, {str(ROOT)!r}); runpy.run_module('ali3', run_name='__main__', alter_sys=True)"
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert re.fullmatch(
-        rf'error: The package \w+ is not installed; run: python -m pip install "ali3\[{told}\]"\n', done.stderr
+        r'error: The package \w+ is not installed; run: python -m pip install "ali3\[study\]"\n', done.stderr
     )
 
 

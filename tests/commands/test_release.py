@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import shutil
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+
+from tests.modules import module_of
 
 ROOT = Path(__file__).parents[2]
 FILES = ("pyproject.toml", "CITATION.cff", "CHANGELOG.md", "fmu_src/description/description.py")
@@ -15,12 +16,7 @@ FILES = ("pyproject.toml", "CITATION.cff", "CHANGELOG.md", "fmu_src/description/
 
 @pytest.fixture(scope="module")
 def check_release() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("check_release", ROOT / ".ci" / "check_release.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_of(ROOT / ".ci" / "check_release.py")
 
 
 @pytest.fixture

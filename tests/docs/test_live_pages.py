@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
 
+from tests.modules import module_of
+
 ROOT = Path(__file__).parents[2]
+SITE = ROOT / "docs" / "_site"
 
 
 @pytest.fixture(scope="module")
 def live_pages() -> ModuleType:
     pytest.importorskip("sphinx")
-    return module("live_pages")
-
-
-def module(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / "_site" / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    made = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(made)
-    return made
+    return module_of(SITE / "live_pages.py")
 
 
 def site(out: Path) -> SimpleNamespace:
@@ -91,7 +84,7 @@ def test_every_page_of_the_list_can_be_made(live_pages: ModuleType) -> None:
 def test_pages_of_one_fmu_build_it_once(
     live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    maker, builds = module("make_live_page"), []
+    maker, builds = module_of(SITE / "make_live_page.py"), []
 
     def build(arguments: Sequence[str], command: str) -> int:
         builds.append(arguments)

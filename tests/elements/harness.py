@@ -8,7 +8,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from pathlib import Path
 
@@ -121,6 +122,14 @@ class Element:
         n = self.n_inputs if n_inputs is None else n_inputs
         text = library().harness_check(int(e.type), self.sizes, _doubles(e.real), _ints(e.integer), n, n_roads)
         return None if text is None else text.decode()
+
+    def with_reals(self, change: Mapping[int | str, float]) -> Element:
+        """The same with other numbers, by place or name, as only a damaged file has them."""
+        real = list(self.element.real)
+        for key, value in change.items():
+            real[self.element.real_names.index(key) if isinstance(key, str) else key] = value
+        self.element = replace(self.element, real=real)
+        return self
 
     @property
     def conservative(self) -> bool:

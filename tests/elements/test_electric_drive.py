@@ -327,8 +327,4 @@ def test_kernel_checks_the_drive() -> None:
     element = drive_element(selector=True)
     assert "input that does not exist" in (element.check(n_inputs=1) or "")
     for place, value, words in ((0, -1.0, "negative"), (3, 0.0, "speeds"), (4, 1.5, "efficiencies"), (2, 0.0, "ratio")):
-        wrong = drive_element()
-        real = list(wrong.element.real)
-        real[place] = value
-        wrong.element = replace(wrong.element, real=real)
-        assert words in (wrong.check() or "")
+        assert words in (drive_element().with_reals({place: value}).check() or "")

@@ -60,9 +60,7 @@ def test_a_factor_below_nought_is_refused(factor: str) -> None:
         with pytest.raises(ValueError, match=f"{words} of the spring-damper 's' is -1; it must not be negative"):
             replace(given, **{factor: -1.0}).record("s", signal)  # type: ignore[arg-type]
         element = Element(given.record("s", signal))  # type: ignore[arg-type]
-        real = list(element.element.real)
-        real[-2 if factor == "stiffness_factor" else -1] = -1.0
-        element.element = replace(element.element, real=real)
+        element.with_reals({-2 if factor == "stiffness_factor" else -1: -1.0})
         assert "must not be negative" in (element.check() or "")
 
 

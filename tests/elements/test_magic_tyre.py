@@ -328,11 +328,7 @@ def test_forces_do_not_jump_where_the_wheel_stops_or_turns_back() -> None:
     ],
 )
 def test_kernel_checks_the_data(change: dict[str, float], word: str) -> None:
-    element = element_of(tyre_file(OWN[1]).tyre())
-    names = list(element.element.real_names)
-    real = [change.get(n, v) for n, v in zip(names, element.element.real, strict=True)]
-    element.element = replace(element.element, real=real)
-    assert word in (element.check() or "")
+    assert word in (element_of(tyre_file(OWN[1]).tyre()).with_reals(change).check() or "")
 
 
 def test_bad_data_are_refused_with_a_sentence() -> None:

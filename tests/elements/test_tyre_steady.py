@@ -410,11 +410,7 @@ def test_bad_tyre_data_are_refused_with_a_sentence(change: dict[str, object], se
     ],
 )
 def test_kernel_checks_tyre_data(change: dict[str, float], word: str) -> None:
-    element = tyre_element()
-    names = list(element.element.real_names)
-    real = [change.get(n, v) for n, v in zip(names, element.element.real, strict=True)]
-    element.element = replace(element.element, real=real)
-    assert word in (element.check() or "")
+    assert word in (tyre_element().with_reals(change).check() or "")
     assert "road that does not exist" in (tyre_element().check(n_roads=0) or "")
 
 

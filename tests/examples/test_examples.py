@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 from pathlib import Path
 
 import pytest
 from matplotlib import image
 
+from tests.modules import module_of
 from tests.quick import quick
 
 ROOT = Path(__file__).parents[2]
@@ -38,11 +38,7 @@ QUICK = set(PROMISED) - {"anti_lock_brakes"}
 def test_an_example_keeps_its_promise(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    spec = importlib.util.spec_from_file_location(f"example_{name}", FOLDER / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    example = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(example)
+    example = module_of(FOLDER / f"{name}.py")
     monkeypatch.chdir(tmp_path)
     found = example.main()
     low, high, said = PROMISED[name]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +16,7 @@ from mbs.scenes import spinning_beam
 from mbs.settings.settings import METHODS
 from mbs.system.system import System
 from tests.flexible_engine.bodies import cloud
+from tests.kernel.sensor_rates import rates_of, slopes_of
 
 # bodies of random shapes, so soft that they bend far beyond what linear modes stand for: the equations are what counts
 pytestmark = pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")
@@ -113,16 +113,10 @@ def test_rates_of_energies() -> None:
     instance.initialise()
     instance.set_settings(**METHODS["runge_kutta_8"])  # its accelerations are those of the state
     instance.run(0.002, 50)
-    ns = instance.system.sizes.ns
-    rates, known = (ctypes.c_double * ns)(), ctypes.create_string_buffer(ns)
-    assert instance._library.ali3_sensor_rates(instance._handle, rates, known) == 0
-    first = np.array(instance.sensors()[:])
-    instance.step(RATE_STEP)
-    slopes = (np.array(instance.sensors()[:]) - first) / RATE_STEP
+    found, chosen = rates_of(instance)
+    slopes = slopes_of(instance, RATE_STEP)
     names = [s["name"] for s in system.meta["sensors"]]
-    chosen = np.frombuffer(known.raw[:ns], dtype=np.uint8) == 1
     assert {"kinetic", "gravity", *NAMES} <= {n for n, k in zip(names, chosen, strict=True) if k}
-    found = np.array(rates[:])
     assert np.allclose(found[chosen], slopes[chosen], rtol=RATE_ERROR, atol=RATE_ERROR * np.max(np.abs(slopes)))
     assert np.max(np.abs(found[chosen])) > 1.0
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +13,7 @@ from mbs.model import Model, ModelError
 from mbs.model.flexible import FlexibleBody
 from mbs.simulation.stepping import Simulation
 from tests.flexible_engine.bodies import bar, cloud
+from tests.kernel.sensor_rates import rates_of
 
 
 def _beam(m: Model, **place: object) -> FlexibleBody:
@@ -99,12 +99,10 @@ def test_rates_of_a_node_are_known(node_first: bool) -> None:
     """Of places and velocities, against differences; those of accelerations are not."""
     simulation, h = _watched(node_first), 1e-6
     names = [s["name"] for s in simulation.system.meta["sensors"]]
-    rates, known = (ctypes.c_double * len(names))(), ctypes.create_string_buffer(len(names))
-    instance = simulation.instance
-    assert instance._library.ali3_sensor_rates(instance._handle, rates, known) == 0
+    rates, known = rates_of(simulation.instance)
     before = dict(simulation.sensors)
     simulation.step(h)
-    for name, rate, is_known in zip(names, rates, known.raw[: len(names)], strict=True):
+    for name, rate, is_known in zip(names, rates, known, strict=True):
         order = int(name.split()[1])
         assert bool(is_known) == (order < 2)
         if order < 2:

@@ -16,6 +16,7 @@ from ali3.alias_file import read_content
 from ali3.errors import UserError
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from tests.fmu.libcosim import by_libcosim
 from tests.fmu.native import compile_host, unpack
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -101,7 +102,8 @@ def test_description_and_results_have_the_other_names_and_units(renamed_crane) -
 def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp_path) -> None:
     driven = host(renamed_crane).start({"Motor.Trq": -4e-3})
     driven.run(50, 0.01)
-    places = [driven.references[n] for n in ("X", "Rod[1].Angle")]
+    names = ("X", "Rod[1].Angle")
+    places = [driven.references[n] for n in names]
     found = list(driven.slave.getReal(places))
     unpack(renamed_crane, tmp_path / "fmu")
     library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
@@ -112,22 +114,10 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
         assert float.fromhex(text.split()[-1]) == value
     if importlib.util.find_spec("libcosimpy") is None:
         return
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimManipulator import CosimManipulator
-    from libcosimpy.CosimObserver import CosimObserver
-    from libcosimpy.CosimSlave import CosimLocalSlave
-
-    execution = CosimExecution.from_step_size(10_000_000)
-    index = execution.add_local_slave(CosimLocalSlave(str(renamed_crane), "crane"))
-    observer, manipulator = CosimObserver.create_last_value(), CosimManipulator.create_override()
-    execution.add_observer(observer)
-    execution.add_manipulator(manipulator)
-    manipulator.slave_real_values(index, [driven.references["Motor.Trq"]], [-4e-3])
-    assert execution.step(50)
     late = host(renamed_crane).start()
     late.set("Motor.Trq", -4e-3)  # libcosim sets it after initialisation
     late.run(50, 0.01)
-    assert list(observer.last_real_values(index, places)) == list(late.slave.getReal(places))
+    assert by_libcosim(renamed_crane, {"Motor.Trq": -4e-3}, names, 50, 0.01) == list(late.slave.getReal(places))
 
 
 @pytest.mark.parametrize(

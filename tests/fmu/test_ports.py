@@ -14,6 +14,7 @@ import pytest
 from fmu_src.description.fmi3 import terminals
 from fmu_src.variables.arrays import arrays, scalars
 from fmu_src.variables.variables import variable_table
+from tests.fmu.libcosim import by_libcosim
 from tests.fmu.native import compile_host, unpack
 
 OK, ERROR = 0, 3  # FMPy makes one of good answers and warnings
@@ -122,31 +123,20 @@ def test_ports_under_random_values_keep_the_motion_finite(host, towed) -> None:
 
 
 def test_libcosim_and_the_host_in_c_get_the_same_bits(host, build, tmp_path) -> None:
-    cosim = pytest.importorskip("libcosimpy.CosimExecution")
-    from libcosimpy.CosimManipulator import CosimManipulator
-    from libcosimpy.CosimObserver import CosimObserver
-    from libcosimpy.CosimSlave import CosimLocalSlave
-
+    pytest.importorskip("libcosimpy.CosimExecution")
     towed = build("towed", "native")
-    references = {v.name: v.valueReference for v in fmpy.read_model_description(str(towed)).modelVariables}
-    execution = cosim.CosimExecution.from_step_size(10_000_000)
-    index = execution.add_local_slave(CosimLocalSlave(str(towed), "towed"))
-    observer, manipulator = CosimObserver.create_last_value(), CosimManipulator.create_override()
-    execution.add_observer(observer)
-    execution.add_manipulator(manipulator)
-    manipulator.slave_real_values(index, [references[p] for p in PORTS], [4.0, math.nan])
-    assert execution.step(20)
+    pushed = dict(zip(PORTS, (4.0, math.nan), strict=True))
     driven = host(towed).start()
-    for port, value in zip(PORTS, (4.0, math.nan), strict=True):
+    for port, value in pushed.items():
         driven.set(port, value)
     driven.run(20, 0.01)
     assert driven.get("x") > 0.01
-    assert list(observer.last_real_values(index, [references["x"]])) == [driven.get("x")]
+    assert by_libcosim(towed, pushed, ["x"], 20, 0.01) == [driven.get("x")]
 
     unpack(towed, tmp_path / "fmu")
     library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
     words = [str(compile_host(tmp_path)), str(library), (tmp_path / "fmu" / "resources").as_uri()]
-    words += [driven.description.guid, "20", "0.01", *2 * [str(references["x"])]]
+    words += [driven.description.guid, "20", "0.01", *2 * [str(driven.references["x"])]]
     at_start = host(towed).start({"left.push": 4.0, "right.push": -1.0})
     at_start.run(20, 0.01)
     done = subprocess.run(

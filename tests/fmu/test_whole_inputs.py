@@ -118,7 +118,7 @@ def test_two_hosts_and_the_engine_agree_bit_for_bit(stick: Path, tmp_path: Path)
     assert np.array_equal(result["rod.x"], wanted["rod.x"])
     assert result["lever_used"].dtype.kind == "i"
     (tmp_path / "shift.csv").write_text(f"# start: step_size={H}\n{TABLE}")
-    command = [sys.executable, "-m", "hosts.run.command", stick, "--manoeuvre", tmp_path / "shift.csv", "--step", H]
+    command = [sys.executable, "-m", "ali3", "run", stick, "--manoeuvre", tmp_path / "shift.csv", "--step", H]
     done = subprocess.run(
         [*map(str, command), "--out", str(tmp_path / "out")], cwd=ROOT, capture_output=True, text=True, check=False
     )

@@ -1,4 +1,4 @@
-"""`python -m hosts.check.command`: good FMUs pass, spoilt ones are named, other files are errors."""
+"""`ali3 check`: good FMUs pass, spoilt ones are named, other files are errors."""
 
 from __future__ import annotations
 

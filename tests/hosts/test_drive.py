@@ -47,7 +47,7 @@ def colours(picture: Path) -> int:
 
 @pytest.mark.slow
 def test_car_page_table_and_summary(fmus: dict[str, Path], turn: Path, tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "hosts.run.command", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
+    command = [sys.executable, "-m", "ali3", "run", fmus["sledge"], "--manoeuvre", turn, "--step", "0.02"]
     utf8 = os.environ | {"PYTHONIOENCODING": "utf-8"}
     command = [*map(str, command), "--out", str(tmp_path / "out")]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT, env=utf8)

@@ -9,6 +9,7 @@ from scipy.interpolate import PPoly
 
 from mbs import Model, Simulation, System, compile, simulate
 from mbs.elements.spring_damper import EndStops
+from mbs.model.body import Body
 
 
 def triangle() -> Model:
@@ -34,13 +35,19 @@ def triangle() -> Model:
 TRIANGLE_MASSES = {"a": 1.0, "b": 2.0, "c": 0.5}
 
 
-def swing(damping: float, stops: bool = False) -> Model:
-    """Two rods under gravity, their end held by a stiff spring-damper that also reaches its stops."""
-    m = Model("swing", dimension=2)
+def two_rods(name: str) -> tuple[Model, Body, Body]:
+    """A double pendulum in a plane, drawn level."""
+    m = Model(name, dimension=2)
     first = m.body("first", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
     second = m.body("second", mass=1.0, com=(1.5, 0.0), inertia=1.0 / 12.0)
     m.revolute("pivot", m.ground, first, point=(0.0, 0.0))
     m.revolute("knee", first, second, point=(1.0, 0.0))
+    return m, first, second
+
+
+def swing(damping: float, stops: bool = False) -> Model:
+    """Two rods under gravity, their end held by a stiff spring-damper that also reaches its stops."""
+    m, _, second = two_rods("swing")
     ends = EndStops(bump_length=1.1, bump_stiffness=4e3, rebound_length=1.6, rebound_stiffness=6e3) if stops else None
     element = m.spring_damper(
         "spring", (m.ground, (2.0, 1.4)), (second, (2.0, 0.0)), stiffness=200.0, damping=damping, stops=ends

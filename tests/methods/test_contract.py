@@ -6,22 +6,19 @@ import numpy as np
 import pytest
 
 from benchmarks.references.cases import system_of
-from mbs import Model, compile, simulate
+from mbs import compile, simulate
 from mbs.kernel.binding import ControlFields, KernelError, LoadedSystem, Status
 from mbs.kernel.binding.instance import Instance
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import METHODS
+from tests.methods.models import two_rods
 
 H, GOOD_STEPS = 0.005, 7
 
 
 def driven_chain() -> bytes:
     """Two rods in a plane, a torque by an input on the first: every method takes it."""
-    m = Model("chain", dimension=2)
-    first = m.body("first", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
-    second = m.body("second", mass=1.0, com=(1.5, 0.0), inertia=1.0 / 12.0)
-    m.revolute("pivot", m.ground, first, point=(0.0, 0.0))
-    m.revolute("knee", first, second, point=(1.0, 0.0))
+    m, first, second = two_rods("chain")
     m.torque("motor", first, inputs=m.input("motor", start=2.0, unit="N m"))
     m.sense_position("tip.y", second, (2.0, 0.0), "y")
     return compile(m).to_bytes()

@@ -14,7 +14,7 @@ SPEED = 60.0  # rad/s
 
 
 def gyroscope(reduced):
-    """A carrier on a ball joint, with a fast wheel on an arm: it precesses and nods."""
+    """A carrier on a ball joint, with a fast wheel on an arm: it precesses and nods. The model and its wheel."""
     m = Model("gyroscope")
     carrier = m.body("carrier", mass=0.5, com=(0.15, 0.0, 0.0), inertia=(0.004, 0.006, 0.007))
     m.spherical("ball", m.ground, carrier, point=(0, 0, 0))
@@ -26,23 +26,23 @@ def gyroscope(reduced):
         m.initial_rate(wheel, SPEED)
     else:
         inertia = I_DIAMETRAL * np.eye(3) + (I_SPIN - I_DIAMETRAL) * np.outer(AXIS, AXIS)
-        full = m.body("wheel", mass=MASS, com=CENTRE, inertia=inertia)
-        m.revolute("bearing", carrier, full, point=CENTRE, axis=AXIS)
-        m.initial_velocity(full, angular=SPEED * AXIS)
+        wheel = m.body("wheel", mass=MASS, com=CENTRE, inertia=inertia)
+        m.revolute("bearing", carrier, wheel, point=CENTRE, axis=AXIS)
+        m.initial_velocity(wheel, angular=SPEED * AXIS)
     m.initial_velocity(carrier)
     for c in "xyz":
         m.sense_position(f"tip.{c}", carrier, CENTRE, c)
-    return compile(m)
+    return m, wheel
 
 
 def tip(reduced, h, end=0.8):
-    t = Simulation(gyroscope(reduced)).run(end, h)
+    t = Simulation(compile(gyroscope(reduced)[0])).run(end, h)
     every = round(0.016 / h)
     return np.array([t[f"tip.{c}"][::every] for c in "xyz"])
 
 
 def test_reduced_wheel_agrees_with_a_full_one_and_converges_with_the_square_of_the_step():
-    assert gyroscope(True).report["degrees_of_freedom"] == gyroscope(False).report["degrees_of_freedom"] == 4
+    assert [compile(gyroscope(r)[0]).report["degrees_of_freedom"] for r in (True, False)] == [4, 4]
     differences = [float(np.max(np.abs(tip(True, h) - tip(False, h)))) for h in (0.002, 0.001, 0.0005)]
     ratios = np.array(differences[:-1]) / differences[1:]
     assert np.all((ratios > 3.4) & (ratios < 4.6)), differences

@@ -7,40 +7,22 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, ModelError, Simulation, compile
-from tests.model.test_spin import AXIS, CENTRE, I_DIAMETRAL, I_SPIN, MASS, SPEED
+from tests.model.test_spin import AXIS, CENTRE
+from tests.model.test_spin import gyroscope as spinning
 
 RIM = CENTRE + 0.2 * np.array([0.0, 0.0, 1.0])
 
 
 def gyroscope(reduced: bool) -> Model:
-    m = Model("gyroscope")
-    carrier = m.body("carrier", mass=0.5, com=(0.15, 0.0, 0.0), inertia=(0.004, 0.006, 0.007))
-    m.spherical("ball", m.ground, carrier, point=(0, 0, 0))
-    m.initial_velocity(carrier)
+    m, wheel = spinning(reduced)
     if reduced:
-        wheel = m.spin(
-            "wheel",
-            carrier=carrier,
-            centre=CENTRE,
-            axis=AXIS,
-            mass=MASS,
-            spin_inertia=I_SPIN,
-            diametral_inertia=I_DIAMETRAL,
-        )
-        m.initial_rate(wheel, SPEED)
         m.sense_angle("angle", wheel)
         m.sense_coordinate("chi", wheel)
-        for c in "xyz":
-            m.sense_position(f"centre.{c}", carrier, CENTRE, c)
         for c in "xyzw":
-            m.sense_rotation(f"q{c}", carrier, c)
+            m.sense_rotation(f"q{c}", wheel.carrier, c)
     else:
-        inertia = I_DIAMETRAL * np.eye(3) + (I_SPIN - I_DIAMETRAL) * np.outer(AXIS, AXIS)
-        full = m.body("wheel", mass=MASS, com=CENTRE, inertia=inertia)
-        m.revolute("bearing", carrier, full, point=CENTRE, axis=AXIS)
-        m.initial_velocity(full, angular=SPEED * AXIS)
         for c in "xyz":
-            m.sense_position(f"rim.{c}", full, RIM, c)
+            m.sense_position(f"rim.{c}", wheel, RIM, c)
     return m
 
 
@@ -49,7 +31,7 @@ def rim(reduced: bool, h: float) -> np.ndarray:
     every = round(0.016 / h)
     if not reduced:
         return np.array([t[f"rim.{c}"][::every] for c in "xyz"]).T
-    centre = np.array([t[f"centre.{c}"][::every] for c in "xyz"]).T
+    centre = np.array([t[f"tip.{c}"][::every] for c in "xyz"]).T
     carrier = Rotation.from_quat(np.array([t[f"q{c}"][::every] for c in "xyzw"]).T)
     turned = Rotation.from_rotvec(t["angle"][::every, None] * AXIS)
     return centre + (carrier * turned).apply(RIM - CENTRE)

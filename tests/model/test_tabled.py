@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
@@ -23,6 +22,7 @@ from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import Status
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
+from tests.kernel.sensor_rates import RATE_ERROR, rates_of, slopes_of
 
 Array = NDArray[np.float64]
 BASE, ARM, TIP = (0.3, 0.4, 0.5), (0.1, 0.2, 0.15), (0.05, 0.04, 0.06)
@@ -374,15 +374,9 @@ def test_rates_of_sensors_are_those_of_the_run() -> None:
     instance.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
     instance.initialise()
     instance.run(0.002, 50)
-    ns = instance.system.sizes.ns
-    rates, known = (ctypes.c_double * ns)(), ctypes.create_string_buffer(ns)
-    assert instance._library.ali3_sensor_rates(instance._handle, rates, known) == 0
-    first = np.array(instance.sensors()[:])
-    instance.step(1e-5)
-    slopes = (np.array(instance.sensors()[:]) - first) / 1e-5
-    chosen = np.frombuffer(known.raw[:ns], dtype=np.uint8) == 1
+    found, chosen = rates_of(instance)
     assert chosen.sum() > 20
-    assert np.allclose(np.array(rates[:])[chosen], slopes[chosen], rtol=2e-3, atol=2e-3)
+    assert np.allclose(found[chosen], slopes_of(instance)[chosen], rtol=RATE_ERROR, atol=RATE_ERROR)
 
 
 def wrong(**changed: Any) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import multiprocessing
 import os
@@ -19,6 +18,7 @@ from typing import Any, Protocol
 import psutil
 import pytest
 
+from tests.modules import module_of
 from tests.mutation.table import ROOT, SOURCES
 
 KILLED, SURVIVED, BROKEN, GONE = "killed", "survived", "broken", "gone"
@@ -78,22 +78,12 @@ class _Notes:
             self.write("failed", report.nodeid)
 
 
-def _kernel_build(root: Path) -> Any:
-    """The file `build.py` of a copy, without the package around it."""
-    spec = importlib.util.spec_from_file_location("kernel_build", root / "mbs" / "kernel" / "build.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def compiles(root: Path, changed: Path) -> None:
     """Make what a changed file is a part of: the kernel, an object of the FMU, the page.
 
     Raises `RuntimeError` with the words of the compiler.
     """
-    build = _kernel_build(root)
+    build: Any = module_of(root / "mbs" / "kernel" / "build.py")  # of the copy, without the package around it
     if changed.suffix == ".js":
         from viewer.bundle import bundle
 

@@ -9,8 +9,7 @@ import pytest
 
 from mbs.elements import GridRoad
 from mbs.roads import write_road
-from tests.elements.harness import library
-from tests.roads.worlds.harness import Grid, Surface
+from tests.roads.worlds.harness import Grid, open_file, road_library
 from tests.roads.worlds.harness import opened as from_file
 
 NEAR = 64
@@ -18,32 +17,19 @@ NEAR = 64
 
 @pytest.fixture(scope="module")
 def lib():
-    lib = library()
-    lib.ali3_road_file_open.restype = ctypes.c_void_p
+    lib = road_library()
     lib.ali3_road_file_height.restype = ctypes.c_double
     lib.ali3_road_file_height.argtypes = [ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32]
     lib.ali3_road_file_reads.restype = ctypes.c_int64
     lib.ali3_road_file_reads.argtypes = [ctypes.c_void_p]
-    lib.ali3_road_file_close.argtypes = [ctypes.c_void_p]
-    lib.ali3_grid_at.restype = Surface
-    lib.ali3_grid_at.argtypes = [ctypes.POINTER(Grid), ctypes.c_double, ctypes.c_double]
     return lib
-
-
-def opened(lib, path):
-    libc = ctypes.CDLL(None)
-    message = ctypes.create_string_buffer(256)
-    allocate, release = (ctypes.cast(f, ctypes.c_void_p) for f in (libc.calloc, libc.free))
-    file = lib.ali3_road_file_open(str(path).encode(), allocate, release, message, ctypes.c_size_t(256))
-    assert file, message.value
-    return file
 
 
 @pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "calloc"), reason="no C library by that name")
 def test_each_tile_is_read_once_on_the_way_and_again_only_when_it_was_left_behind(lib, tmp_path):
     heights = np.arange(4000.0 * 64).reshape(4000, 64) / 1e3
     write_road(GridRoad((0.0, 0.0), (1.0, 1.0), heights), tmp_path / "a.road")
-    file = opened(lib, tmp_path / "a.road")
+    file = open_file(lib, tmp_path / "a.road")
     assert lib.ali3_road_file_reads(file) == 0  # more than are kept: none before it is needed
     for i in range(0, 3960, 7):  # a window of 40 x 64 points moves on: two to four tiles at once
         for k in (0, 20, 39):
@@ -62,7 +48,7 @@ def test_each_tile_is_read_once_on_the_way_and_again_only_when_it_was_left_behin
 @pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "calloc"), reason="no C library by that name")
 def test_what_fits_is_read_at_once(lib, tmp_path):
     write_road(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((256, 256))), tmp_path / "a.road")
-    file = opened(lib, tmp_path / "a.road")
+    file = open_file(lib, tmp_path / "a.road")
     assert lib.ali3_road_file_reads(file) == NEAR
     (tmp_path / "a.road").write_bytes(b"")
     for i in range(256):

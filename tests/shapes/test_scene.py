@@ -103,13 +103,18 @@ def test_forces_of_rods_and_joints_are_arrows():
     assert not run.recording().columns[arrow["vector"][2]].any()
 
 
-def test_sensors_keep_their_names_beside_poses():
+def rod_with_a_sensor_of_its_name():
+    """A System and its run."""
     m = mbs.Model("rod", dimension=2)
     rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
     m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
     m.sense_position("rod.x", rod, (1.0, 0.0), "x")
     system = mbs.compile(m)
-    run = mbs.simulate(system, 0.5, 0.01)
+    return system, mbs.simulate(system, 0.5, 0.01)
+
+
+def test_sensors_keep_their_names_beside_poses():
+    system, run = rod_with_a_sensor_of_its_name()
     assert run["rod.x"][0] == 1.0
     assert run.poses["rod.x"][0] == 0.5
     assert system.scene["frames"]["rod"]["position"] == ["rod.pose.x", "rod.pose.y", "rod.pose.z"]

@@ -10,6 +10,7 @@ import pytest
 import mbs
 from mbs.results import poses as poses_module
 from mbs.scenes import bicycle, double_four_bar, pendulum
+from tests.shapes.test_scene import rod_with_a_sensor_of_its_name
 from viewer.errors import ViewerError
 
 
@@ -144,12 +145,7 @@ def test_a_file_without_poses_is_as_before(run, tmp_path):
 
 
 def test_poses_of_a_body_whose_sensor_has_its_name_come_back(tmp_path):
-    m = mbs.Model("rod", dimension=2)
-    rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
-    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
-    m.sense_position("rod.x", rod, (1.0, 0.0), "x")
-    system = mbs.compile(m)
-    run = mbs.simulate(system, 0.5, 0.01)
+    system, run = rod_with_a_sensor_of_its_name()
     run.to_csv(tmp_path / "run.csv", poses=True)
     read = mbs.Trajectory.from_csv(tmp_path / "run.csv")
     np.testing.assert_array_equal(read["rod.x"], run["rod.x"])

@@ -19,6 +19,7 @@ from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.glance import FORCES, QUICK, TWICE, difference_from, glances
 from mbs.results.smooth_laws import LOOPS, OPEN, UNRESOLVED, unresolved_share
+from tests.simulation.drawn import drawn
 
 SPAN = (0.0, 1.0)  # s
 
@@ -42,48 +43,40 @@ def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost:
 
 def test_long_steps_that_are_solved_to_the_end_would_hide_it() -> None:
     """A spatial slider-crank, a third off: steps eight times as long are halved, and then differ by 8 %."""
-    rng = np.random.default_rng([5, 244])
-    rng.random()  # which decides between mechanism and car
-    kind, drawing = random_mechanisms.drawing(rng)
-    assert kind == "spatial slider-crank"
-    system = mbs.compile(random_mechanisms.model_of(drawing))
+    system, span = drawn("spatial slider-crank", 5, 244)
     with pytest.warns(mbs.AccuracyWarning, match="off by at least 3[0-9] %"):
-        mbs.simulate(system, drawing.span, drawing.span / 300, every=6, progress=False)
+        mbs.simulate(system, span, span / 300, every=6, progress=False)
 
 
 def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     """Of five steps between two samples twice the step makes two: a chain 6.9 % off, 3.5 % apart, passed with 2.0 %."""
-    rng = np.random.default_rng([31, 6])
-    rng.random()
-    _, drawing = random_mechanisms.drawing(rng)
-    system = mbs.compile(random_mechanisms.model_of(drawing))
+    system, span = drawn("chain", 31, 6)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 6\.[5-9] %"):
-        mbs.simulate(system, drawing.span, drawing.span / 250, every=5, progress=False)
+        mbs.simulate(system, span, span / 250, every=5, progress=False)
     known = Accuracy(None, None, 0.0, repeated_with=0.25, order=2.0, units={"m": 0.0066})
     assert difference_from(known, "ali3p", 0.1) == pytest.approx(0.0066 * (2.5**2 - 1.0))
 
 
 def test_an_error_that_falls_slowly_is_told() -> None:
     """A four-bar with a pendulum, 5.9 % off: half and a quarter of the step differ from it by 2.7 and 4.1 %."""
-    rng = np.random.default_rng([3, 29])
-    rng.random()
-    _, drawing = random_mechanisms.drawing(rng)
-    system = mbs.compile(random_mechanisms.model_of(drawing))
+    system, span = drawn("four-bar", 3, 29)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about (5\.[5-9]|6) %"):
-        mbs.simulate(system, drawing.span, drawing.span / 150, every=3, progress=False)
+        mbs.simulate(system, span, span / 150, every=3, progress=False)
 
 
-def ball(stiffness: float, gap: float, loads: bool = False) -> mbs.System:
-    """1 kg that flies with 1 m/s against a stop without loss."""
+def ball(stiffness: float, gap: float, loads: bool = False, wall: float = 1.0) -> mbs.System:
+    """1 kg that flies with 1 m/s against a stop without loss. `wall`: where its other end is, m; far away any impact
+    fits.
+    """
     m = mbs.Model("ball", dimension=2, gravity=(0.0, 0.0))
     b = m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
     m.point_on_line("line", (b, (0.0, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
     m.initial_velocity(b, linear=(1.0, 0.0))
-    stop = EndStops(bump_length=1.0 - gap, bump_stiffness=stiffness)
-    wall = m.spring_damper("wall", b, (m.ground, (1.0, 0.0)), stiffness=0.0, free_length=1.0, stops=stop)
+    stop = EndStops(bump_length=wall - gap, bump_stiffness=stiffness)
+    spring = m.spring_damper("wall", b, (m.ground, (wall, 0.0)), stiffness=0.0, free_length=wall, stops=stop)
     m.sense_position("x", b, component="x")
     if loads:
-        m.sense_element("force", wall, "force")
+        m.sense_element("force", spring, "force")
     return mbs.compile(m)
 
 
@@ -195,18 +188,6 @@ def test_steps_of_high_order_may_be_longer_where_nothing_abrupt_can_happen(syste
     assert unresolved_share(system(), "radau_5", SPAN, {"torque": lambda t: float(t > 0.5)}) == UNRESOLVED
 
 
-def beside_a_wall(stiffness: float, gap: float) -> mbs.System:
-    """The ball where the wall is 1 km away, so that any impact fits."""
-    m = mbs.Model("ball", dimension=2, gravity=(0.0, 0.0))
-    b = m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
-    m.point_on_line("line", (b, (0.0, 0.0)), (m.ground, (0.0, 0.0)), axis=(1.0, 0.0))
-    m.initial_velocity(b, linear=(1.0, 0.0))
-    stop = EndStops(bump_length=1e3 - gap, bump_stiffness=stiffness)
-    m.spring_damper("wall", b, (m.ground, (1e3, 0.0)), stiffness=0.0, free_length=1e3, stops=stop)
-    m.sense_position("x", b, component="x")
-    return mbs.compile(m)
-
-
 @pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
 def test_impacts_in_long_steps_of_high_order_are_told(method: str) -> None:
     """By chance, in closed form: h w of 1.8 to 4, so that an impact lasts one step or two."""
@@ -217,7 +198,7 @@ def test_impacts_in_long_steps_of_high_order_are_told(method: str) -> None:
         w, gap = float(rng.uniform(1.8, 4.0)) / h, float(rng.uniform(0.1, 0.8)) * steps * h
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
-            run = mbs.simulate(beside_a_wall(w * w, gap), steps * h, h, method=method, progress=False)
+            run = mbs.simulate(ball(w * w, gap, wall=1e3), steps * h, h, method=method, progress=False)
         truth = place(w * w, gap, run.t)
         off = np.abs(run["x"] - truth).max() / np.ptp(truth)
         wrong, silent = wrong + (off > 0.05), silent + (off > 0.051 and not told)
@@ -233,35 +214,23 @@ def test_a_step_deep_in_a_contact_misses_by_the_acceleration_of_its_end(method: 
     left, so that both miss a tenth of the change by their starts alone.
     """
     w, gap, h = 1329.4476395725299, 0.06748277043458371, 0.002
-    run = mbs.simulate(beside_a_wall(w * w, gap), 190 * h, h, method=method, estimate_error=False, progress=False)
+    run = mbs.simulate(ball(w * w, gap, wall=1e3), 190 * h, h, method=method, estimate_error=False, progress=False)
     assert run.report is not None
     assert missed_share(run.report, method) == pytest.approx(0.5 * w * h, rel=0.3)
 
 
 def test_a_dead_centre_keeps_its_share_among_smooth_steps() -> None:
     """A spatial slider-crank jumps there, 44 % off, and twice its step jumps alike, 0.03 % apart."""
-    rng = np.random.default_rng([3, 27])
-    rng.random()
-    kind, drawing = random_mechanisms.drawing(rng)
-    assert kind == "spatial slider-crank"
-    system = mbs.compile(random_mechanisms.model_of(drawing))
+    system, span = drawn("spatial slider-crank", 3, 27)
     run, twice = (
-        mbs.simulate(
-            system,
-            drawing.span,
-            drawing.span / n,
-            every=n // 50,
-            method="radau_5",
-            estimate_error=False,
-            progress=False,
-        )
+        mbs.simulate(system, span, span / n, every=n // 50, method="radau_5", estimate_error=False, progress=False)
         for n in (200, 100)
     )
     assert run.report is not None
     assert max(float(np.abs(run[n] - twice[n]).max()) for n in ("tip0.x", "tip1.x", "tip2.x")) < 1e-2
     assert run.report.predictor_path < 0.5 * run.report.velocity_path
     with pytest.warns(mbs.AccuracyWarning, match="off by"):
-        mbs.simulate(system, drawing.span, drawing.span / 200, every=4, method="radau_5", progress=False)
+        mbs.simulate(system, span, span / 200, every=4, method="radau_5", progress=False)
 
 
 def test_a_chain_in_long_steps_of_high_order_is_checked_by_half_at_most() -> None:

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks.methods import random_machines, random_mechanisms
+from benchmarks.methods import random_machines
 from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
 from mbs.results.smooth_laws import LOOPS, OPEN
-from tests.simulation.test_coarser_runs import ball, beside_a_wall, place
+from tests.simulation.drawn import drawn
+from tests.simulation.test_coarser_runs import ball, place
 
 
 def swing() -> mbs.System:
@@ -20,15 +21,6 @@ def swing() -> mbs.System:
     m.initial_velocity(b, linear=(0.02, 0.0), angular=0.02)
     m.sense_position("x", b, (0.0, -1.0), component="x")
     return mbs.compile(m)
-
-
-def chain(seed: int, number: int) -> tuple[mbs.System, float]:
-    """A random one, and its span, s."""
-    rng = np.random.default_rng([seed, number])
-    rng.random()  # which decides between mechanism and car
-    kind, drawing = random_mechanisms.drawing(rng)
-    assert "chain" in kind
-    return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span
 
 
 @pytest.mark.parametrize("h", [0.25, 0.5])
@@ -50,7 +42,7 @@ def test_the_term_that_order_four_leaves_out_is_the_error_of_a_vibration(h: floa
     ],
 )
 def test_chains_that_were_silent_are_told(seed: int, number: int, steps: int, method: str) -> None:
-    system, span = chain(seed, number)
+    system, span = drawn("chain", seed, number)
     with pytest.warns(mbs.AccuracyWarning, match="off by"):
         mbs.simulate(system, span, span / steps, every=steps // 50, method=method, progress=False)
 
@@ -80,7 +72,7 @@ def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
 def test_a_half_that_surely_is_coarse_is_not_made() -> None:
     """An impact of h w = 1.6 is resolved by a quarter of the step: at 4 times the cost of the run, which was 6."""
     h, w, gap = 0.01, 160.0, 0.4033
-    run = mbs.simulate(beside_a_wall(w * w, gap), 80 * h, h, method="radau_5", progress=False)
+    run = mbs.simulate(ball(w * w, gap, wall=1e3), 80 * h, h, method="radau_5", progress=False)
     assert run.accuracy is not None
     assert run.accuracy.repeated_with == pytest.approx(h / 4)
     assert run.accuracy.repeat_cost == 4.0

@@ -6,18 +6,9 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks.methods import random_mechanisms
+from tests.simulation.drawn import drawn
 
 TOLERANCE = 1e-2
-
-
-def chain(seed: int, number: int) -> tuple[mbs.System, float]:
-    """Three bars hung on each other, a case of `benchmarks.honesty --random`, and its duration, s."""
-    rng = np.random.default_rng([seed, number])
-    rng.random()  # which decides between mechanism and car
-    kind, drawing = random_mechanisms.drawing(rng)
-    assert kind == "chain"
-    return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span
 
 
 @pytest.mark.parametrize(
@@ -28,7 +19,7 @@ def chain(seed: int, number: int) -> tuple[mbs.System, float]:
     ],
 )
 def test_the_error_of_a_chain_is_within_ten_tolerances(seed: int, number: int) -> None:
-    system, span = chain(seed, number)
+    system, span = drawn("chain", seed, number)
     times = np.linspace(0.0, span, 51)
     run, true, other = (
         mbs.simulate(system, span, times=times, tolerance=tolerance, method=method, progress=False)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks.methods import random_mechanisms
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.input_breaks import input_breaks
+from tests.simulation.drawn import drawn
 
 H, SPAN = 0.02, 1.0
 Table = tuple[np.ndarray, np.ndarray]
@@ -166,15 +166,12 @@ def test_a_coarser_run_that_missed_what_moves_does_not_agree() -> None:
 
 def test_a_run_by_hand_is_judged_as_by_simulate() -> None:
     """A four-bar with a pendulum, 5.9 % off, of which half the step shows 2.7 %."""
-    rng = np.random.default_rng([3, 29])
-    rng.random()
-    _, drawing = random_mechanisms.drawing(rng)
-    system = mbs.compile(random_mechanisms.model_of(drawing))
-    h = drawing.span / 150
+    system, span = drawn("four-bar", 3, 29)
+    h = span / 150
     runs: list[Callable[[], mbs.Trajectory]] = [
-        lambda: mbs.simulate(system, drawing.span, h, every=3, progress=False),
-        lambda: mbs.simulate(system, drawing.span, h, every=3, progress=False, estimate_error=True),
-        lambda: mbs.Simulation(system).run(drawing.span, h, every=3, progress=False),
+        lambda: mbs.simulate(system, span, h, every=3, progress=False),
+        lambda: mbs.simulate(system, span, h, every=3, progress=False, estimate_error=True),
+        lambda: mbs.Simulation(system).run(span, h, every=3, progress=False),
     ]
     for run in runs:
         with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.[6-9] % .* steps of 0\.00057"):

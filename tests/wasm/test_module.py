@@ -181,7 +181,7 @@ def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callab
     with zipfile.ZipFile(bare) as before, zipfile.ZipFile(out / "Crane.fmu") as after:
         assert {n: after.read(n) for n in before.namelist()} == {n: before.read(n) for n in before.namelist()}
     again = ["--fmu", str(out / "Crane.fmu"), "--platforms", "wasm32", "--out", str(out)]
-    done = subprocess.run(module_command("fmu_src.build.command", *again), capture_output=True, text=True, check=True)
+    done = subprocess.run(module_command("ali3", "build", *again), capture_output=True, text=True, check=True)
     assert done.stdout.endswith("added: nothing\n")
 
 

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+from typing import TYPE_CHECKING
 
+from ali3.html_elements import element
 from hosts.common.numbers import is_round_off
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
 
 _SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _POWER = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
@@ -34,6 +39,11 @@ def with_unit(value: float, unit: str) -> str:
     """A number and its unit."""
     text, tail = shown(value), unit_shown(unit)
     return f"{text} {tail}" if tail and text != NONE else text
+
+
+def kept_shown(is_kept: bool, text: str = "") -> HtmlElement:
+    """Whether a limit is kept, in its colour. `text`: other words for it."""
+    return element("span", text or ("kept" if is_kept else "not kept"), class_="kept" if is_kept else "broken")
 
 
 def difference(value: float, first: float) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, bounds, difference, unit_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, bounds, difference, kept_shown, unit_shown, with_unit
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
@@ -144,9 +144,9 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
     kept = sum(m.is_kept is True for m in limited)
     if kept == len(limited):
         text = "limit kept" if kept == 1 else f"{kept} limits kept"
-        return element("td", element("span", text, class_="kept"), *more)
+        return element("td", kept_shown(True, text), *more)
     text = "limit not kept" if len(limited) == 1 else f"{len(limited) - kept} of {len(limited)} limits not kept"
-    return element("td", element("span", text, class_="broken"), *more)
+    return element("td", kept_shown(False, text), *more)
 
 
 def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
@@ -179,8 +179,7 @@ def _value_cell(measure: Measure, first: Measure | None, known: Measure, note: s
     limit = measure.limit
     if limit is not None:
         if measure.is_kept is not None:
-            word, kind = ("kept", "kept") if measure.is_kept else ("not kept", "broken")
-            parts += [" ", element("span", word, class_=kind)]
+            parts += [" ", kept_shown(measure.is_kept)]
         if limit != known.limit:
             parts.append(element("small", f"here {bounds(limit.lowest, limit.highest, measure.unit)}"))
     if first is not None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, bounds, unit_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, bounds, kept_shown, unit_shown, with_unit
 from hosts.catalogue.report.pictures import Picture
 from hosts.measures.measure import Measure
 
@@ -121,10 +121,9 @@ def _measures(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement
     for m in measures:
         state: Content = NONE
         if m.limit is not None and m.is_kept is not None:
-            word, kind = ("kept", "kept") if m.is_kept else ("not kept", "broken")
             state = element(
                 "td",
-                element("span", word, class_=kind),
+                kept_shown(m.is_kept),
                 element("small", f"{bounds(m.limit.lowest, m.limit.highest, m.unit)}; {m.limit.source}"),
             )
         value = NONE if m.value != m.value else f"{m.value:.7g}"

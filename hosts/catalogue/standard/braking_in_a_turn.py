@@ -9,7 +9,7 @@ import numpy as np
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import Ends
-from hosts.catalogue.preparation import early_end, held, with_step_up_to
+from hosts.catalogue.preparation import early_end, held, start_at, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.catalogue.turn_braking_measures import STEADY, Stop, measures_of, plots_of
 from hosts.common.errors import HostError
@@ -76,8 +76,8 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
     """Onto the circle, steering fixed, one application of the brake to rest."""
     constants, radius = car.facts.constants, settings["radius"]
     speed = math.sqrt(settings["lateral_acceleration"] * abs(radius))
-    can_start = "initial.speed" in car.facts.parameters
-    begin = ON_CIRCLE if can_start else LONGEST_RUN_UP
+    start = start_at(car, speed)
+    begin = ON_CIRCLE if start else LONGEST_RUN_UP
     circle = CircleFollower(
         radius, speed, constants["vehicle.wheelbase"], constants["vehicle.front_wheel_angle_max"], horizon=HORIZON
     )
@@ -95,7 +95,6 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
         started = not math.isnan(pilot.onset)
         return ends(outputs) and (started or ends.reason != "stands")
 
-    start = {"initial.speed": speed} if can_start else {}
     result = car.drive(held(car, f"braking_in_a_turn {pedal:.3g}", stop_time, {}, start), pilot, over)
     return Stop(pedal, result, pilot.onset, ends.reason)
 

@@ -11,7 +11,7 @@ import numpy as np
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
-from hosts.catalogue.preparation import held, with_step_up_to
+from hosts.catalogue.preparation import RunUp, held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
@@ -23,10 +23,8 @@ from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.planned_course import planned
 
 STEP = 0.005  # s, in which the driver holds the steering
-SETTLED = 1.0  # s, of driving straight before the course is laid out
 RUN_UP = 10.0  # m, from the front of the car to the first lane
 RELEASED_AFTER = 2.0  # m, into the first lane of ISO 3888-2
-LONGEST_RUN_UP = 120.0  # s
 ISO_3888_1 = Standard(
     "ISO 3888-1:2018",
     "Passenger cars: test track for a severe lane-change manoeuvre, part 1: double lane-change",
@@ -182,26 +180,25 @@ def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage
     constants, wanted = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     course = course_of(layout.course, width, RUN_UP + 0.5 * length)
-    can_start = "initial.speed" in car.facts.parameters
-    near = max(0.005 * wanted, 0.05)
+    run_up = RunUp(car, wanted)
     pilot = CourseFromHere(
         steering_of(driver, course, constants, wanted),
         wanted,
-        lambda time, senses: time >= SETTLED - 1e-9 and abs(senses["speed"] - wanted) <= near,
+        run_up.is_over,
         course.gates[0].x_start + layout.release - 0.5 * length,
     )
-    run_up = SETTLED + 10.0 if can_start else LONGEST_RUN_UP
     way = course.gates[-1].x_end + length
     ends = Ends(stands=0.3 * wanted)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         if math.isnan(pilot.start):
-            return time > run_up
+            return time > run_up.longest
         x, y, _ = pilot.seen(outputs)
         return ends(outputs) or x > way or abs(y) > 8.0
 
-    start = {"initial.speed": wanted} if can_start else {}
-    result = car.drive(held(car, f"{layout.name} {speed:g} km/h", run_up + 3.0 * way / wanted, {}, start), pilot, over)
+    stop_time = run_up.longest + 3.0 * way / wanted
+    manoeuvre = held(car, f"{layout.name} {speed:g} km/h", stop_time, {}, run_up.start)
+    result = car.drive(manoeuvre, pilot, over)
     after = result.time >= pilot.start - 1e-9 if not math.isnan(pilot.start) else np.zeros(len(result.time), bool)
     return Passage(speed, result, driver, course, (length, width), pilot.pose, after, ends.reason, layout.release)
 

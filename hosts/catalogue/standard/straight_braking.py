@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from hosts.catalogue.braking_measures import measures_of, plots_of
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.ends import Ends
-from hosts.catalogue.preparation import early_end, held, with_step_up_to
+from hosts.catalogue.preparation import RunUp, early_end, held, with_step_up_to
 from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
 from hosts.common.wheels import WHEELS
 from hosts.driving.pilots.braking import Braking
@@ -19,9 +19,7 @@ from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 
 STEP = 0.005  # s; the pedal rises in a multiple of it
-SETTLED = 1.0  # s, of driving straight before the pedal is pressed
 RESOLUTION = 0.01  # of the pedal without locked wheels
-LONGEST_RUN_UP = 120.0  # s, of a car that cannot be started at speed
 ISO_21994 = Standard(
     "ISO 21994:2022",
     "Passenger cars: stopping distance at straight-line braking with ABS, open-loop test method",
@@ -95,27 +93,24 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
     notes : tuple of str
     """
     nominal = settings["speed"] / 3.6
-    can_start = "initial.speed" in car.facts.parameters
     neutral = settings["neutral"] >= 0.5 and "selector" in car.facts.inputs
-    near = max(0.005 * nominal, 0.05)
+    run_up = RunUp(car, nominal)
     pilot = Braking(
         Together(SteeringTable([0.0], [0.0]), SpeedHolder(nominal, gain=1.0, integral_gain=1.0)),
-        lambda time, senses: time >= SETTLED - 1e-9 and abs(senses["speed"] - nominal) <= near,
+        run_up.is_over,
         settings["pedal"],
         settings["rise_time"],
         {"selector": (1.0, 0.0)} if neutral else {},
     )
-    run_up = SETTLED + 10.0 if can_start else LONGEST_RUN_UP
     # a car with less than 1 m/s2 does not brake
-    stop_time = run_up + settings["rise_time"] + nominal / 1.0
+    stop_time = run_up.longest + settings["rise_time"] + nominal / 1.0
     ends = Ends(stands=0.02)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         started = not math.isnan(pilot.onset)
-        return (ends(outputs) and (started or ends.reason != "stands")) or (not started and time > run_up)
+        return (ends(outputs) and (started or ends.reason != "stands")) or (not started and time > run_up.longest)
 
-    start = {"initial.speed": nominal} if can_start else {}
-    result = car.drive(held(car, "straight_braking", stop_time, {}, start), pilot, over)
+    result = car.drive(held(car, "straight_braking", stop_time, {}, run_up.start), pilot, over)
     last, notes = result.time[-1], early_end("straight braking", result)
     if math.isnan(pilot.onset):
         notes += (

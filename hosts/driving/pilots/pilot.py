@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Protocol
+
+from hosts.common.errors import HostError
 
 SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
 """Outputs without which a course cannot be followed."""
 ACTS = ("steering", "throttle", "brake")
 """Inputs without which it cannot."""
+
+
+def refuse_missing(names: Sequence[str], whose: str) -> None:
+    """Raises `HostError` where a driver needs variables that are not there. `whose`: how messages call the FMU."""
+    if names:
+        raise HostError(
+            f"The driver needs variables that {whose} does not have: {', '.join(names)}. Where they have other names, "
+            "an alias file says which (ali3 run --aliases)."
+        )
 
 
 class Pilot(Protocol):

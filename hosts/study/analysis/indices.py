@@ -32,13 +32,9 @@ class Indices:
     """`total`, `total_conf`, shape (d,): part that it makes alone and together with the others."""
     how: str
     """A sentence: by which estimator, from how many runs."""
-    second: NDArray[np.float64] | None = None
-    """Shape (d, d): part that two make together, above the diagonal."""
 
 
-def saltelli_indices(
-    names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64], second_order: bool
-) -> Indices | str:
+def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray[np.float64]) -> Indices | str:
     """First-order and total indices from a design of Saltelli's; or why there are none.
 
     Parameters
@@ -48,8 +44,6 @@ def saltelli_indices(
         Number in the plan of each run; the plan is that of `SALib.sample.sobol.sample`.
     y : ndarray of shape (m,)
         Finite.
-    second_order : bool
-        As the plan was made.
 
     Notes
     -----
@@ -61,7 +55,7 @@ def saltelli_indices(
     """
     from SALib.analyze import sobol
 
-    width = len(names) * (2 if second_order else 1) + 2
+    width = len(names) + 2
     blocks = np.full((int(points.max()) // width + 1, width), np.nan)
     blocks.flat[points] = y
     whole = np.isfinite(blocks).all(axis=1)
@@ -73,12 +67,11 @@ def saltelli_indices(
     used = blocks[whole].ravel()
     if same := _all_the_same(used):
         return same
-    found = sobol.analyze(_problem(names), used, calc_second_order=second_order, seed=_SEED)
+    found = sobol.analyze(_problem(names), used, calc_second_order=False, seed=_SEED)
     left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
     how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
-    second = np.asarray(found["S2"]) if second_order else None
     s1, s1_conf, st, st_conf = (np.asarray(found[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
-    return Indices(tuple(names), s1, s1_conf, st, st_conf, how, second)
+    return Indices(tuple(names), s1, s1_conf, st, st_conf, how)
 
 
 def grid_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[np.float64]) -> Indices | str:

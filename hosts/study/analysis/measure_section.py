@@ -104,9 +104,9 @@ def indices_of(data: StudyData, response: Response) -> Indices | str:
     if len(names) == 1:
         return f"No indices: {names[0]} alone is varied and makes all of the variance."
     if data.method == "saltelli":
-        return saltelli_indices(
-            names, data.points(response), response.values, bool(data.about["sampling"].get("second_order"))
-        )
+        if data.about["sampling"].get("second_order"):
+            return "No indices: runs for a second order, as this study has them, are no longer read; make it without."
+        return saltelli_indices(names, data.points(response), response.values)
     x = data.x[response.rows]
     if data.method == "grid":
         return grid_indices(names, x, response.values)

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..header.enumerations import Doubt
 from ..header.limits import POSE
-from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, ReportFields, SettingsFields
+from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, SettingsFields
 from .buffers import buffer, numbers
 from .errors import KernelError
 from .loaded_system import LoadedSystem
@@ -291,26 +291,23 @@ class Instance(StandingInstance):
 
     def doubt(self) -> Doubt:
         """Whether the run says that it is wrong."""
-        fields = ReportFields()
-        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
-        return Doubt(self._library.ali3_run_doubt(byref(fields)))
+        return Doubt(self._library.ali3_run_doubt(byref(self._report())))
 
     def energy_balance(self) -> float:
         """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
-        fields = ReportFields()
-        self._check(self._library.ali3_report_get(self._handle, byref(fields)))
-        return float(self._library.ali3_energy_balance(byref(fields)))
+        return float(self._library.ali3_energy_balance(byref(self._report())))
 
     def branch_text(self) -> str:
         """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""
-        text = ctypes.create_string_buffer(1024)
-        self._check(self._library.ali3_branch_text(self._handle, text, len(text)))
-        return text.value.decode(errors="ignore")
+        return self._text(self._library.ali3_branch_text)
 
     def rim_text(self) -> str:
         """A sentence about the deepest that a rim was pressed into a grid road; empty where none was."""
+        return self._text(self._library.ali3_rim_text)
+
+    def _text(self, function: Callable[..., int]) -> str:
         text = ctypes.create_string_buffer(1024)
-        self._check(self._library.ali3_rim_text(self._handle, text, len(text)))
+        self._check(function(self._handle, text, len(text)))
         return text.value.decode(errors="ignore")
 
     @property

@@ -69,9 +69,13 @@ class StandingInstance(KernelMemory):
 
     def report(self) -> dict[str, float | int]:
         """Counters and residuals by field name."""
+        fields = self._report()
+        return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+
+    def _report(self) -> ReportFields:
         fields = ReportFields()
         self._check(self._library.ali3_report_get(self._handle, byref(fields)))
-        return {name: getattr(fields, name) for name, _ in ReportFields._fields_}
+        return fields
 
     def get_state(self) -> tuple[Any, Any, Any, Any, Any]:
         """Copies of q, qd, qdd (nq,), the multipliers of the stored rows (nc,) and the element states y (ny,)."""

@@ -54,7 +54,7 @@ def car_shapes(b: CarBuilder, car: CarContent, spins: Mapping[str, Spin], links:
         powertrain_shapes(looks)
     occupant_shapes(looks)
     frame = car.chassis.frame
-    if isinstance(frame, TubesFrame):
+    if tubes := isinstance(frame, TubesFrame):
         tube_frame_shapes(looks, frame.tubular(car.folder), bends=isinstance(b.chassis.body, FlexibleBody))
-    if car.chassis.body in ("clear", "closed") or (car.chassis.body == "auto" and not isinstance(frame, TubesFrame)):
+    if car.chassis.body in ("clear", "closed") or (car.chassis.body == "auto" and not tubes):
         body_shell_shapes(looks, clear=car.chassis.body == "clear")

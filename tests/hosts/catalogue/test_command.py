@@ -130,7 +130,7 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     """The drop is soon done, the circle goes on for minutes; then Ctrl-C."""
     out, pipe = tmp_path / "out", subprocess.PIPE
     slow = ["--tests", "drop,steady_circle", "--test-setting", "steady_circle.speed_rise=0.02", "--jobs", "2"]
-    command = [sys.executable, "-m", "hosts.catalogue", str(prototype_fmu), *slow, "--out", str(out)]
+    command = [sys.executable, "-m", "ali3", "catalogue", str(prototype_fmu), *slow, "--out", str(out)]
     process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True)
     try:
         end = time.monotonic() + 60.0

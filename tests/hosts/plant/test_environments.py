@@ -13,6 +13,7 @@ from gymnasium.utils.env_checker import check_env
 from hosts.common.errors import HostError
 from hosts.plant import environments  # registers them
 from hosts.plant.lap import ProvingGroundLap
+from tests.hosts.plant.seeds import check_seeds
 
 LANE, BRAKES = "ali3/LaneKeeping-v0", "ali3/AntiLockBraking-v0"
 
@@ -32,15 +33,7 @@ def test_they_pass_the_checker(named: tuple[str, Path]) -> None:
 
 def test_a_seed_gives_the_same_episode(named: tuple[str, Path]) -> None:
     name, path = named
-    episodes = []
-    for seed in (3, 3, 4):
-        with gymnasium.make(name, car=str(path)) as made:
-            rows = [made.reset(seed=seed)[0]]
-            made.action_space.seed(1)
-            rows += [made.step(made.action_space.sample())[0] for _ in range(10)]
-            episodes.append(np.array(rows))
-    assert (episodes[0] == episodes[1]).all()
-    assert (episodes[0] != episodes[2]).any()
+    check_seeds(name, car=str(path))
 
 
 def test_several_run_beside_each_other(rigid_fmu: Path) -> None:

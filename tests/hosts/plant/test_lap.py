@@ -13,6 +13,7 @@ from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.lap import LapDriver, ProvingGroundLap, ring
 from mbs.worlds.make_world import read_world
 from mbs.worlds.world import WORLDS
+from tests.hosts.plant.seeds import check_seeds
 
 LAP = "ali3/ProvingGroundLap-v0"
 LEVEL = "plane.road"  # of the FMU: the ring as a line on a plane
@@ -50,15 +51,7 @@ def test_it_passes_the_checker(rigid_fmu: Path) -> None:
 
 
 def test_a_seed_gives_the_same_episode_and_several_run_beside_each_other(rigid_fmu: Path) -> None:
-    episodes = []
-    for seed in (3, 3, 4):
-        with gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL) as made:
-            rows = [made.reset(seed=seed)[0]]
-            made.action_space.seed(1)
-            rows += [made.step(made.action_space.sample())[0] for _ in range(10)]
-            episodes.append(np.array(rows))
-    assert (episodes[0] == episodes[1]).all()
-    assert (episodes[0] != episodes[2]).any()
+    check_seeds(LAP, car=str(rigid_fmu), road=LEVEL)
     several = gymnasium.make_vec(LAP, 2, vectorization_mode="sync", car=str(rigid_fmu), road=LEVEL)
     seen, _ = several.reset(seed=1)
     assert (seen[0] != seen[1]).any()

@@ -83,7 +83,7 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without asking it")
 @pytest.mark.parametrize("name", ["SIGTERM", pytest.param("SIGHUP", marks=pytest.mark.slow)])
 def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp_path):
-    command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
+    command = [sys.executable, "-m", "ali3", "simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as program:
@@ -101,7 +101,7 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp
 @pytest.mark.slow
 def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
     ours, theirs = os.openpty()
-    command = [sys.executable, "-m", "hosts.simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
+    command = [sys.executable, "-m", "ali3", "simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive"), "--json", str(tmp_path / "report.json")]
     take = "import fcntl, termios, os, sys; fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execv(sys.argv[1], sys.argv[1:])"
     program = subprocess.Popen(

@@ -39,7 +39,8 @@ def running(fmu: Path, world: str, *more: str) -> Iterator[str]:
     command = [
         sys.executable,
         "-m",
-        "hosts.simulator",
+        "ali3",
+        "simulator",
         str(fmu),
         "--world",
         world,

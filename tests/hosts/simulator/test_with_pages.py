@@ -42,7 +42,7 @@ class Program:
     """The command as a user runs it."""
 
     def __init__(self, *arguments):
-        command = [sys.executable, "-m", "hosts.simulator", *map(str, arguments), "--no-open", "--no-devices"]
+        command = [sys.executable, "-m", "ali3", "simulator", *map(str, arguments), "--no-open", "--no-devices"]
         self.process = subprocess.Popen(
             command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8"
         )
@@ -218,7 +218,7 @@ def test_a_port_that_is_taken_is_one_sentence(sledge):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         done = subprocess.run(
-            [sys.executable, "-m", "hosts.simulator", str(sledge), "--port", str(port)],
+            [sys.executable, "-m", "ali3", "simulator", str(sledge), "--port", str(port)],
             cwd=ROOT, capture_output=True, text=True, check=False, timeout=60,
         )  # fmt: skip
     assert done.returncode == 2

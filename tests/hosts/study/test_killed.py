@@ -53,7 +53,7 @@ def slow_study(study_file: Callable[..., Path], tmp_path: Path) -> Path:
 
 def command(*arguments: object) -> subprocess.Popen[str]:
     return subprocess.Popen(
-        [sys.executable, "-m", "hosts.study", *map(str, arguments), "--no-report"],
+        [sys.executable, "-m", "ali3", "study", *map(str, arguments), "--no-report"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

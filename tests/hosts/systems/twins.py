@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Iterator
 from functools import cache
 from typing import Any
@@ -15,6 +14,7 @@ from hosts.systems.coupled import INPUTS
 from mbs.vehicle.chosen_ports import chosen_ports
 from tests.hosts.systems.controlled import CONTROLLERS, INNER, SYSTEMS, run, start_of
 from tests.hosts.systems.weak_coupling import percent
+from tests.modules import module_of
 from tests.vehicle.test_ports import rigid, with_ports
 
 ROUNDS, NEAR = 30, 1e-9  # of a step at most; share of an output's size, at which a round is the last
@@ -54,11 +54,7 @@ class _Law:
     """A controller or a driver as an object of Python, without an FMU."""
 
     def __init__(self, file: str, start: dict[str, Any]) -> None:
-        spec = importlib.util.spec_from_file_location(file, CONTROLLERS / f"{file}.py")
-        assert spec is not None
-        assert spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
+        module = module_of(CONTROLLERS / f"{file}.py")
         (kind,) = (
             c for c in vars(module).values() if isinstance(c, type) and issubclass(c, Fmi2Slave) and c != Fmi2Slave
         )

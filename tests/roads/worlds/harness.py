@@ -34,18 +34,31 @@ class Surface(ctypes.Structure):
     _fields_ = (("height", ctypes.c_double), ("normal", ctypes.c_double * 3), ("friction", ctypes.c_double))
 
 
-@contextmanager
-def opened(path) -> Iterator[object]:
-    """A function of x and y that gives heights and frictions, arrays."""
-    lib, libc = library(), ctypes.CDLL(None)
+def road_library():
+    """The kernel's functions that read road files."""
+    lib = library()
     lib.ali3_road_file_open.restype = ctypes.c_void_p
     lib.ali3_road_file_close.argtypes = [ctypes.c_void_p]
     lib.ali3_grid_at.restype = Surface
     lib.ali3_grid_at.argtypes = [ctypes.POINTER(Grid), ctypes.c_double, ctypes.c_double]
+    return lib
+
+
+def open_file(lib, path):
+    """A road file as the kernel holds it."""
+    libc = ctypes.CDLL(None)
     message = ctypes.create_string_buffer(256)
     allocate, release = (ctypes.cast(f, ctypes.c_void_p) for f in (libc.calloc, libc.free))
     file = lib.ali3_road_file_open(str(path).encode(), allocate, release, message, ctypes.c_size_t(256))
     assert file, message.value
+    return file
+
+
+@contextmanager
+def opened(path) -> Iterator[object]:
+    """A function of x and y that gives heights and frictions, arrays."""
+    lib = road_library()
+    file = open_file(lib, path)
     head = RoadFile(path).header
     grid = Grid(head.nx, head.ny, *head.real[:4], None, None, file)
 
