@@ -23,6 +23,8 @@ RESOLVED = 1e3
 """Least length of a step in units of the round-off of the time."""
 MOST_VALUES = 10**9
 """Values that one run may record: 8 gigabytes."""
+MOST_RUNS = 1e6
+"""Largest number that `estimate_error` may be."""
 LEFT_OUT = 0.01
 """Share of a run at its end that may be left out without a word, as equal steps do not divide it."""
 
@@ -56,12 +58,12 @@ def check_end(t0: float, t_end: float) -> float:
 def check_estimate(value: object) -> bool | float | None:
     """Whether a run is to be repeated, or what that may cost, or one sentence."""
     most = float(value) if is_finite(value) else 0.0  # type: ignore[arg-type]
-    if most > 0.0:
+    if 0.0 < most <= MOST_RUNS:
         return most
     if value is not None and not isinstance(value, (bool, np.bool_)):
         raise ValueError(
-            f"estimate_error = {shown(value)}; it must be True, False or None (suspects only), or a number above 0: "
-            "what repeats may cost, in runs."
+            f"estimate_error = {shown(value)}; it must be True, False or None (suspects only), or a number above 0, up "
+            f"to {MOST_RUNS:g}: what repeats may cost, in runs."
         )
     return None if value is None else bool(value)
 

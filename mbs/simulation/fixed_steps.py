@@ -14,6 +14,7 @@ from mbs.common.progress import progress_for
 from mbs.kernel.header.steps import BranchKind
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
+from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -91,9 +92,19 @@ def judged_run(
     try:
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error is True else 1.0
-            run = march_from_start(h, often, lambda share: bar.update(first * share), look)
+            path = list[tuple[int, Report]]()
+
+            def note(values: NDArray[np.float64]) -> bool:
+                path.append((len(values), made[0].report))
+                return False
+
+            run = march_from_start(
+                h, often, lambda share: bar.update(first * share), look, watch=note if checked else None
+            )
             found = run[0].accuracy
-            repeats = repeat.Repeats(system, run, march_from_start, h, often, bar.update, before, twin, inputs, most)
+            repeats = repeat.Repeats(
+                system, run, march_from_start, h, often, bar.update, before, twin, inputs, most, path
+            )
             if checked:
                 found = repeat.check(repeats, always=estimate_error is True)
             repeats.add_ends()

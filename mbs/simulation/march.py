@@ -47,10 +47,10 @@ def march(
     progress: bool | Callable[[float], None] | None,
     look: bool = False,
     wanted: int = 1,
-    watch: Callable[[Array], None] | None = None,
+    watch: Callable[[Array], bool] | None = None,
 ) -> tuple[Trajectory, list[Array]]:
     """The steps of `Simulation.run`; poses are kept of one of `wanted` samples at most. `watch` is given the samples so
-    far after each tenth of them.
+    far after each tenth of them; where it says so the run ends there.
 
     Returns
     -------
@@ -102,8 +102,9 @@ def march(
                 if look:
                     seen.append(q)
             bar.update(done / steps)
-            if watch is not None and ahead and n == ahead[0]:
-                watch(values[: done // every + 1])
+            if watch is not None and ahead and n == ahead[0] and watch(values[: done // every + 1]):
+                values = values[: done // every + 1]
+                break
             chunk = next_chunk(chunk, spent, every)
     return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), seen
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,12 +13,14 @@ from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
+from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
+from mbs.simulation.march import WATCHED
 from mbs.simulation.prepared_system import length_of
 from mbs.system.system import System
 
@@ -28,7 +30,10 @@ FALLS = 1.2  # times what a share falls to as its step does: above, shorter step
 SURELY = 1.2  # times what steps resolve: what repeats miss by the run's own share differs from what they do
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
-Watch = Callable[[NDArray[np.float64]], None]
+Watch = Callable[[NDArray[np.float64]], bool]
+COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
+AGREED = 0.1  # of what a coarser run may differ by
+FASTEST = 1e3  # growth of a difference in a tenth of a run
 
 
 class TooFarError(Exception):
@@ -65,6 +70,8 @@ class Repeats:
         Those that follow time.
     most : float
         What all repeats may cost, in first runs.
+    path : sequence of tuple of int and Report
+        Numbers of samples of the first run on its way, and what it had counted there.
 
     Attributes
     ----------
@@ -97,6 +104,7 @@ class Repeats:
     twin: bool = False
     inputs: Mapping[str, Signal] | None = None
     most: float = MOST_COST
+    path: Sequence[tuple[int, Report]] = ()
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
@@ -132,11 +140,16 @@ class Repeats:
         if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
             return None
         run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
-        watch = None if coordinates else self._watch(run[0], most)
+        smooth = self._smooth_from / thin
+        if glance.iterations or METHOD_TABLE[self._method].order > 2:
+            smooth = math.inf
+        watch = None if coordinates else self._watch(run[0], most, glance.difference, smooth)
         try:
             twin = self._again(h, steps, 1.0 / times, glance.iterations, watch)
         except (SimulationError, TooDearError):
             return None
+        if watch is not None and len(twin[0].t) >= smooth:
+            twin = self._continued(twin[0], run[0]), []
         shared = min(len(run[0].t), len(twin[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(twin[1]) != len(run[1])):
             return None
@@ -201,7 +214,8 @@ class Repeats:
             if parts > 2 * self.parts and not self.has_order:
                 known = by_limit(known, [self._table(self.run), first, second], self.groups, self.before, self._length)
                 self.known = known
-            if parts == 8 * self.parts or (parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR):
+            told = not self.has_order and (known.error or 0.0) > WARNED_ERROR
+            if parts == 8 * self.parts or (parts == 4 * self.parts and told):
                 break  # of this one and the last the larger error counts
             apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
             if self.has_order and not self.coarse:  # the finer one errs by less than that, by order two at least
@@ -236,22 +250,55 @@ class Repeats:
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
-        except TooFarError:
-            self.cost -= cost * (1.0 - share)
-            raise
+        finally:
+            if watch is not None:
+                self.cost -= cost * (1.0 - share)
 
-    def _watch(self, run: Trajectory, most: float) -> Watch:
-        """What gives up a run with the samples of this one where they differ by more than `most` of the range."""
+    @property
+    def _smooth_from(self) -> float:
+        """The number of samples behind which what is left of the first run is plainly smooth, so that it alone would
+        not be checked.
+        """
+        report = self.run[0].report
+        assert report is not None
+        for samples, at in self.path:
+            rest = replace(report, **{name: getattr(report, name) - getattr(at, name) for name in COUNTED})
+            if not accuracy.doubt(rest, rest.steps, rest.halvings, self._method):
+                return samples
+        return math.inf
+
+    def _continued(self, twin: Trajectory, run: Trajectory) -> Trajectory:
+        """A run that ended where it agreed with this one, as if both were equal from there on."""
+        names = [name for judged in self.groups.values() for name in judged]
+        values = np.column_stack([np.append(twin[n], run[n][len(twin.t) :]) for n in names])
+        t = np.append(twin.t, run.t[len(twin.t) :])
+        return Trajectory(t, values, names, [run.units[n] for n in names], twin.report, twin.settings)
+
+    def _watch(self, run: Trajectory, most: float, right: float, smooth: float) -> Watch:
+        """What gives up a run with the samples of this one where they differ by more than `most` of the range.
+
+        It ends it where `smooth` samples are made, and what both differ by in the last tenth of the whole is at most
+        `AGREED` of `right`, and as it grew in that tenth comes to no more than `right` in the end.
+        """
         ranges = accuracy.differences(run, run, self.groups, self.before, self._length)[2]
         column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
-        judged = [(unit, column[n], run[n], most * size) for unit, size in ranges.items() for n in self.groups[unit]]
+        judged = [(unit, column[n], run[n], size) for unit, size in ranges.items() for n in self.groups[unit]]
         rows = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}
 
-        def look(values: NDArray[np.float64]) -> None:
-            for unit, k, own, allowed in judged:
+        tenth = len(run.t) / WATCHED
+
+        def look(values: NDArray[np.float64]) -> bool:
+            agreed, left = len(values) >= smooth, (len(run.t) - len(values)) / tenth
+            for unit, k, own, size in judged:
                 there = rows[unit][rows[unit] < len(values)]
-                if np.abs(values[there, k] - own[there]).max() > allowed:
+                gaps = np.abs(values[there, k] - own[there]) / size
+                if gaps.max() > most:
                     raise TooFarError
+                old = there < len(values) - 1 - tenth
+                last, before = gaps[~old].max(), gaps[old & (there >= len(values) - 1 - 2 * tenth)].max(initial=0.0)
+                growth = min(max(last / before, 1.0), FASTEST) if before > 0.0 else FASTEST
+                agreed = agreed and last <= AGREED * right and last * growth**left <= right
+            return agreed
 
         return look
 

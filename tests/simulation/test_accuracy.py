@@ -342,7 +342,7 @@ def test_a_refused_run_carries_what_was_known():
     assert accuracy.halvings_per_step > 0.0
 
 
-@pytest.mark.parametrize("value", ["yes", 0.0, -1, float("nan"), float("inf")])
+@pytest.mark.parametrize("value", ["yes", 0.0, -1, 1e7, float("nan")])
 def test_what_to_estimate_is_yes_no_or_what_it_may_cost(value):
     with pytest.raises(ValueError, match="estimate_error = .*; it must be True, False or None .* a number above 0"):
         simulate(system_of("pendulum"), 1.0, 0.01, estimate_error=value)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,6 +12,7 @@ import mbs
 from benchmarks.methods import random_machines
 from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
 from mbs.results.smooth_laws import LOOPS, OPEN
+from mbs.simulation.repeat import Repeats, TooFarError
 from tests.simulation.drawn import drawn
 from tests.simulation.test_coarser_runs import ball, place
 
@@ -87,6 +91,41 @@ def test_a_coarser_run_is_given_up_where_it_differs() -> None:
     assert run.accuracy is not None
     assert run.accuracy.repeat_cost == 2.25
     assert run.accuracy.repeated_with == 0.005
+
+
+def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth() -> None:
+    """At 0.75 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
+    run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.0025, every=4, progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeat_cost == 0.3
+    assert run.accuracy.repeated_with == 0.005
+    assert 0.0 < run.accuracy.units["N"] < 0.005
+
+
+def never(*_: Any) -> Any:
+    raise AssertionError("no run is made")
+
+
+@pytest.mark.parametrize(
+    ("grown", "ends"),
+    [
+        pytest.param(lambda t: 1e-3 + 0.0 * t, True, id="stays"),
+        pytest.param(lambda t: 2e-3 * t, True, id="in proportion to time"),
+        pytest.param(lambda t: 1e-3 * np.exp(10.0 * (t - 0.5)), False, id="2.7 times in each tenth, to 15 %"),
+        pytest.param(lambda t: 4e-3 + 0.0 * t, False, id="more than a tenth of what it may be"),
+    ],
+)
+def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndarray], np.ndarray], ends: bool) -> None:
+    system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
+    run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
+    look = Repeats(system, (run, []), never, 0.01, 1, never)._watch(run, 0.03, 0.03, 40)
+    values = np.column_stack([run[name] for name in run.units])
+    values[:, list(run.units).index("x")] += grown(t) * np.ptp(run["x"])
+    assert look(values[:51]) == ends
+    assert not look(values[:31])
+    values[20] += 0.04
+    with pytest.raises(TooFarError):
+        look(values[:31])
 
 
 def machine(number: int) -> tuple[mbs.System, float]:
