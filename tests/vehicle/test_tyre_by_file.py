@@ -16,6 +16,7 @@ from mbs.kernel.header.enumerations import ElementType
 from mbs.vehicle import load
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.read_car import CARS
+from tests.elements.test_magic_tyre import rolling_radius
 from tests.vehicle.content import sentences
 
 DATA = Path(__file__).parents[1] / "tyre_files" / "data"
@@ -108,7 +109,10 @@ def test_friction_and_radii_of_the_section_are_those_of_the_tyre(car):
     made = tyre.tyre("left")
     assert (tyre.radius, tyre.bottoming_radius, tyre.nominal_load) == (0.31075, 0.2005, 3000.0)
     deflection = tyre.radius - car.front.wheel.centre[2]
-    assert 0.2 * deflection < tyre.radius - tyre.rolling_radius(tyre.radius - deflection) < deflection
+    free = tyre.radius * made.coefficients["Q_RE0"]
+    rolling = tyre.rolling_radius(free - deflection)
+    assert rolling == pytest.approx(rolling_radius(made, 0.0, deflection), rel=1e-14)
+    assert 0.2 * deflection < free - rolling < deflection
     assert made.stiffness < tyre.stiffness < 1.3 * made.stiffness
     assert tyre.friction[0] == pytest.approx(1.13 * 0.98 * (1.0 + 0.08 / 1.13 * (1.0 - 1.0 / 1.02)))
 

@@ -151,4 +151,4 @@ class MagicFormula(TyreSection, of=MagicTyre):
             return free - depth / 3.0
         load = inflated * (t.stiffness + t.progression * depth) * depth / t.nominal_load
         part = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * load) + c.get("FREFF", 0.0) * load
-        return free - t.nominal_load / self.stiffness * part
+        return free - t.nominal_load / (inflated * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)) * part
