@@ -126,12 +126,16 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def friction(self) -> tuple[float, float]:
-        """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
+        """Largest longitudinal and lateral force over the load, without shifts, at the nominal load and the pressure of
+        the car, on the road of the reference.
+        """
         return self._friction("X"), self._friction("Y")
 
     def _friction(self, axis: str) -> float:
         c, dfz = self._left.coefficients, 1.0 / self._left.coefficients.get("LFZO", 1.0) - 1.0
-        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * c.get(f"LMU{axis}", 1.0)
+        more = self._left.pressure
+        of_pressure = 1.0 + c.get(f"PP{axis}3", 0.0) * more + c.get(f"PP{axis}4", 0.0) * more**2
+        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * of_pressure * c.get(f"LMU{axis}", 1.0)
         return largest * (self.lmux if axis == "X" else self.lmuy)
 
     @property
