@@ -21,7 +21,7 @@ from mbs.vehicle.tyres.tyre_section import TyreSection
 if TYPE_CHECKING:
     from mbs.tyre_files import TyreFile
 
-_IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
+_IN_FILE = {"radius": "UNLOADED_RADIUS times Q_RE0", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
 
 class MagicFormula(TyreSection, of=MagicTyre):
@@ -98,8 +98,8 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def radius(self) -> float:
-        """Free radius, m."""
-        return self._left.radius
+        """Free radius at rest, m."""
+        return self._left.radius * self._left.coefficients.get("Q_RE0", 1.0)
 
     @property
     def bottoming_radius(self) -> float:
@@ -149,7 +149,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
     def rolling_radius(self, loaded: float) -> float:
         """Way of a free wheel per radian, m, at rest with a loaded radius. `loaded`: in m."""
         t, c = self._left, self._left.coefficients
-        free = t.radius * c.get("Q_RE0", 1.0)
+        free = self.radius
         depth, inflated = free - loaded, 1.0 + c.get("PFZ1", 0.0) * t.pressure
         if not (c.get("DREFF") or c.get("FREFF")):
             return free - depth / 3.0
