@@ -165,6 +165,8 @@ def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
     for lost in ({"bore": TyreBore(0.1, 1e3, 10.0)}, {"settling": 0.01}):
         with pytest.raises(ValueError, match=r"bore must be None and settling 0\.006 s"):
             write_tyre(tmp_path / "a.tir", replace(tyre, **lost))
+    with pytest.raises(ValueError, match="combination must not be 'none'"):
+        write_tyre(tmp_path / "a.tir", replace(tyre, combination="none"))
     with pytest.raises(ValueError, match="friction factor of the tyre is 0"):
         write_tyre(tmp_path / "a.tir", replace(tyre, friction_factor=0.0))
     with pytest.raises(ValueError, match=r"not symmetric: .*PHY1.* as 0\. Give the side .*'LEFT' or 'RIGHT'"):
