@@ -198,8 +198,11 @@ def grid_road(
                 f"The frictions in {frictions} have shape {values.shape}, the heights in {heights} "
                 f"{np.shape(grid.heights)}; both must agree."
             )
-    if np.any(np.asarray(values) > ROAD_FRICTION) or np.any(np.asarray(values) < 0.0):
-        raise RoadFileError(f"The frictions of {heights} must lie between 0 and {ROAD_FRICTION:g}.")
+    least, most = np.min(values), np.max(values)
+    if not 0.0 <= least <= most <= ROAD_FRICTION:
+        raise RoadFileError(
+            f"The frictions of {heights} are {least:g} to {most:g}; they must lie between 0 and {ROAD_FRICTION:g}."
+        )
     road = replace(grid, frictions=values)
     if isinstance(road, SampledRoad):
         road = road.moved_to(origin or road.origin)

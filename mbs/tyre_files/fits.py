@@ -154,7 +154,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     three = first, _three(shares[2.0], weights[2.0], first)
     carcass = _carcass(tyre, c)
     made = Tyre(
-        radius=tyre.radius,
+        radius=tyre.radius * c.get("Q_RE0", 1.0),
         bottoming_radius=tyre.bottoming_radius,
         stiffness=stiffness,
         damping=tyre.damping,
@@ -169,7 +169,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         reference_friction=tyre.reference_friction,
         bottoming_stiffness=tyre.bottoming_stiffness,
         max_load_factor=min(3.5, tyre.largest_load / nominal, 0.95 * _most_load(list(curves.values()))),
-        rolling_resistance=max(c.get("QSY1", 0.0), 0.0),
+        rolling_resistance=max(c.get("QSY1", 0.0) * c.get("LMY", 1.0), 0.0),
         friction_factor=tyre.friction_factor,
         bore=tyre.bore,
     )

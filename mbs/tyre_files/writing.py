@@ -35,8 +35,8 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
     Raises
     ------
     ValueError
-        The tyre is mirrored, of other axes or of another pressure, has a bore torque or a settling of its own, or no
-        friction; or it is not symmetric where `side` says so.
+        The tyre is mirrored, of other axes or of another pressure, has a bore torque or a settling of its own, slips
+        that do not act together, or no friction; or it is not symmetric where `side` says so.
     ReportError
         The file cannot be written.
     """
@@ -47,6 +47,8 @@ def write_tyre(file: str | os.PathLike[str], tyre: MagicTyre, side: str = "SYMME
             f"A tyre property file has neither the bore torque nor the settling of a tyre; bore must be None and "
             f"settling {MagicTyre.settling:g} s, not {tyre.settling:g} s."
         )
+    if tyre.combination == "none":
+        raise ValueError("The slips of a tyre property file act together; combination must not be 'none'.")
     if not tyre.friction_factor > 0.0:
         raise ValueError("The friction factor of the tyre is 0; a tyre property file needs a positive LMUX and LMUY.")
     one_of(side, ("LEFT", "RIGHT", "SYMMETRIC"), "The side of the tyre", ValueError)

@@ -80,6 +80,8 @@ def test_tmeasy_of_a_file_is_a_tyre_that_has_its_forces_within_the_errors_told(f
     shifts = ("PHX1", "PHX2", "PVX1", "PVX2", "PEX4", "PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "LMUV", "RVY1", "RVY2")
     bare = replace(bare, coefficients={**bare.coefficients, **dict.fromkeys(shifts, 0.0)})
     made, errors = tmeasy_of_magic(bare)
+    c = {"QSY1": 0.0, "LMY": 1.0, "Q_RE0": 1.0} | bare.coefficients
+    assert (made.radius, made.rolling_resistance) == (bare.radius * c["Q_RE0"], c["QSY1"] * c["LMY"])
     assert errors["lateral"] < 0.12
     if file.stem == "HMMWV_Pac02Tire":  # its longitudinal slip stiffness fades to nothing by PKX2: no curve of TMeasy
         assert errors["longitudinal"] > 0.3
@@ -163,6 +165,8 @@ def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
     for lost in ({"bore": TyreBore(0.1, 1e3, 10.0)}, {"settling": 0.01}):
         with pytest.raises(ValueError, match=r"bore must be None and settling 0\.006 s"):
             write_tyre(tmp_path / "a.tir", replace(tyre, **lost))
+    with pytest.raises(ValueError, match="combination must not be 'none'"):
+        write_tyre(tmp_path / "a.tir", replace(tyre, combination="none"))
     with pytest.raises(ValueError, match="friction factor of the tyre is 0"):
         write_tyre(tmp_path / "a.tir", replace(tyre, friction_factor=0.0))
     with pytest.raises(ValueError, match=r"not symmetric: .*PHY1.* as 0\. Give the side .*'LEFT' or 'RIGHT'"):

@@ -246,7 +246,7 @@ ODD = {
     "a load without forces": (
         {"rear.tyre.max_load_factor": 0.5}, "rear.tyre.max_load_factor: the forces grow with the load up to 750 N, but",
     ),
-    "brakes behind only": ({"brakes.balance": 0.0}, "balance is 0, so the pedal brakes with 1 of its torque behind"),
+    "brakes behind only": ({"brakes.balance": 0.0}, "balance is 0: 100% of the pedal's torque brakes the rear wheels"),
     "a rack that turns less": ({"steering.rack_travel": 0.02}, "on a steering arm"),
 }  # fmt: skip
 

@@ -58,6 +58,6 @@ def rate_oddities(car: CarContent, rest: Rest) -> Iterator[str]:
         )
     if not BALANCE[0] <= car.brakes.balance <= BALANCE[1]:
         yield (
-            f"{car.brakes.key('balance')} is {car.brakes.balance:g}, so the pedal brakes with "
-            f"{1.0 - car.brakes.balance:g} of its torque behind; usual is {BALANCE[0]:g} to {BALANCE[1]:g} in front."
+            f"{car.brakes.key('balance')} is {car.brakes.balance:g}: {1.0 - car.brakes.balance:.0%} of the pedal's "
+            f"torque brakes the rear wheels; usual is a balance of {BALANCE[0]:g} to {BALANCE[1]:g}."
         )

@@ -21,7 +21,7 @@ from mbs.vehicle.tyres.tyre_section import TyreSection
 if TYPE_CHECKING:
     from mbs.tyre_files import TyreFile
 
-_IN_FILE = {"radius": "UNLOADED_RADIUS", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
+_IN_FILE = {"radius": "UNLOADED_RADIUS times Q_RE0", "stiffness": "VERTICAL_STIFFNESS", "nominal_load": "FNOMIN"}
 
 
 class MagicFormula(TyreSection, of=MagicTyre):
@@ -98,8 +98,8 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def radius(self) -> float:
-        """Free radius, m."""
-        return self._left.radius
+        """Free radius at rest, m."""
+        return self._left.radius * self._left.coefficients.get("Q_RE0", 1.0)
 
     @property
     def bottoming_radius(self) -> float:
@@ -126,12 +126,16 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def friction(self) -> tuple[float, float]:
-        """Largest longitudinal and lateral force over the load, at the nominal load on the road of the reference."""
+        """Largest longitudinal and lateral force over the load, without shifts, at the nominal load and the pressure of
+        the car, on the road of the reference.
+        """
         return self._friction("X"), self._friction("Y")
 
     def _friction(self, axis: str) -> float:
         c, dfz = self._left.coefficients, 1.0 / self._left.coefficients.get("LFZO", 1.0) - 1.0
-        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * c.get(f"LMU{axis}", 1.0)
+        more = self._left.pressure
+        of_pressure = 1.0 + c.get(f"PP{axis}3", 0.0) * more + c.get(f"PP{axis}4", 0.0) * more**2
+        largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * of_pressure * c.get(f"LMU{axis}", 1.0)
         return largest * (self.lmux if axis == "X" else self.lmuy)
 
     @property
@@ -145,10 +149,10 @@ class MagicFormula(TyreSection, of=MagicTyre):
     def rolling_radius(self, loaded: float) -> float:
         """Way of a free wheel per radian, m, at rest with a loaded radius. `loaded`: in m."""
         t, c = self._left, self._left.coefficients
-        free = t.radius * c.get("Q_RE0", 1.0)
+        free = self.radius
         depth, inflated = free - loaded, 1.0 + c.get("PFZ1", 0.0) * t.pressure
         if not (c.get("DREFF") or c.get("FREFF")):
             return free - depth / 3.0
         load = inflated * (t.stiffness + t.progression * depth) * depth / t.nominal_load
         part = c.get("DREFF", 0.0) * atan(c.get("BREFF", 0.0) * load) + c.get("FREFF", 0.0) * load
-        return free - t.nominal_load / self.stiffness * part
+        return free - t.nominal_load / (inflated * sqrt(t.stiffness**2 + 4.0 * t.progression * t.nominal_load)) * part
