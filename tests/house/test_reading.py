@@ -10,22 +10,22 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 42438,
+    "build": 42657,
     "build --kernel": 283,
-    "car": 14985,
-    "run": 3598,
-    "run, all of it": 7772,
-    "view": 631,
-    "simulator": 8098,
-    "simulator, all of it": 14616,
-    "check": 3339,
-    "check --reference": 5419,
-    "catalogue": 7699,
-    "compare": 8903,
-    "study": 5440,
-    "study --run": 7584,
-    "study, all of it": 14039,
-    "road": 543,
+    "car": 15027,
+    "run": 3628,
+    "run, all of it": 7775,
+    "view": 639,
+    "simulator": 8110,
+    "simulator, all of it": 14618,
+    "check": 3360,
+    "check --reference": 5375,
+    "catalogue": 7722,
+    "compare": 8924,
+    "study": 5476,
+    "study --run": 7526,
+    "study, all of it": 14040,
+    "road": 552,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300
