@@ -22,10 +22,10 @@ from fmu_src.build.build import KINDS, FmuBuilder
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import able_platforms
 from hosts.fmu.fmu import unpack
+from tests.fmu.calls import OK
 
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
-OK, WARNING, DISCARD, ERROR = range(4)
 SOLVER = (
     *("solver.status", "solver.halvings", "solver.energy_error", "solver.energy_balance"),
     *("solver.capped_steps", "solver.capped_residual"),

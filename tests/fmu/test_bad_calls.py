@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from ctypes import byref, c_double, c_int
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
+from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
+
 LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,8 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-HostMaker = Callable[..., Any]
+from tests.fmu.calls import HostMaker
+
 H, SEED = 0.002, 5
 UNDERIVED = ("step_size", "fidelity", "initial.settling")
 

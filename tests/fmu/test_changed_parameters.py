@@ -8,9 +8,8 @@ from typing import Any
 
 import mbs
 from tests.changed_parameters import SAME, changes
+from tests.fmu.calls import ERROR, OK
 from tests.fmu.scenes import loaded_beam
-
-OK, ERROR = 0, 3
 
 
 def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path], kind: str) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import fmpy
 import pytest
@@ -14,10 +13,9 @@ from fmpy.validation import validate_fmu
 import mbs
 from fmu_src.build.build import build_fmu
 from tests.fmu import scenes
+from tests.fmu.calls import ERROR, OK, HostMaker
 from tests.fmu.host3 import Host3
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
 H = 0.01
 CONSTANTS = {"crane.reach": (1.25, "m"), "crane.ratio": (17.1, "1")}
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 from fmpy.fmi1 import FMICallException
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
+from tests.fmu.calls import ERROR, OK, HostMaker
 from tests.fmu.host3 import Host3
 
 SCENES = Path(__file__).parent / "scenes.py"
-OK, WARNING, DISCARD, ERROR = range(4)
 H = 0.01
 LENGTH, STIFFNESS = "spring.free_length", "spring.stiffness"
-HostMaker = Callable[..., Any]
 
 
 def expected(parameters: dict[str, float] | None = None) -> list[float]:

@@ -12,10 +12,9 @@ import pytest
 
 import mbs
 from mbs.scenes import prototype_car
+from tests.fmu.calls import ERROR, HostMaker
 
-HostMaker = Callable[..., Any]
 WHEELS = ("FL", "FR", "RL", "RR")
-ERROR = 3
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
 FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops
 WORDS = "made again with 1/"

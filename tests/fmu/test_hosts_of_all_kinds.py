@@ -8,7 +8,6 @@ import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import fmpy
@@ -17,10 +16,9 @@ import pytest
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from tests.fmu.calls import ERROR, OK, HostMaker
 from tests.fmu.host3 import Host3
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
 H = 0.01
 SECONDS = 30.0
 

@@ -6,13 +6,11 @@ import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
+from tests.fmu.calls import OK, HostMaker
 
 
 def test_two_interleaved_instances(crane: Path, host: HostMaker) -> None:

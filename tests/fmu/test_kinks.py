@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-HostMaker = Callable[..., Any]
-OK, ERROR = 0, 3
+from tests.fmu.calls import ERROR, OK, HostMaker
+
 SIZE = 80.0  # of the range of the push
 PART = 3e-4  # of a range, to each side
 STEP = 0.004  # s, of communication

@@ -12,10 +12,9 @@ import pytest
 import mbs
 from fmu_src.build.scene_registry import load_scene
 from mbs.settings.settings import Settings
+from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
 TORQUE, H = 4.0, 1e-3
 LIMIT = "solver.step_iterations"
 STEPS = 500

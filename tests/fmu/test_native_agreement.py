@@ -16,10 +16,9 @@ import mbs
 from fmu_src.build.scene_registry import load_scene
 from mbs.simulation.state import Pose
 from tests.fmu import scenes
+from tests.fmu.calls import ERROR, OK, HostMaker
 
-HostMaker = Callable[..., Any]
 STEP, SPEED = 0.01, 12.0
-OK, ERROR = 0, 3
 SAG_ROUNDED = 1e-4  # m, the message has three digits
 # Time, steering, throttle, brake: a launch, a lane change, a stop.
 MANOEUVRE = [(0.0, 0.0, 0.5, 0.0), (0.5, 0.3, 0.2, 0.0), (1.0, -0.3, 0.2, 0.0), (1.5, 0.0, 0.0, 0.6)]

@@ -11,7 +11,6 @@ import zipfile
 from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Any
 
 import fmpy
 import numpy as np
@@ -27,7 +26,8 @@ from tests.unoptimised import unoptimised
 sys.path.insert(0, str(Path(__file__).parent))
 import native
 
-HostMaker = Callable[..., Any]
+from tests.fmu.calls import HostMaker
+
 STEPS, STEP = 40, 0.01
 FUNCTIONS = 34
 

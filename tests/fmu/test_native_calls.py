@@ -15,8 +15,8 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule, run_state_machine_as_test
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
+from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
+
 INSTANTIATED, INITIALISING, STEPPING, TERMINATED = "instantiated", "initialising", "stepping", "terminated"
 RUNS, LENGTH = 150, 30
 STEPS = st.sampled_from([0.003, 0.01, 0.02, 0.0, -0.01, math.nan, math.inf])

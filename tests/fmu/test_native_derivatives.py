@@ -11,8 +11,8 @@ import fmpy
 import numpy as np
 import pytest
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
+from tests.fmu.calls import ERROR, OK, HostMaker
+
 STEP, INNER = 0.1, 0.01
 
 # Differences of steps that end at a tolerance of 1e-10 m, over a part of the input's range.

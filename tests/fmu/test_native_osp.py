@@ -5,13 +5,12 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
+from tests.fmu.calls import HostMaker
 from tests.fmu.libcosim import by_libcosim
 
-HostMaker = Callable[..., Any]
 STEPS, STEP = 50, 0.01
 
 

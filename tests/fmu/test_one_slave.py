@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 from fmpy.fmi1 import FMICallException
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
+from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
+
 H = 0.01
 LAST_SUCCESSFUL_TIME = 2
 OF_THE_BUILD = 40  # bytes of a state that hold its checksum and the identity of the build

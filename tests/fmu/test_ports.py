@@ -14,10 +14,10 @@ import pytest
 from fmu_src.description.fmi3 import terminals
 from fmu_src.variables.arrays import arrays, scalars
 from fmu_src.variables.variables import variable_table
+from tests.fmu.calls import ERROR, OK
 from tests.fmu.libcosim import by_libcosim
 from tests.fmu.native import compile_host, unpack
 
-OK, ERROR = 0, 3  # FMPy makes one of good answers and warnings
 PORTS = ("left.push", "right.push")
 
 

@@ -11,10 +11,9 @@ from typing import Any
 
 import pytest
 
+from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
 from tests.fmu.host3 import Host3
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
 DO_STEP_STATUS, TERMINATED = 0, 3
 # The mechanism is pulled beyond its reach within LONG, not within H.
 BEGIN, H, LONG, PULL = 0.05, 0.01, 0.2, 5.0

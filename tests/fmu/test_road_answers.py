@@ -12,10 +12,10 @@ import fmpy
 import numpy as np
 import pytest
 
+from tests.fmu.calls import DISCARD, OK
 from tests.fmu.native import compile_host, unpack
 from tests.fmu.test_native_derivatives import slope
 
-OK, WARNING, DISCARD = range(3)
 ANSWER = [f"road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")]
 LEVEL = dict(zip(ANSWER, (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0), strict=True))
 

@@ -21,9 +21,9 @@ from mbs.roads import RoadFile, RoadWarning, write_road
 from mbs.roads.shipped import FOLDER
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import Fidelity
+from tests.fmu.calls import ERROR, OK
 from tests.fmu.host3 import Host3
 
-OK, ERROR = 0, 3
 H = 0.002
 FRICTION = 1.2705
 

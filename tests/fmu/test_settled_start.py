@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -12,8 +10,8 @@ import mbs
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
+from tests.fmu.calls import HostMaker
 
-HostMaker = Callable[..., Any]
 H = 0.01
 START = {"initial.speed": 20.0, "initial.lateral_speed": 0.3, "initial.yaw_rate": 0.25}
 OUTPUTS = ("chassis.roll", "chassis.ay", "wheel_FL.Fz", "wheel_RR.Fy", "energy.kinetic", "chassis.x")

@@ -12,11 +12,10 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from mbs.kernel.binding import Status
+from tests.fmu.calls import OK, WARNING, HostMaker
 from tests.simulation.loops import suspension
 from tests.simulation.scenes_in_equilibrium import MASS, STIFFNESS, hanging
 
-HostMaker = Callable[..., Any]
-OK, WARNING = 0, 1
 G, STEP = 9.81, 0.01
 
 

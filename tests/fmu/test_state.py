@@ -5,12 +5,9 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-OK, WARNING, DISCARD, ERROR = range(4)
-HostMaker = Callable[..., Any]
+from tests.fmu.calls import ERROR, HostMaker
 
 OTHER_PROCESS = """
 import json, sys

@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-HostMaker = Callable[..., Any]
-OK, WARNING, DISCARD, ERROR = range(4)
+from tests.fmu.calls import DISCARD, OK, HostMaker
+
 # Steps before the refused one; as many inner steps of it; a pull that is in reach at first and then is not.
 BEFORE, H, PULL = 30, 0.01, 5.0
 STEP_SIZES = {"one inner step": 0.1, "several inner steps": 0.01}

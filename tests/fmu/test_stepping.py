@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
+from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
-OK, WARNING, DISCARD, ERROR = range(4)
-HostMaker = Callable[..., Any]
 
 # Two ways of dividing time differ by the error of the method, which shrinks as h^2.
 SUBSTEP_ERROR = 2e-3

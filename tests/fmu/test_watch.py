@@ -17,10 +17,9 @@ from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar, prototype_car
 from mbs.vehicle import load
+from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
-HostMaker = Callable[..., Any]
-OK, WARNING, ERROR = 0, 1, 3
 TORQUE = 4.0
 EXACT = 758.6  # rad after 2 s, by the reduction to one freedom
 NAMES = ("solver.energy_error", "solver.energy_balance", "crank.angle")

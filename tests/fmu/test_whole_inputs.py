@@ -6,7 +6,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import fmpy
 import numpy as np
@@ -16,12 +15,11 @@ from fmpy.validation import validate_fmu
 
 import mbs
 from hosts.run.command import main
+from tests.fmu.calls import ERROR, OK, HostMaker
 from tests.fmu.host3 import Host3
 from tests.fmu.scenes import gearstick
 from tests.in_process import run
 
-HostMaker = Callable[..., Any]
-OK, ERROR = 0, 3
 ROOT = Path(__file__).parents[2]
 H = 0.01
 JUMPS = (np.array([0.0, 0.3, 0.6, 1.0]), np.array([1.0, -1.0, 0.0, 0.0]))

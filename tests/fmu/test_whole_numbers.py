@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import fmpy
 import pytest
 
 from fmu_src.build.build import build_fmu
 from fmu_src.variables.variables import variable_table
+from tests.fmu.calls import ERROR, OK, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
-HostMaker = Callable[..., Any]
-OK, ERROR = 0, 3
 
 
 def test_types_and_values(crane: Path, host: HostMaker) -> None:

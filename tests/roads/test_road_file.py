@@ -32,11 +32,6 @@ def rough(nx=900, ny=130, seed=1, frictions=True):
     return GridRoad((-20.0, -6.5), (0.1, 0.1), heights, 0.6 + 0.4 * rng.random((nx, ny)) if frictions else 0.9)
 
 
-@pytest.fixture(scope="module")
-def car():
-    return mbs.compile(prototype_car.build())
-
-
 @pytest.fixture
 def road(tmp_path):
     path = tmp_path / "rough.road"

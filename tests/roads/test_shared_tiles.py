@@ -13,14 +13,8 @@ from mbs.elements import GridRoad
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
 from mbs.roads.road_header import HEADER
 from mbs.roads.shared_tiles import ENTRY, RECORD, TOLERANCE
-from mbs.scenes import prototype_car
 
 H = 0.002
-
-
-@pytest.fixture(scope="module")
-def car():
-    return mbs.compile(prototype_car.build())
 
 
 def rough(frictions):

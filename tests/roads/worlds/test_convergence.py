@@ -8,15 +8,9 @@ import pytest
 import mbs
 from mbs.elements import GridRoad
 from mbs.roads import write_road
-from mbs.scenes import prototype_car
 from mbs.worlds.make_world import read_world
 from mbs.worlds.obstacles import added
 from tests.roads.worlds.test_proving_ground import FILE
-
-
-@pytest.fixture(scope="module")
-def car():
-    return mbs.compile(prototype_car.build())
 
 
 def loads(car, obstacle, spacing, speed, folder):

@@ -10,7 +10,6 @@ import pytest
 
 import mbs
 from mbs.roads import RoadFile
-from mbs.scenes import prototype_car
 from mbs.worlds.make_world import read_world
 from mbs.worlds.patches import BOUND
 from mbs.worlds.terrain import Terrain
@@ -104,11 +103,6 @@ def test_the_record_is_a_part_of_a_scene(proving_ground):
     assert record["places"][0]["name"] == "start"
     hill = next(place for place in record["places"] if place["name"] == "hill")
     assert hill["yaw"] == pytest.approx(math.pi)
-
-
-@pytest.fixture(scope="module")
-def car():
-    return mbs.compile(prototype_car.build())
 
 
 CROSSED = [  # place, speeds, m/s, and how far ahead of it the car has then been, m

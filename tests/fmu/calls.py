@@ -1,0 +1,12 @@
+"""Words of tests that call an FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+OK, WARNING, DISCARD, ERROR = range(4)
+"""Statuses; FMPy itself makes one of the first two."""
+
+HostMaker = Callable[..., Any]
+"""Of the fixture `host`."""
