@@ -70,7 +70,8 @@ class Repeats:
     most : float
         What all repeats may cost, in first runs.
     path : sequence of tuple of int and Report
-        Numbers of samples of the first run on its way, and what it had counted there.
+        Numbers of samples of the first run on its way, and what it had counted there; none where no coarser run may end
+        before it.
 
     Attributes
     ----------
@@ -140,9 +141,9 @@ class Repeats:
             return None
         run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
         smooth = self._smooth_from / thin
-        if glance.iterations or METHOD_TABLE[self._method].order > 2:
-            smooth = math.inf
-        watch = None if coordinates else self._watch(run[0], most, glance.difference, smooth)
+        watch = None  # with one iteration a run is too short to be worth it
+        if not (coordinates or glance.iterations):
+            watch = self._watch(run[0], most, glance.difference, smooth)
         try:
             twin = self._again(h, steps, 1.0 / times, glance.iterations, watch)
         except (SimulationError, TooDearError):
