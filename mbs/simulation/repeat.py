@@ -271,9 +271,7 @@ class Repeats:
         ranges = accuracy.differences(run, run, self.groups, self.before, self._length)[2]
         column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
         judged = [(unit, column[n], run[n], size) for unit, size in ranges.items() for n in self.groups[unit]]
-        rows = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}
-
-        tenth = len(run.t) / WATCHED
+        rows, tenth = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}, len(run.t) / WATCHED
 
         def look(values: NDArray[np.float64]) -> bool:
             agreed, left = len(values) >= smooth, (len(run.t) - len(values)) / tenth
