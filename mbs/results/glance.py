@@ -6,11 +6,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mbs.results.accuracy import Accuracy, missed_share, summed_miss
+from mbs.results.accuracy import Accuracy, judged_sensors, missed_share, summed_miss
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
+from mbs.system.system import System
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,13 @@ def rest_missed(report: Report, method: str) -> float:
     """
     order = METHOD_TABLE[method].order
     return summed_miss(report) * 2.0 * (2.0 * missed_share(report, method)) ** (order - 1) / math.factorial(order + 1)
+
+
+def has_whole(system: System, settings: Settings) -> bool:
+    """Whether the coarser runs of a method of order two have all iterations."""
+    limited = settings.method in LIMITED and not settings.step_iterations
+    whole = not limited or len(system.arrays["y0"]) > 0 or "N" in judged_sensors(system)
+    return METHOD_TABLE[settings.method].order <= 2 and whole
 
 
 def glances(

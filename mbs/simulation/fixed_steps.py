@@ -14,6 +14,7 @@ from mbs.common.progress import progress_for
 from mbs.kernel.header.steps import BranchKind
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
+from mbs.results.glance import has_whole
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -67,8 +68,12 @@ def judged_run(
     twin: bool = False,
 ) -> Trajectory:
     """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
-    made: list[SteppedSystem] = []
+    made, path = list[SteppedSystem](), list[tuple[int, Report]]()
     found: Accuracy | None = None
+
+    def note(values: NDArray[np.float64]) -> bool:
+        path.append((len(values), made[0].report))
+        return False
 
     def march_from_start(
         step: float,
@@ -82,6 +87,8 @@ def judged_run(
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
+        if len(made) == 1 and checked and before is None and has_whole(system, simulation.settings):
+            watch = note
         return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 
     checked = estimate_error is not False
@@ -92,15 +99,7 @@ def judged_run(
     try:
         with progress_for(progress) as bar:
             first = 1.0 / 3.0 if estimate_error is True else 1.0
-            path = list[tuple[int, Report]]()
-
-            def note(values: NDArray[np.float64]) -> bool:
-                path.append((len(values), made[0].report))
-                return False
-
-            run = march_from_start(
-                h, often, lambda share: bar.update(first * share), look, watch=note if checked else None
-            )
+            run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
             repeats = repeat.Repeats(
                 system, run, march_from_start, h, often, bar.update, before, twin, inputs, most, path

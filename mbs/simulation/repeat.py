@@ -71,7 +71,8 @@ class Repeats:
     most : float
         What all repeats may cost, in first runs.
     path : sequence of tuple of int and Report
-        Numbers of samples of the first run on its way, and what it had counted there.
+        Numbers of samples of the first run on its way, and what it had counted there; none where no coarser run may end
+        before it.
 
     Attributes
     ----------
@@ -141,9 +142,9 @@ class Repeats:
             return None
         run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
         smooth = self._smooth_from / thin
-        if glance.iterations or METHOD_TABLE[self._method].order > 2:
-            smooth = math.inf
-        watch = None if coordinates else self._watch(run[0], most, glance.difference, smooth)
+        watch = None  # with one iteration a run is too short to be worth it
+        if not (coordinates or glance.iterations):
+            watch = self._watch(run[0], most, glance.difference, smooth)
         try:
             twin = self._again(h, steps, 1.0 / times, glance.iterations, watch)
         except (SimulationError, TooDearError):
@@ -283,9 +284,7 @@ class Repeats:
         ranges = accuracy.differences(run, run, self.groups, self.before, self._length)[2]
         column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
         judged = [(unit, column[n], run[n], size) for unit, size in ranges.items() for n in self.groups[unit]]
-        rows = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}
-
-        tenth = len(run.t) / WATCHED
+        rows, tenth = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}, len(run.t) / WATCHED
 
         def look(values: NDArray[np.float64]) -> bool:
             agreed, left = len(values) >= smooth, (len(run.t) - len(values)) / tenth

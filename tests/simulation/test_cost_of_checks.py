@@ -149,7 +149,7 @@ def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
     def judged(most: float | None) -> mbs.Trajectory:
         return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
 
-    for most, spent, said in ((1.0, 0.12, "none has shorter steps"), (10.0, 6.12, "tells 3.9 % of the largest range")):
+    for most, spent, said in ((1.0, 0.4, "none has shorter steps"), (10.0, 6.4, "tells 3.9 % of the largest range")):
         with pytest.warns(mbs.AccuracyWarning, match=f"not judged: .* more than {most:g} runs, .*{said}") as told:
             run = judged(most)
         assert run.accuracy is not None
