@@ -121,7 +121,7 @@ class Rough(_Road):
     width: Length
     spacing: Annotated[float, Field(ge=0.01, le=1.0)] = 0.1
     roughness: Literal[tuple(ISO_8608)]  # type: ignore[valid-type]
-    seed: int = 1
+    seed: Annotated[int, Field(ge=0)] = 1
     friction: Friction = 0.9
 
     def road(self, folder: Path) -> GridRoad:

@@ -9,6 +9,7 @@ import random
 import shutil
 import signal
 import socket
+import tomllib
 import warnings
 import zipfile
 from collections.abc import Callable, Iterator
@@ -17,7 +18,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import tomli_w
 
+import mbs.roads
 import mbs.vehicle
 from ali3.alias_file import read_content
 from ali3.commands import COMMANDS
@@ -347,6 +350,74 @@ def test_an_altered_file_is_read_or_refused_in_one_sentence(kind: str, tmp_path:
         faults += [f"{seed}: {fault}"] if fault not in ("", "it is read") else []
     assert not faults, "\n".join(faults)
     assert 5 < refused < 40
+
+
+WHOLE = {  # every key that its kind has, or an example
+    "alias file of a log": """
+[file]
+delimiter = ";"
+decimal = ","
+encoding = "utf-8"
+heading = 1
+units = 2
+[time]
+name = "t"
+unit = "s"
+factor = 1.0
+offset = 0.0
+[signals]
+a = { name = "c", unit = "m", factor = 2.0, offset = 1.0, time = "t2" }
+""",
+    "road in words": (Path(mbs.roads.__file__).parent / "files" / "rough.toml").read_text(),
+    "manoeuvre": """
+stop_time = 1.0
+held = ["brake"]
+[inputs]
+time = [0.0, 1.0]
+brake = [0.0, 1.0]
+[start]
+mass = 1.0
+[driver]
+course = "iso"
+""",
+    "device": """
+format = "ALi3 device"
+version = 1
+serial = "1"
+[settings]
+gain = 1.0
+[inputs.steering]
+source = "axis 0"
+low = -1.0
+high = 1.0
+inverted = false
+dead_zone = 0.0
+centre = 0.0
+""",
+}
+OTHERS: tuple[Any, ...] = ([], ["s"], {}, {"a": 1}, True, -1, 1e300, "", "s")
+
+
+def _with_others(value: Any) -> Iterator[Any]:
+    """What a value may be replaced by: a value of another kind, or itself with one value inside replaced."""
+    yield from OTHERS
+    for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ():
+        for other in _with_others(value[key]):
+            made = value.copy()
+            made[key] = other
+            yield made
+
+
+@pytest.mark.parametrize("kind", WHOLE)
+def test_each_value_may_be_of_another_kind(kind: str, tmp_path: Path) -> None:
+    read, file, faults = KINDS[kind][3], tmp_path / "d.toml", []
+    documents = [made for made in _with_others(tomllib.loads(WHOLE[kind])) if isinstance(made, dict)]
+    for made in documents:
+        file.write_text(tomli_w.dumps(made))
+        fault = _fault(read, file, may_be_read=True)
+        faults += [f"{fault}: {made}"] if fault else []
+    assert len(documents) > 60
+    assert not faults, f"{len(faults)} of {len(documents)}:\n" + "\n".join(faults[:10])
 
 
 @pytest.mark.parametrize("kind", ["car", "study", "manoeuvre", "settings of a manoeuvre", "log", "record of a result"])

@@ -206,6 +206,7 @@ def test_descriptions(tmp_path):
         ('kind = "kerb"\nstep = 0.1', "position is missing; it must be a number from -1000000 to 1000000."),
         ('kind = "grid"\nheights = "nothing.csv"', "nothing.csv cannot be read: there is no such file"),
         ('kind = "rough"\nstart=0\nlength=10\nwidth=2\nroughness="Z"', "roughness is 'Z'; it must be 'A' or 'B'"),
+        ('kind = "rough"\nstart=0\nlength=10\nwidth=2\nroughness="A"\nseed=-1', "seed is -1"),
     ],
 )
 def test_a_bad_description_is_refused(tmp_path, text, sentence):
