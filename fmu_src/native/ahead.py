@@ -5,8 +5,7 @@ compilation for each platform in the background, several at a time. The compiler
 source, its headers and the options; the build of the FMU, which comes later with the table, finds them there, or waits
 for the one that is being made. Nothing that is made here goes into an FMU.
 
-A build that has ended well leaves a file beside that cache, and of the same sources in the same place nothing is begun
-again.
+A build that has ended well leaves a file beside that cache, and of the same sources nothing is begun again.
 """
 
 from __future__ import annotations
@@ -27,9 +26,9 @@ from fmu_src.variables.arrays import scalars
 from fmu_src.variables.variables import Variable
 from mbs.kernel import build
 
+_NOWHERE = Path("table.c"), Path("library")
 # A table of one variable, which stands for that of the model.
 _VARIABLE = Variable("nothing", "local", "constant", "1", "", "constant", 0, 0.0)
-_ANY = (Path("table.c"), Path("library"))
 
 
 @contextmanager
@@ -43,11 +42,11 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
         table = Path(folder, "table.c")
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
-        marks = {
-            build.cache_directory() / "ahead" / build.digest_of(library_command(*library, *_ANY)): library
-            for library in [(face, target) for face, platform in work for target in TARGETS[platform]]
-        }
-        missing = {mark: library for mark, library in marks.items() if not mark.is_file()}
+        missing = {}
+        for library in ((face, target) for face, platform in work for target in TARGETS[platform]):
+            mark = build.cache_directory() / "ahead" / build.digest_of(library_command(*library, *_NOWHERE))
+            if not mark.is_file():
+                missing[mark] = library
         commands = [library_command(*library, table, Path(folder, "-".join(library))) for library in missing.values()]
         if commands:  # two compilers at the ends of the list that is wanted first share its objects
             commands.insert(1, _backwards(commands[0]))

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.files import whole_file
-from ali3.folders import whole_folder
 from fmu_src.native.archive import identity_of
 from fmu_src.native.sources import DETOUR, HERE, shell_files
 from fmu_src.native.universal import universal
@@ -72,23 +71,18 @@ def exports(files: Sequence[Path]) -> list[str]:
 
 
 def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
-    """C files and folders of headers: copies, but the table. All headers name their folder, each file itself."""
+    """C files and folders of headers: copies, but the table. All headers name their folder, each C file itself."""
     headers = {_inside(file): file.read_bytes() for root in _ROOMS for file in root.rglob("*.h")}
     place = build.cache_directory() / "sources" / identity_of(headers, None)[0]
-    if not place.is_dir():
-        with whole_folder(place) as made:
-            for name, data in headers.items():
-                (made / name).parent.mkdir(parents=True, exist_ok=True)
-                (made / name).write_bytes(data)
-    copies = []
+    copies = {place / name: data for name, data in headers.items()}
     for file in [*build.sources(lanes=False), *shell_files(face)]:
         data = file.read_bytes()
-        copy = (place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}")
+        copies[(place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}")] = data
+    for copy, data in copies.items():
         if not copy.is_file():
             with whole_file(copy) as written:
                 written.write_bytes(data)
-        copies.append(copy)
-    return [*copies, table], [place / name for name in _INCLUDE]
+    return [*(copy for copy in copies if copy.suffix == ".c"), table], [place / name for name in _INCLUDE]
 
 
 def _inside(file: Path) -> str:
