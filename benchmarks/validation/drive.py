@@ -72,20 +72,20 @@ def read_drive(file: Path, aliases: Path) -> Drive:
     `file`: CSV, perhaps packed (.gz); `aliases`: its alias file, with the angles of both front wheels, the speeds and
     the yaw rate. Raises `HostError`: a column is missing, or its samples are not equally spaced.
     """
-    form = read_log_aliases(aliases)
-    raw = read_log(file, form.form)
+    written = read_log_aliases(aliases)
+    raw = read_log(file, written.dialect)
 
     def column(name: str, unit: str) -> Array:
-        if name not in form.columns:
+        if name not in written.columns:
             raise HostError(f"{aliases} has no '{name}', which this needs.")
-        c = form.columns[name]
+        c = written.columns[name]
         factor = unit_definition(c.unit or unit, c.name).factor
         values = (raw.numbers(c.name) - c.offset) / c.factor * factor
         wrong = spikes(time, values)
         values[wrong] = np.interp(time[wrong], time[~wrong], values[~wrong])
         return np.asarray(values)
 
-    time = raw.numbers(form.clock.name or "time")
+    time = raw.numbers(written.clock.name or "time")
     if np.ptp(np.diff(time)) > 2.0 * _UNEVEN * float(np.median(np.diff(time))) + 1e-9:
         raise HostError(f"The samples of {file} are not equally spaced.")
     steer = 0.5 * (column("wheel_FL.steer", "rad") + column("wheel_FR.steer", "rad"))
@@ -95,5 +95,5 @@ def read_drive(file: Path, aliases: Path) -> Drive:
         column("chassis.vx", "m/s"),
         column("chassis.vy", "m/s"),
         column("chassis.wz", "rad/s"),
-        column("chassis.ay", "m/s2") if "chassis.ay" in form.columns else np.zeros(0),
+        column("chassis.ay", "m/s2") if "chassis.ay" in written.columns else np.zeros(0),
     )

@@ -168,6 +168,6 @@ def test_a_log_gets_the_bank_of_the_road_as_a_force(tmp_path: Path, name: str) -
     file, names = write_banked(tmp_path, log, aliases, np.array([0.5, -0.25]), 1000.0)
     form = read_log_aliases(names)
     assert form.columns[PORT].unit == "N"
-    read = read_log(file, form.form)
+    read = read_log(file, form.dialect)
     assert read.numbers(form.columns[PORT].name).tolist() == [500.0, -250.0]
     assert read.numbers("vx").tolist() == [20.0, 21.0]
