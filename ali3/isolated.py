@@ -22,7 +22,8 @@ from typing import IO, Any, Generic, TypeAlias, TypeVar
 
 from ali3.children import how_ended, ignore_stopping
 from ali3.errors import UserError
-from ali3.running import module_command, sentence
+from ali3.processes import module_command
+from ali3.running import sentence
 
 _START = 20.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms

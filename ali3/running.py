@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 from ali3.errors import UserError, reason
 from ali3.signals import Stopped, stopped_by_signals
@@ -14,8 +13,6 @@ from ali3.words import shortened
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED, NO_READER = 0, 1, 2, 130, 141
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others
 that end programs); what reads the output has gone (128 + SIGPIPE)."""
-
-_prefix: str | None = None
 
 
 def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
@@ -62,43 +59,6 @@ def _lacks_memory(error: Exception) -> bool:
     if isinstance(error, RuntimeError):
         return str(error) == "can't start new thread"
     return isinstance(error, MemoryError) or (isinstance(error, (ImportError, OSError)) and "map segment" in str(error))
-
-
-def memory_words() -> str:
-    """What to add where something failed without a reason and memory is limited (``ulimit -v``); else empty."""
-    try:
-        import resource
-    except ImportError:  # on Windows
-        return ""
-    most = resource.getrlimit(resource.RLIMIT_AS)[0]
-    if most == resource.RLIM_INFINITY:
-        return ""
-    return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
-
-
-def command_name(name: str) -> str:
-    """How the user of this program types another command, such as ``ali3 build``."""
-    if _prefix is not None:
-        return f"{_prefix} {name}"
-    in_clone = Path(__file__).resolve().parents[1].joinpath("build_fmu.py").is_file()
-    return "python build_fmu.py" if in_clone and name == "build" else f"python -m ali3 {name}"
-
-
-def typed_as(prefix: str) -> None:
-    """Take over how the user typed the command: ``ali3`` or ``python -m ali3``."""
-    global _prefix
-    _prefix = prefix
-
-
-def module_command(module: str, *arguments: str) -> list[str]:
-    """Command line of a module in a new Python with the search path of this one.
-
-    ``python -m`` would look into the current folder first, where files of the user may have any name.
-    """
-    start = (
-        f"import sys; sys.path[:] = {sys.path!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
-    )
-    return [sys.executable, "-c", start, *arguments]
 
 
 def _end(line: str, status: int) -> int:

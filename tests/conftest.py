@@ -125,7 +125,7 @@ def renamed_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Cal
 @pytest.fixture(autouse=True)
 def _typed_as_modules(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sentences name commands as the test calls them, whatever a test before has typed."""
-    monkeypatch.setattr("ali3.running._prefix", None)
+    monkeypatch.setattr("ali3.processes._prefix", None)
     monkeypatch.setattr("ali3.extras._extra", None)
 
 

@@ -175,7 +175,7 @@ def start_again(case: str, fmu: Path, runs: int, stop_time: float, folder: Path)
     """The command on a folder in which all rows are: what it takes to find that nothing is missing."""
     import subprocess
 
-    from ali3.running import module_command
+    from ali3.processes import module_command
 
     file = folder / f"{case}.toml"
     line = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.running import memory_words
+from ali3.processes import memory_words
 from hosts.common.numbers import Value
 
 if TYPE_CHECKING:

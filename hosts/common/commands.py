@@ -6,7 +6,7 @@ import subprocess
 from collections.abc import Callable
 
 from ali3.children import how_ended
-from ali3.running import module_command
+from ali3.processes import module_command
 from hosts.common.errors import HostError
 
 _ERROR = "error: "

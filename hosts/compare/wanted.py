@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from ali3.decimal_number import parse_number
 from ali3.near_names import did_you_mean
-from ali3.running import command_name
+from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.compare.unknown import Unknown

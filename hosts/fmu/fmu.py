@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from ali3.errors import reason
 from ali3.near_names import did_you_mean
+from ali3.processes import command_name, memory_words
 from ali3.reading import no_file
-from ali3.running import command_name, memory_words
 from ali3.words import brief, shortened
 from ali3.xml_memory import is_lack_of_memory
 from hosts.common.closing import Closing

@@ -10,7 +10,7 @@ from shlex import quote
 from typing import Any
 
 from ali3.json_reading import LARGEST_JSON, read_json
-from ali3.running import command_name
+from ali3.processes import command_name
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value

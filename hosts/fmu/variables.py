@@ -11,7 +11,7 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.decimal_number import parse_number
 from ali3.near_names import MOST, did_you_mean
-from ali3.running import command_name
+from ali3.processes import command_name
 from ali3.unit_definition import BASE_UNITS, KINDS, UnitDefinition
 from ali3.words import brief, range_words
 from hosts.common.errors import HostError

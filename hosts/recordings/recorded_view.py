@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.running import command_name
+from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.scene_file import scene_from

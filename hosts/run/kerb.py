@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.running import command_name
+from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 

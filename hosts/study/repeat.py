@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.running import command_name
+from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.set_words import set_words

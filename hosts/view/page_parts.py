@@ -15,7 +15,7 @@ from typing import Any
 
 from fmpy.model_description import ModelDescription
 
-from ali3.running import command_name
+from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD

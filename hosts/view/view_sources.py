@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ali3.json_reading import read_json
+from ali3.processes import command_name
 from ali3.reading import no_file
-from ali3.running import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.fmu.geometry import RESOURCE, scene_of

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 import ali3
-from ali3 import running
+from ali3 import processes
 from ali3.command import main
 from ali3.commands import COMMANDS, Command
 from ali3.decimal_number import number
@@ -263,7 +263,7 @@ def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
 def test_messages_name_the_command_that_was_typed(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(running, "_prefix", None)
+    monkeypatch.setattr(processes, "_prefix", None)
     monkeypatch.chdir(tmp_path)
     assert main(["run", "dist/X.fmu"]) == 2
     assert "Build it with: ali3 build" in capsys.readouterr().err

@@ -10,22 +10,22 @@ from tests.house.reading import WAYS, lines_of, read_for
 from tests.house.test_circles import PACKAGES
 
 MOST = {
-    "build": 42595,
+    "build": 42555,
     "build --kernel": 283,
-    "car": 15027,
-    "run": 3628,
-    "run, all of it": 7775,
-    "view": 639,
-    "simulator": 8110,
-    "simulator, all of it": 14618,
-    "check": 3360,
-    "check --reference": 5375,
-    "catalogue": 7722,
-    "compare": 8924,
-    "study": 5476,
-    "study --run": 7526,
-    "study, all of it": 14040,
-    "road": 552,
+    "car": 14987,
+    "run": 3633,
+    "run, all of it": 7780,
+    "view": 599,
+    "simulator": 8115,
+    "simulator, all of it": 14623,
+    "check": 3366,
+    "check --reference": 5145,
+    "catalogue": 7728,
+    "compare": 8930,
+    "study": 5482,
+    "study --run": 7296,
+    "study, all of it": 14046,
+    "road": 512,
 }
 """Lines; a command that needs fewer takes its number down with it."""
 _SLACK = 300

@@ -20,7 +20,7 @@ from fmpy.validation import validate_fmu
 from wasm_hosts import Fmu, Plan, assert_same, native, wasmtime
 
 import build_fmu
-from ali3.running import module_command
+from ali3.processes import module_command
 from benchmarks.shared.fmu_module import FmuModule
 from fmu_src.build.build import build_fmu as build
 from fmu_src.build.scene_registry import load_scene

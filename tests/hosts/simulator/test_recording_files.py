@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ali3.running import module_command
+from ali3.processes import module_command
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording

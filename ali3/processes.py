@@ -1,0 +1,45 @@
+"""Processes: how others are named and begun, and what memory this one may take."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+_prefix: str | None = None
+
+
+def memory_words() -> str:
+    """What to add where something failed without a reason and memory is limited (``ulimit -v``); else empty."""
+    try:
+        import resource
+    except ImportError:  # on Windows
+        return ""
+    most = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if most == resource.RLIM_INFINITY:
+        return ""
+    return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
+
+
+def command_name(name: str) -> str:
+    """How the user of this program types another command, such as ``ali3 build``."""
+    if _prefix is not None:
+        return f"{_prefix} {name}"
+    in_clone = Path(__file__).resolve().parents[1].joinpath("build_fmu.py").is_file()
+    return "python build_fmu.py" if in_clone and name == "build" else f"python -m ali3 {name}"
+
+
+def typed_as(prefix: str) -> None:
+    """Take over how the user typed the command: ``ali3`` or ``python -m ali3``."""
+    global _prefix
+    _prefix = prefix
+
+
+def module_command(module: str, *arguments: str) -> list[str]:
+    """Command line of a module in a new Python with the search path of this one.
+
+    ``python -m`` would look into the current folder first, where files of the user may have any name.
+    """
+    start = (
+        f"import sys; sys.path[:] = {sys.path!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
+    )
+    return [sys.executable, "-c", start, *arguments]
