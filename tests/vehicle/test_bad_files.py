@@ -217,6 +217,7 @@ GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
     "a shift longer than its dwell": ({"drive.dwell": 0.1}, "drive.dwell is 0.1 s; it must not be less than ramp"),
     "shifts to and fro": ({"drive.down_open": 530.0}, "drive.up_open is 540 rad/s; it must be more than"),
     "an idle speed above stall": ({"drive.idle_speed": 300.0}, "drive.idle_speed is 300 rad/s, stall_speed 230 and"),
+    "no points of the body": ({"chassis.ground_contact.points": []}, "chassis.ground_contact.points is []"),
     "no gears": ({"drive.ratios": []}, "it must be a list of numbers, between 0.3 and 60, not empty"),
     "no such template": ({"front.suspension.kind": "five_link"}, "it must be one of 'double_wishbone'"),
     "springs far too long": ({"front.spring.free_length": 1.9}, "at rest the spring has 0.7"),

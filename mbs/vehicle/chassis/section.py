@@ -33,7 +33,7 @@ class GroundContact(Section, of=ContactPoints):
     the stops of the springs.
     """
 
-    points: tuple[ContactPoint, ...]
+    points: Annotated[tuple[ContactPoint, ...], Field(min_length=1)]
     """Points of the left half, each with its image on the right: coordinates, or the name of a joint of the frame."""
     radius: Thickness
     depth: SmallLength
