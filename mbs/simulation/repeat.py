@@ -91,8 +91,8 @@ class Repeats:
     unresolved : float
         The missed share above which steps do not resolve what changes the velocities.
     has_order : bool
-        Whether half the step decides where it resolves the motion: the order is above two, and nothing abrupt can
-        happen.
+        Whether half the step decides where its share has fallen as the step: the order is above two, and nothing
+        abrupt can happen.
     """
 
     system: System
