@@ -193,6 +193,9 @@ def test_nobody_looks_through_the_car_between_tyre_and_arch(name: str) -> None:
                     assert meets(start * side, end * side, places[triangles]), (angle, ahead, down, side)
         beside = places[(np.abs(places[:, 0] - x) < axle.tyre.radius) & (places[:, 2] < z)]
         assert (np.abs(beside[:, 1]) < y - 0.99 * axle.tyre.radius).all()  # the tyre is free at any steering angle
+    middle, size = shell.dashboard(steering_wheel_place(shell.car)[0] + DASHBOARD[0])
+    over = shell.lower_edge(np.linspace(middle[0] - 0.5 * size[0], middle[0] + 0.5 * size[0], 9))
+    assert middle[2] - 0.5 * size[2] > over.max() - 1e-9, "no dashboard in a wheel's house"
 
 
 @pytest.mark.parametrize("name", ["prototype", "hatchback", "saloon", "ferrari_250_lm"])

@@ -82,7 +82,7 @@ VAN = Outline(
 )
 ARCH = 0.055  # m between tyre and arch
 GAP = 0.02  # m between an arch and what the cabin opens
-DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness
+DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness at most
 RIM = 6  # cross-sections of the lower body: its points from here on are over the cabin
 FRONT_OVERHANG = 0.53  # share of both overhangs
 SLIM = 0.36  # height over length, and at most
@@ -178,10 +178,7 @@ class BodyShell:
         return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(self.windscreen)) - GAP
 
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Wheel houses, sides, bonnet and tail; open over the cabin, so that its driver sees the steering wheel.
-
-        The houses reach as far inwards as steered tyres: without them one looks through the car.
-        """
+        """Wheel houses as deep as steered tyres reach, sides, bonnet, tail; open over the cabin for the driver."""
         x, inner = self.stations(), min(a.wheel.centre[1] - a.tyre.radius for a in (self.car.front, self.car.rear))
         (deck, half), low, sill = self.deck(x), self.lower_edge(x), self.sill(x)
         top = np.maximum(deck, low + 0.02)  # over a wheel that is higher than the bonnet
@@ -212,11 +209,12 @@ class BodyShell:
         return places, triangles[~over.all(axis=1)]
 
     def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Middle and size of a box from a place ahead of the steering wheel to the windscreen, m."""
-        front = float(self.place(self.windscreen))
-        top, half = (float(value.min()) for value in self.deck(np.array([ahead, front])))
-        middle = 0.5 * (ahead + front), 0.0, top + 0.012 - 0.5 * DASHBOARD[1]
-        return middle, (front - ahead, 1.84 * half, DASHBOARD[1])
+        """Middle and size of a box from ahead of the steering wheel to the windscreen, above the wheel houses, m."""
+        x = np.linspace(ahead, float(self.place(self.windscreen)), 9)
+        top, half = (float(value.min()) for value in self.deck(x))
+        low = min(max(top + 0.012 - DASHBOARD[1], float(self.lower_edge(x).max())), top - 0.03)
+        middle = 0.5 * (ahead + x[-1]), 0.0, 0.5 * (low + top + 0.012)
+        return middle, (x[-1] - ahead, 1.84 * half, top + 0.012 - low)
 
     def edge(self, share: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lower and upper edge of the side windows, left: arrays of shape (n, 3), m."""
