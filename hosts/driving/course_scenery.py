@@ -89,17 +89,19 @@ def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
             (ox, oy, oz), (dx, dy, _) = road.get("origin", (0.0, 0.0, 0.0)), road.get("direction", (1.0, 0.0, 0.0))
             along = ((x - ox) * dx + (y - oy) * dy) / math.hypot(dx, dy)
             found = oz + np.interp(along, road["stations"], road["heights"])
-        elif road["kind"] in ("grid", "terrain") and road.get("axes") is None:
+        elif road["kind"] == "grid" and road.get("axes") is None:
+            found = _heights_of_grid(road, x, y, LOOKS["border"])
+        elif road["kind"] == "terrain":
             found = np.full(len(x), math.nan)
-            for grid in road.get("patches", [road]):
-                found = np.where(np.isnan(found), _heights_of_grid(grid, x, y), found)
+            for patch in road["patches"]:
+                found = np.where(np.isnan(found), _heights_of_grid(patch, x, y, 0.0), found)
         else:
             return np.full(len(x), math.nan)
     return found
 
 
-def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array) -> Array:
-    """Linear between four points of the grid, m; beyond its border that of it as far as this is drawn, then NaN."""
+def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array, border: float) -> Array:
+    """Linear between four points of the grid, m; beyond it that of its edge, from `border`, m, on NaN."""
     nx, ny = road["shape"]
     i, j = ((value - start) / step for value, start, step in zip((x, y), road["origin"], road["spacing"], strict=True))
     here = np.clip(i, 0, nx - 1), np.clip(j, 0, ny - 1)
@@ -109,4 +111,4 @@ def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array) -> Array:
     a, b = np.minimum(i.astype(int), nx - 2), np.minimum(j.astype(int), ny - 2)
     u, v = i - a, j - b
     near, far = (heights[k, b] * (1.0 - v) + heights[k, b + 1] * v for k in (a, a + 1))
-    return np.where(beyond <= LOOKS["border"], near * (1.0 - u) + far * u, math.nan)
+    return np.where(beyond <= border, near * (1.0 - u) + far * u, math.nan)

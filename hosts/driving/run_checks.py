@@ -73,7 +73,7 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
             raise HostError(
                 f"{what}, which is no input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
                 f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}. "
-                "Where an input has another name, an alias file says which (ali3 run --aliases)."
+                "Where an input has another name, an alias file says which (--aliases)."
             )
         if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
             odd = float(values[values != np.round(values)][0])

@@ -32,7 +32,9 @@ AGREED = 0.005  # estimate by two runs with an order that hardly agree so well b
 AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
-MOST_COST = 32.0  # of repeats, in runs, unless `estimate_error` is another number
+MOST_COST = (
+    48.0  # of repeats, in runs, unless `estimate_error` is another number: 3 + 6 + 12 + 24 where steps were halved
+)
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
@@ -91,7 +93,7 @@ class Accuracy:
             said.append(f"estimated error {', '.join(parts)}")
         if self.repeat_cost > 0.0:
             said.append(
-                f"repeats of {self.repeat_cost:.2g} times its steps (at most {MOST_COST:g}, or estimate_error=N; "
+                f"repeats of {self.repeat_cost:.2g} times its steps (at most {MOST_COST:g} unless estimate_error=N; "
                 "none with estimate_error=False)"
             )
         return "; ".join(said)
@@ -329,8 +331,8 @@ def open_text(accuracy: Accuracy, step: float, most: float, needed: float) -> st
         said = f"the last one, with {accuracy.repeated_with:g} s, tells {_percent(accuracy.error)} of the largest range"
     return (
         f"Whether the result is off is not judged: a repeat with steps of {step:g} s would cost more than {most:g} "
-        f"runs, which is what all may cost ({said}). Allow estimate_error={math.ceil(needed)}, or give simulate(..., "
-        "tolerance=1e-3) in place of a step."
+        f"runs, which is what all may cost ({said}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give "
+        "it tolerance=1e-3 in place of a step."
     )
 
 

@@ -22,7 +22,6 @@ MOST_READ = 4_000_000
 MOST = 400
 """Points along a side of a grid; of a larger one every so many are left, as its note says."""
 BESIDE = 10.0  # m, to which a level strip of frictions is drawn at least: the values of its border go on
-DRY = 0.9  # friction of dry asphalt
 EDGE = 1e-3  # m, along which the step of a kerb is drawn
 
 
@@ -38,9 +37,9 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
     return _grid(road)
 
 
-def _grip(friction: float, factor: float) -> dict[str, Any]:
-    """What is said of the friction of a road that has the same everywhere: what is dry needs no word."""
-    said = {"friction": friction} if friction < DRY else {}
+def _grip(friction: float | None, factor: float) -> dict[str, Any]:
+    """What is said of the friction of a road. `friction`: if it is the same everywhere."""
+    said = {} if friction is None else {"friction": friction}
     return said if factor == 1.0 else said | {"friction_factor": factor}
 
 
@@ -114,7 +113,7 @@ def _grid(road: GridRoad) -> dict[str, Any]:
         "heights": encoded(thin),
     }
     same = frictions.min() == frictions.max()
-    found |= _grip(float(frictions[0, 0]) if same else DRY, road.friction_factor)
+    found |= _grip(float(frictions[0, 0]) if same else None, road.friction_factor)
     if not same:
         found["frictions"] = encoded(frictions[part])
     if max(every) > 1:

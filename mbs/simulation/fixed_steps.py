@@ -87,7 +87,7 @@ def judged_run(
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
-        if len(made) == 1 and checked and before is None and has_whole(system, simulation.settings):
+        if len(made) == 1 and checked and not look and before is None and has_whole(system, simulation.settings):
             watch = note
         return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 

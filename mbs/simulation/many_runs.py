@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mbs.common.checks import instance_of, whole
+from mbs.common.checks import instance_of, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
 from mbs.kernel.binding.many import Many, widest_lanes
@@ -243,7 +243,8 @@ def simulate_many(
     check_progress(progress)
     if check_estimate(estimate_error):
         raise ValueError(
-            "estimate_error = True; many runs are checked where they need it (None) or not at all (False)."
+            f"estimate_error = {shown(estimate_error)}; many runs are checked where they need it (None) or not at all "
+            "(False)."
         )
     settings = check_settings(settings)
     if settings.method != METHOD:

@@ -189,9 +189,13 @@ class Repeats:
 
     @property
     def first(self) -> int:
-        """By what the step is divided first: no run is made that surely is `coarse`, down to an eighth of the step."""
+        """By what the step is divided first: no run is made that surely is `coarse`, down to an eighth of the step, as
+        far as it costs no more than is left.
+        """
+        left = self.most - self.cost
         most = 1 if self.twin else 2 if self.has_order else 4
         share = self._missed(self.run) / (SURELY * self.unresolved)
+        most = max(times for times in (1, 2, 4) if times == 1 or (times <= most and times * self.parts <= left))
         return self.parts * next((times for times in (1, 2) if times >= most or share <= times), most)
 
     def decided(self, known: Accuracy) -> Accuracy:
@@ -251,6 +255,9 @@ class Repeats:
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
+        except SimulationError:  # seen after a time of the clock
+            share = 1.0
+            raise
         finally:
             if watch is not None:
                 self.cost -= cost * (1.0 - share)

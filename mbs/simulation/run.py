@@ -87,7 +87,7 @@ def simulate(
     estimate_error : bool or float, optional
         Whether to repeat the run with half the step, near the limit with less, which gives `Trajectory.accuracy` the
         error of the sensors. None repeats suspect runs, by energy balance, halvings, predictors or peaks of tables
-        between steps, which costs at most 32 times the run; a number is another multiple. False checks nothing.
+        between steps, which costs at most 48 times the run; a number is another multiple. False checks nothing.
         Functions among `inputs` are called again, so they must depend on time.
     tolerance : float, optional
         Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or

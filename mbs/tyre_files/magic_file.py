@@ -192,13 +192,16 @@ def read_tyre(file: str | Path) -> TyreFile:
     nominal = numbers.get("NOMPRES", 0.0)
     pressure, least, most = numbers.get("INFLPRES", nominal), numbers.get("PRESMIN", 0.0), numbers.get("PRESMAX", 0.0)
     most = most or math.inf
-    if not least <= pressure <= most:
+    if pressure and not least <= pressure <= most:
         notes.append(f"INFLPRES is {pressure:g} Pa; {_pressures(least, most)}.")
     return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes))
 
 
 def _pressures(least: float, most: float) -> str:
-    return f"the coefficients hold from PRESMIN, {least:g} Pa, to PRESMAX, {most:g} Pa"
+    ends = ([f"from PRESMIN, {least:g} Pa,"] if least else []) + (
+        [f"to PRESMAX, {most:g} Pa"] if most < math.inf else []
+    )
+    return f"the coefficients hold {' '.join(ends).rstrip(',')}"
 
 
 def one_sided(version: str) -> tuple[str, ...]:

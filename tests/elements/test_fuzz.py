@@ -104,7 +104,9 @@ def test_finite_in_finite_out(name: str) -> None:
         assert np.all(np.isfinite(values)), (u, ud, y, h)
         assert np.array_equal(r.S, r.S.T)
         if h == 0.0:
-            kept = slice(2 if name.startswith("tyre") else None)  # rates of a carcass follow from its deflections
+            kept = np.ones(len(y), bool)
+            if name.startswith("tyre"):
+                kept[[2, 3, *range(5, len(y))]] = False  # rates of a carcass follow from its deflections
             assert np.array_equal(again.y[kept], y[kept])
         touched += bool(np.any(r.f != 0.0))
     if name == "spin angle":

@@ -109,6 +109,7 @@ def test_what_a_build_has_compiled_is_not_begun_again(
 
 def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """A changed C file is another file for the compiler, a changed header makes all of them others."""
+    monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
 
     def given() -> set[str]:
         command = compile.library_command("python", build.host_target(), tmp_path / "table.c", tmp_path / "library")

@@ -89,8 +89,8 @@ def test_a_start_with_a_pedal_down_is_told_where_it_is_wrong_and_only_there(
 ) -> None:
     """Steps of 20 ms miss how tyres begin to slip, without an abrupt force: 17, 12 and 3.6 %; at rest 7 %, by creep.
 
-    With steered wheels too 2.8 %, which were 5.1 and taken for 4.9 when carcasses had no rate at a start. The last one's
-    wheels spin until 0.92 s, when both motions that had agreed to 0.2 % differ by 6.5 %.
+    With steered wheels too 2.8 %, which were 5.1 and taken for 4.9 when carcasses had no rate at a start. The wheels
+    of the last one spin until 0.92 s, when both motions that had agreed to 0.2 % differ by 6.5 %.
     """
     start, slips = {"initial.speed": speed, **pedals}, [f"wheel_{w}.{f}" for w in WHEELS for f in ("Fx", "Fy")]
     fine, nothing = drive(host(prototype_fmu), 2e-4, start, 0.02, span, slips)

@@ -16,6 +16,7 @@ from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
 from hosts.view.view_sources import _with_course
 from tests.viewer import hand_world
+from viewer.base64_numbers import encoded
 
 WIDTH = 1.6
 COURSE = course_of("iso_3888_1", WIDTH)
@@ -59,6 +60,18 @@ def test_on_a_terrain_they_stand_where_its_points_have_the_ground() -> None:
     x, y, z = np.array(cones).T
     assert z == pytest.approx(hand_world.height(x, y), abs=1e-3)
     assert z.max() > 0.09
+
+
+def test_each_patch_of_a_terrain_tells_the_heights_within_it_alone() -> None:
+    """The second one rises by 1 m in 10 m, from the first one's edge on."""
+    level, rise = np.zeros((11, 11), "f4"), np.repeat(np.arange(11, dtype="f4")[:, None], 11, axis=1)
+    patches = [
+        {"origin": [x, -50.0], "spacing": [10.0, 10.0], "shape": [11, 11], "heights": encoded(heights)}
+        for x, heights in ((-100.0, level), (0.0, rise))
+    ]
+    scene = with_course({"roads": [{"kind": "terrain", "patches": patches}]}, course_of("iso_3888_2", WIDTH))
+    x, _, z = np.array([cone["at"] for cone in scene["scenery"]]).T
+    assert z == pytest.approx(0.1 * x, abs=1e-6)
 
 
 def test_beyond_a_terrain_they_are_left_out_with_a_word() -> None:

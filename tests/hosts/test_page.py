@@ -152,7 +152,7 @@ def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> 
         scene = scene_of(fmu, {"road.friction": 0.8, "road.friction_factor": 0.25, "road.file": file})
         assert scene is not None
         (drawn,) = scene["roads"]
-        assert (drawn.get("friction"), drawn["friction_factor"]) == (None if file else 0.8, 0.25)
+        assert (drawn["friction"], drawn["friction_factor"]) == (1.27 if file else 0.8, 0.25)
 
 
 def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path, tmp_path: Path) -> None:

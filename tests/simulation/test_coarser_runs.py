@@ -64,9 +64,9 @@ def test_an_error_that_falls_slowly_is_told() -> None:
         mbs.simulate(system, span, span / 150, every=3, progress=False)
 
 
-def ball(stiffness: float, gap: float, loads: bool = False, wall: float = 1.0) -> mbs.System:
+def ball(stiffness: float, gap: float, loads: bool = False, wall: float = 1.0, motion: bool = True) -> mbs.System:
     """1 kg that flies with 1 m/s against a stop without loss. `wall`: where its other end is, m; far away any impact
-    fits.
+    fits; `loads`, `motion`: what is sensed.
     """
     m = mbs.Model("ball", dimension=2, gravity=(0.0, 0.0))
     b = m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
@@ -74,7 +74,8 @@ def ball(stiffness: float, gap: float, loads: bool = False, wall: float = 1.0) -
     m.initial_velocity(b, linear=(1.0, 0.0))
     stop = EndStops(bump_length=wall - gap, bump_stiffness=stiffness)
     spring = m.spring_damper("wall", b, (m.ground, (wall, 0.0)), stiffness=0.0, free_length=wall, stops=stop)
-    m.sense_position("x", b, component="x")
+    if motion:
+        m.sense_position("x", b, component="x")
     if loads:
         m.sense_element("force", spring, "force")
     return mbs.compile(m)
@@ -265,21 +266,15 @@ def test_a_loop_that_half_the_step_does_not_resolve_is_judged_by_a_quarter() -> 
 )
 def test_a_repeat_with_an_order_whose_share_has_not_fallen_as_its_step_decides_nothing(number, method, error) -> None:
     """Shorter steps see quicker changes near a dead centre; at the limit what an order leaves counts."""
-    rng = np.random.default_rng([63, number])
-    rng.random()
-    _, drawing = random_mechanisms.drawing(rng)
-    system = mbs.compile(random_mechanisms.model_of(drawing))
+    system, span = drawn("", 63, number)
     with pytest.warns(mbs.AccuracyWarning, match=rf"off by about {error} %"):
-        mbs.simulate(system, drawing.span, drawing.span / 50, method=method, progress=False)
+        mbs.simulate(system, span, span / 50, method=method, progress=False)
 
 
 def test_a_repeat_with_an_order_whose_share_falls_as_its_step_decides() -> None:
     """A six-bar 2.6 % off, through a dead centre: half the step is enough, where a quarter was made."""
-    rng = np.random.default_rng([63, 29])
-    rng.random()
-    _, drawing = random_mechanisms.drawing(rng)
-    system = mbs.compile(random_mechanisms.model_of(drawing))
-    run = mbs.simulate(system, drawing.span, drawing.span / 50, method="runge_kutta_8", progress=False)
+    system, span = drawn("", 63, 29)
+    run = mbs.simulate(system, span, span / 50, method="runge_kutta_8", progress=False)
     assert run.accuracy is not None
     assert run.accuracy.error == pytest.approx(0.0262, rel=0.02)
     assert run.accuracy.repeat_cost == 2.0

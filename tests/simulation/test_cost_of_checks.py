@@ -10,6 +10,7 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_machines
+from mbs.results.accuracy import COORDINATES
 from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
 from mbs.results.smooth_laws import LOOPS, OPEN
 from mbs.simulation.repeat import Repeats, TooFarError
@@ -154,10 +155,20 @@ def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
             run = judged(most)
         assert run.accuracy is not None
         assert run.accuracy.repeat_cost == pytest.approx(spent)
-        needed = float(str(told[0].message).split("estimate_error=")[1].split(",")[0])
+        needed = float(str(told[0].message).split("estimate_error=")[1].split(")")[0])
         enough, free = judged(needed).accuracy, judged(None).accuracy
         assert enough == free
         assert enough is not None
         assert enough.repeat_cost <= needed <= enough.repeat_cost + 1.0
         assert not enough.message
-    assert "at most 32, or estimate_error=N" in str(run.accuracy)
+    assert "at most 48 unless estimate_error=N" in str(run.accuracy)
+
+
+@pytest.mark.parametrize("steps", [204, 302, 403])
+def test_coordinates_are_compared_at_the_same_instants_in_all_runs(steps: int) -> None:
+    """Of a System that senses a force alone they are kept, at some instants."""
+    system = ball(1e3, 0.5, loads=True, motion=False)
+    run = mbs.simulate(system, 1.25, 1.25 / steps, progress=False)
+    assert run.accuracy is not None
+    assert run.accuracy.repeat_cost > 0.0
+    assert 0.0 < run.accuracy.units[COORDINATES] < 0.05

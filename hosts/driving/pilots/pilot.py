@@ -18,7 +18,7 @@ def refuse_missing(names: Sequence[str], whose: str) -> None:
     if names:
         raise HostError(
             f"The driver needs variables that {whose} does not have: {', '.join(names)}. Where they have other names, "
-            "an alias file says which (ali3 run --aliases)."
+            "an alias file says which (--aliases)."
         )
 
 

@@ -123,7 +123,7 @@ export class SurfaceRaster {
  * Shares, 0 to 1, of a film of water on asphalt and of ice over it, from the factor of friction.
  * @param {number} factor @returns {[number, number]}
  */
-export const slickness = (factor) => [between01((0.95 - factor) / 0.45), between01((0.5 - factor) / 0.3)];
+export const slickness = (factor) => [between01((0.9 - factor) / 0.35), between01((0.5 - factor) / 0.3)];
 const between01 = (/** @type {number} */ share) => Math.min(1, Math.max(0, share));
 
 /** Name of the surface that a factor of friction is drawn as: the one of which there is half or more. @param {number} factor */
@@ -133,7 +133,7 @@ export function slickName(factor) {
 }
 
 /** Factor of friction of a road that has one everywhere; nothing is said of dry ones. @param {Data} road */
-export const gripOf = ({ friction, friction_factor: factor }) => (friction ?? 0.95) * (factor ?? 1);
+export const gripOf = ({ friction, friction_factor: factor }) => (friction ?? 0.9) * (factor ?? 1);
 
 /** What lies at a place of a scene. @param {Data} scene @returns {(x: number, y: number) => string} name of a surface */
 export function surfaceOf(scene) {
