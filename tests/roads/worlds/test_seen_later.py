@@ -41,7 +41,8 @@ def test_a_run_on_the_proving_ground_is_viewed_on_it(
         return found["scene"], capsys.readouterr().out
 
     scene, said = seen()
-    assert scene["roads"] == proving_ground.record["roads"]
+    roads = [{k: v for k, v in road.items() if k not in ("friction_factor", "variables")} for road in scene["roads"]]
+    assert roads == proving_ground.record["roads"]
     own = len(proving_ground.record["scenery"])
     assert scene["scenery"][:own] == proving_ground.record["scenery"]
     cones = cone_places(course_of("iso_3888_1", load("prototype").vehicle.width).gates)

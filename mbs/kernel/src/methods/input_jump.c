@@ -15,11 +15,11 @@
 #include "../state/work.h"
 #include "input_jump.h"
 
-/* Forces at in->now with given inputs. */
-static void forces(ali3_instance *in, const double *input, double *Q, double *potential) {
+/* Forces at in->now with given inputs, and the states of elements, whose rates follow from them. */
+static void forces(ali3_instance *in, const double *input, double *Q, double *y, double *potential) {
   const ali3_vectors *v = &in->now;
   const ali3_force_call call = {
-      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = in->y_work, .out = in->out_work, .potential = potential};
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = y, .out = in->out_work, .potential = potential};
   in->force_input = input;
   ali3_forces(in, &call);
   in->force_input = in->input;
@@ -30,7 +30,8 @@ static void add(double *to, const double *change, int32_t n) {
 }
 
 /* in->x and in->lam: by how much accelerations and multipliers at in->now change when inputs do; nothing is solved where
- * no force changes, then *jumps is false. `force` gets the watched forces before, in->watched has those behind.
+ * no force changes, then *jumps is false. `force` gets the watched forces before, in->watched has those behind;
+ * in->next.y and in->y_work have the states of elements.
  * M x + Phi_q' lam = change of Q, Phi_q x = 0 by the penalty; modes of flexible bodies that the step h does not resolve
  * follow as slowly as the trapezoidal rule lets them, by the weights of its tangent: else they would ring. */
 static ali3_status input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
@@ -38,9 +39,9 @@ static ali3_status input_change(ali3_instance *in, double h, const double *befor
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
   const int32_t nq = S->size.nq;
-  forces(in, before, in->x, in->next.potential); /* of a step that is to come: it writes them again */
+  forces(in, before, in->x, in->next.y, in->next.potential); /* of a step that is to come: it writes them again */
   for (int32_t i = 0; i < S->n_work_force; i++) force[i] = in->watched[S->n_work + i];
-  forces(in, behind, in->Q, in->potential_work);
+  forces(in, behind, in->Q, in->y_work, in->potential_work);
   ali3_work_of_inputs(in, in->next.potential, in->potential_work);
   *jumps = memcmp(in->x, in->Q, (size_t)nq * sizeof(double)) != 0;
   if (!*jumps) return ALI3_OK;
@@ -75,6 +76,7 @@ ali3_status ali3_input_jump(ali3_instance *in, double h) {
   if (!jumps) return ALI3_OK;
   add(v->qdd, in->x, nq);
   add(v->lam, in->lam, nc);
+  for (int32_t i = 0; i < S->size.ny; i++) v->y[i] += in->y_work[i] - in->next.y[i];
   if (v->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_GENERALISED_ALPHA) add(v->own, in->x, nq);
   for (int k = 0; k < ALI3_PAST && v->history[ALI3_HISTORY_COUNT] > 0.0; k++) {
     add(v->past_a + (int64_t)k * nq, in->x, nq);
