@@ -125,7 +125,7 @@ def _spring_columns(rows: NDArray[np.float64]) -> list[float]:
     pieces = width * (0.5 * (y[1:] + y[:-1]) + width * (slopes[:-1] - slopes[1:]) / 12.0)
     energy = np.r_[0.0, np.cumsum(pieces)]
     if x[0] <= 0.0 <= x[-1]:
-        at_rest = float(monotone_cubic(rows).integrate(x[0], 0.0))
+        at_rest = float(_curve(rows).integrate(x[0], 0.0))
     else:
         k = 0 if x[0] > 0.0 else -1
         at_rest = energy[k] - x[k] * (y[k] - 0.5 * slopes[k] * x[k])
@@ -140,11 +140,10 @@ def _damper_columns(rows: NDArray[np.float64]) -> list[float]:
 
 
 def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(monotone_cubic(rows).derivative()(rows[:, 0]), float)
+    return np.asarray(_curve(rows).derivative()(rows[:, 0]), float)
 
 
-def monotone_cubic(rows: NDArray[np.float64]) -> PchipInterpolator:
-    """The curve through rows of two numbers, shape (n, 2)."""
+def _curve(rows: NDArray[np.float64]) -> PchipInterpolator:
     from scipy.interpolate import PchipInterpolator  # most of the time in which programs that read roads start
 
     return PchipInterpolator(*rows.T)

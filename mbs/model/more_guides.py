@@ -6,11 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline, PPoly
+from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from mbs.common.checks import LARGEST, array, number, positive, shown
 from mbs.common.errors import ModelError
-from mbs.elements.spring_damper_table import monotone_cubic
 from mbs.kernel.header.enumerations import GuideType
 from mbs.model.guides import new_guide, of_table, owned_guide
 from mbs.model.inputs import owned_input
@@ -108,7 +107,7 @@ class MoreGuidesVocabulary(Mechanism):
                 "from row to row."
             )
         given = None if slopes is None else array(slopes, (len(rows),), f"the slopes of {what}")
-        m = monotone_cubic(rows).derivative()(rows[:, 0]) if given is None else given
+        m = PchipInterpolator(*rows.T).derivative()(rows[:, 0]) if given is None else given
         reals = [float(x) for x in np.concatenate([*rows.T, m])]
         guide = new_guide(self, name, GuideType.BY_TABLE, u.index, reals, 0.0, unit)
         value, _ = of_table(guide, u.start)

@@ -32,9 +32,7 @@ AGREED = 0.005  # estimate by two runs with an order that hardly agree so well b
 AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
-MOST_COST = (
-    48.0  # of repeats, in runs, unless `estimate_error` is another number: 3 + 6 + 12 + 24 where steps were halved
-)
+MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"

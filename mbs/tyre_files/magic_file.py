@@ -198,10 +198,8 @@ def read_tyre(file: str | Path) -> TyreFile:
 
 
 def _pressures(least: float, most: float) -> str:
-    ends = ([f"from PRESMIN, {least:g} Pa,"] if least else []) + (
-        [f"to PRESMAX, {most:g} Pa"] if most < math.inf else []
-    )
-    return f"the coefficients hold {' '.join(ends).rstrip(',')}"
+    ends = [f"from PRESMIN, {least:g} Pa"] * (least > 0.0) + [f"to PRESMAX, {most:g} Pa"] * (most < math.inf)
+    return f"the coefficients hold {', '.join(ends)}"
 
 
 def one_sided(version: str) -> tuple[str, ...]:

@@ -15,7 +15,6 @@ from viewer.solids import Solid
 
 _MOST = 200  # points of a grid in each direction
 _KINDS = ("ice", "wet", "asphalt")
-_DRY = 0.9  # of a road that says nothing
 _SLIPPERY = (0.35, 0.725)  # friction up to which a road is ice, and wet: half of the way between them, as pages have it
 
 
@@ -42,7 +41,7 @@ def surfaces_of(road: Mapping[str, Any], solid: Solid) -> dict[str, Solid]:
     factor = road.get("friction_factor", 1.0)
     if road["kind"] != "grid" or road.get("frictions") is None:
         friction = road.get("friction")
-        return {_KINDS[int(np.digitize(factor * (_DRY if friction is None else friction), _SLIPPERY))]: solid}
+        return {_KINDS[int(np.digitize(factor * (LOOKS["dry"] if friction is None else friction), _SLIPPERY))]: solid}
     frictions = decoded(road["frictions"], "f").reshape(road["shape"])[np.ix_(*_kept(*road["shape"])[1])].ravel()
     kinds = np.digitize(factor * frictions[solid.triangles].mean(axis=1), _SLIPPERY)
     made = {}

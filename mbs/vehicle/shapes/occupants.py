@@ -65,8 +65,8 @@ def _person(looks: Looks, at: Point, driver: bool) -> None:
     looks.shape(chassis, "sphere", at=(x - 0.17, y, z + 0.53), radius=0.115, **(HELMET if driver else SKIN))
     for side in (1.0, -1.0):
         limb(0.072, TROUSERS, (-0.02, 0.09 * side, -0.14), (0.38, 0.12 * side, -0.02), (0.66, 0.11 * side, -0.32))
-        hands = (AHEAD[0] + UP * math.sin(TILT), ASIDE * side, AHEAD[1] + UP * math.cos(TILT))
-        hands = hands if driver else (0.24, 0.16 * side, 0.0)
+        at_rim = (AHEAD[0] + UP * math.sin(TILT), ASIDE * side, AHEAD[1] + UP * math.cos(TILT))
+        hands = at_rim if driver else (0.24, 0.16 * side, 0.0)
         limb(0.045, SHIRT, (-0.13, 0.19 * side, 0.26), (0.08, 0.23 * side, 0.04), hands)
         looks.shape(chassis, "sphere", at=(x + hands[0], y + hands[1], z + hands[2]), radius=0.05, **SKIN)
     looks.shape(chassis, "box", at=(x + 0.10, y, max(z - 0.26, floor + 0.06)), size=(0.50, 0.44, 0.12), **CLOTH)

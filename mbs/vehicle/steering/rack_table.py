@@ -9,9 +9,9 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-from mbs.elements.spring_damper_table import monotone_cubic
 from mbs.vehicle.quantities import RackMillimetres, SteeringWheelDegrees
 
 Rows: TypeAlias = tuple[tuple[SteeringWheelDegrees, RackMillimetres], ...]
@@ -33,7 +33,7 @@ class RackTable:
         side = np.array(rows) * (math.pi / 180.0, 1e-3)
         self.rows: NDArray[np.float64] = np.concatenate([-side[:0:-1], side])
         """Angle of the table, rad, and travel, m, of both sides."""
-        self._curve = monotone_cubic(self.rows)
+        self._curve = PchipInterpolator(*self.rows.T)
         self.slope = float(self._curve(0.0, 1))
         """Travel per radian at straight ahead as in the table, m/rad."""
         self.factor = per_radian / self.slope

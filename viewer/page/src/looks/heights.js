@@ -1,6 +1,7 @@
 // Heights of a terrain: patches of different spacing side by side; pure numbers.
 import { bytesOf } from "../bytes.js";
 import { floats } from "../scene/data.js";
+import looks from "../../../looks.json" with { type: "json" };
 
 /** Cells a side of the table that finds a patch by its place. */
 const TABLE = 64;
@@ -90,12 +91,15 @@ function inPatch({ origin, spacing, shape, heights }, x, y) {
 /** Names of surfaces that have a look of their own. */
 export const SURFACES = ["asphalt", "grass", "wet", "gravel", "concrete", "ice", "paint", "dirt"];
 
+/** A place among n lines, held between the first and the last. @param {number} k @param {number} n */
+export const heldWithin = (k, n) => Math.min(n - 1, Math.max(0, k));
+
 /**
  * Index of the point of a grid nearest to a place; beyond the border its points go on.
  * @param {{origin: number[], spacing: number[], shape: number[]}} grid @param {number} x @param {number} y
  */
 export function nearest({ origin, spacing, shape }, x, y) {
-  const [i, j] = [x, y].map((value, k) => Math.min(shape[k] - 1, Math.max(0, Math.round((value - origin[k]) / spacing[k]))));
+  const [i, j] = [x, y].map((value, k) => heldWithin(Math.round((value - origin[k]) / spacing[k]), shape[k]));
   return i * shape[1] + j;
 }
 
@@ -123,7 +127,7 @@ export class SurfaceRaster {
  * Shares, 0 to 1, of a film of water on asphalt and of ice over it, from the factor of friction.
  * @param {number} factor @returns {[number, number]}
  */
-export const slickness = (factor) => [between01((0.9 - factor) / 0.35), between01((0.5 - factor) / 0.3)];
+export const slickness = (factor) => [between01((looks.dry - factor) / 0.35), between01((0.5 - factor) / 0.3)];
 const between01 = (/** @type {number} */ share) => Math.min(1, Math.max(0, share));
 
 /** Name of the surface that a factor of friction is drawn as: the one of which there is half or more. @param {number} factor */
@@ -132,8 +136,8 @@ export function slickName(factor) {
   return ice >= 0.5 ? "ice" : film >= 0.5 ? "wet" : "asphalt";
 }
 
-/** Factor of friction of a road that has one everywhere; nothing is said of dry ones. @param {Data} road */
-export const gripOf = ({ friction, friction_factor: factor }) => (friction ?? 0.9) * (factor ?? 1);
+/** Factor of friction of a road that has one everywhere; one that says nothing is dry. @param {Data} road */
+export const gripOf = ({ friction, friction_factor: factor }) => (friction ?? looks.dry) * (factor ?? 1);
 
 /** What lies at a place of a scene. @param {Data} scene @returns {(x: number, y: number) => string} name of a surface */
 export function surfaceOf(scene) {

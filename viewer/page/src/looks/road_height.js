@@ -1,7 +1,8 @@
 // Height of the ground below a point, by the roads of a scene.
 import { floats } from "../scene/data.js";
 import { dot, scale, subtract, unit } from "../scene/math.js";
-import { between, border, groundAxes, inside, levelOf } from "./roads.js";
+import { heldWithin } from "./heights.js";
+import { between, border, groundAxes, levelOf } from "./roads.js";
 
 const known = new WeakMap();
 
@@ -25,7 +26,7 @@ function grid(road, up, point) {
   if (!known.has(road)) known.set(road, floats(road.heights));
   const heights = known.get(road);
   const [i, j] = groundAxes(road, up).map((axis, k) => (dot(point, axis) - road.origin[k]) / road.spacing[k]);
-  const far = [i, j].some((k, axis) => !(Math.abs(k - inside(k, road.shape[axis])) * road.spacing[axis] <= border));
+  const far = [i, j].some((k, axis) => !(Math.abs(k - heldWithin(k, road.shape[axis])) * road.spacing[axis] <= border));
   return far ? null : between(heights, road.shape[1], i, j);
 }
 

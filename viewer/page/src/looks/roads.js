@@ -5,7 +5,7 @@ import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
 import { floats } from "../scene/data.js";
 import { alongY, turn } from "../shapes/place.js";
 import shared from "../../../looks.json" with { type: "json" };
-import { gripOf, slickness } from "./heights.js";
+import { gripOf, heldWithin, slickness } from "./heights.js";
 
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
@@ -213,7 +213,7 @@ export function divided(lines, spacing) {
 
 /** A value on lines of a grid, or straight between two along x or y; that of its border beyond it. @param {Float32Array} values @param {number} ny @param {number} i @param {number} j */
 export function between(values, ny, i, j) {
-  [i, j] = [inside(i, values.length / ny), inside(j, ny)];
+  [i, j] = [heldWithin(i, values.length / ny), heldWithin(j, ny)];
   const [a, b] = [Math.floor(i), Math.floor(j)];
   const along = (/** @type {number} */ column) => {
     const low = values[a * ny + column];
@@ -221,9 +221,6 @@ export function between(values, ny, i, j) {
   };
   return j === b ? along(b) : along(b) + (j - b) * (along(b + 1) - along(b));
 }
-
-/** The nearest line of n. @param {number} k @param {number} n */
-export const inside = (k, n) => Math.min(n - 1, Math.max(0, k));
 
 /**
  * Heights on a grid, in pieces; what has little friction is wet or ice. As under the wheels its border goes on, some way:
