@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, count
 from ali3.running import run_command
 from hosts.common.options import add_fmu, add_setting_options
@@ -69,7 +68,6 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
     add_option(parser, "--json")
     add_setting_options(parser)
     add_option(parser, "--road")
-    add_old_names(parser, {"--fmu-aliases": "--aliases (and that of the log is now --log-aliases)"})
     options = parser.parse_args(arguments)
     return run_command(lambda: _compare(options))
 

@@ -18,8 +18,8 @@ from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 
-SUFFIXES = (".toml", ".csv", ".ini")
-"""Of files that hold manoeuvres; ``.ini`` is of earlier versions."""
+SUFFIXES = (".toml", ".csv")
+"""Of files that hold manoeuvres."""
 _KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
 
 
@@ -40,10 +40,6 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
         path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if p.is_file())
     if path.suffix == ".toml":
         made = _read_toml(path)
-    elif path.with_suffix(".ini").is_file():
-        from hosts.driving.old_manoeuvre import read_old_manoeuvre
-
-        made = read_old_manoeuvre(path)
     else:
         if not path.is_file():
             raise HostError(no_file(path))

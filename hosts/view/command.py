@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
 from hosts.common.errors import HostError
@@ -68,7 +67,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     shown.add_argument("--mp4", type=Path, metavar="FILE", help="write a film, and no page")
     shown.add_argument("--gltf", type=Path, metavar="FILE", help="write the first as an animation, .glb or .gltf")
     shown.add_argument("--size", type=int, nargs=2, default=(1280, 720), metavar=("W", "H"), help="pixels of pictures")
-    add_old_names(parser, {"--times": "--from T and --to T", "--beside": "an argument like the FMU"})
     return parser
 
 

@@ -127,7 +127,6 @@ KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
     ),
     "rows in Parquet": ("inputs_outputs.parquet", {}, "PAR1", lambda path: _rows(path)),
     "manoeuvre": ("m.csv", CELLS, "time,steering\n0,0\n1,@\n", lambda path: read_manoeuvre(str(path))),
-    "settings of a manoeuvre": ("m.ini", CELLS, "[run]\nstop_time = @\n", lambda path: read_manoeuvre(str(path))),
     "result": ("r.csv", CELLS, "time,u\n0,0\n1,@\n", read_result),
     "log": ("l.csv", CELLS, "time;u\n0;1\n1;2\n2;@\n", lambda path: _log(path)),
     "log in Parquet": ("l.parquet", {}, "PAR1", lambda path: read_log(path, Dialect())),
@@ -173,8 +172,8 @@ MANY = ("car",)
 def _rows(path: Path) -> list[Any]:
     """Reads a recording of which one file is the stranger's."""
     good = {
-        "recording.json": '{"format": "ALi3 recording", "version": 1, "fmu": "a.fmu", "guid": "", "inputs": 1, '
-        '"step": 0.01, "start": {}, "columns": ["u"], "units": {}, "closed": true}',
+        "recording.json": '{"format": "ALi3 recording", "version": 2, "fmu": "a.fmu", "guid": "", "inputs": 1, '
+        '"step": 0.01, "start": {}, "columns": ["u"], "every": [1], "left_out": [], "units": {}, "closed": true}',
         "inputs_outputs.csv": "time,count,epoch,u\n0,0,0,1\n",
     }
     if path.suffix == ".parquet":
@@ -327,7 +326,6 @@ GOOD = {
     "events of a recording": b'{"kind": "note", "time": 0.1, "text": "a"}\n{"kind": "reset", "time": 0.2, "text": "b", '
     b'"epoch": 1, "start": {"m": 1.5}}\n',
     "manoeuvre": b'"time","steering","brake"\n# held: brake\n# step: 0.01\n0,0,0\n0.5,1,0\n0.5,2,1\n1,0,0\n',
-    "settings of a manoeuvre": b'[run]\nstop_time = 1.5\n[start]\nmass = 2.5\nname = "x"\n[driver]\ncourse = iso\n',
     "rows of a recording": b"time,count,epoch,u\n0,0,0,1.5\n0.01,1,0,2.5\n0.02,2,0,-1\n",
     "log": b"time;u\n" + b"".join(b"%d;%d,5\n" % (k, k * k) for k in range(40)),
     "alias file of a log": b'[time]\nname = "t"\nunit = "ms"\n[signals]\n"u" = { name = "c", factor = 2.0 }\n',
@@ -420,7 +418,7 @@ def test_each_value_may_be_of_another_kind(kind: str, tmp_path: Path) -> None:
     assert not faults, f"{len(faults)} of {len(documents)}:\n" + "\n".join(faults[:10])
 
 
-@pytest.mark.parametrize("kind", ["car", "study", "manoeuvre", "settings of a manoeuvre", "log", "record of a result"])
+@pytest.mark.parametrize("kind", ["car", "study", "manoeuvre", "log", "record of a result"])
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be"])
 def test_a_text_in_another_encoding_is_called_so(kind: str, encoding: str, tmp_path: Path) -> None:
     name, _, template, read = KINDS[kind]

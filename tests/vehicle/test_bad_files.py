@@ -288,9 +288,9 @@ TEXTS = {
     "schema of decimals": (b"schema = 1.0", "schema is 1.0; it must be the whole number 2"),
     "schema a table": (b"[schema]", "schema is a table or list"),
     "schema a date": (b"schema = 2020-01-01", "it must be the whole number 2"),
-    "older than the first": (b"schema = 0", "schema is 0; this release reads 2 and 1, the first form"),
+    "older": (b"schema = 1", "schema is 1; this release reads 2"),
     "newer": (b"schema = 3", "a newer form; this release reads 2. Update ALi3"),
-    "a list for a table": (b"schema = 1\nfront = [1, 2]\nchassis = 3", "front is [1, 2]; it must be a table."),
+    "a list for a table": (b"schema = 2\nfront = [1, 2]\nchassis = 3", "front is [1, 2]; it must be a table."),
 }
 
 

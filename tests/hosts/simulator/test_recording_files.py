@@ -160,7 +160,7 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
         return str(error.value)
 
     assert "its format is not 'ALi3 recording'" in refused(format="x")
-    assert "version 3; this program reads 1 and 2" in refused(version=3)
+    assert "version 3; this program reads 2" in refused(version=3)
     assert "does not say the columns" in refused(columns=None)
     assert "does not say by 'every' how many steps lie between two values" in refused(every=[0, 1])
     assert "does not say by 'every' and 'left_out' what of the columns is recorded" in refused(every=[1])
