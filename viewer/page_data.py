@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viewer.recording import Recording
-from viewer.scene_columns import pose_columns
+from ali3.scene.recording import Recording
+from ali3.scene.scene_columns import pose_columns
 
 FORMAT = "ALi3 page"
 _LARGEST_FLOAT32 = 3e38

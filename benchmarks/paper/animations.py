@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 import mbs
+from ali3.scene.recording import Recording
 from benchmarks.car import driven_worlds, fidelity_runs, manoeuvres
 from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
@@ -28,7 +29,6 @@ from mbs.scenes import (
     squeezer,
 )
 from mbs.vehicle import Fidelity, load
-from viewer.recording import Recording
 from viewer.video import WrittenFilm, write_mp4
 
 SIZE = (720, 405)

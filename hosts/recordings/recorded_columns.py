@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.scene.scene_columns import all_columns
 from hosts.driving.run_checks import steps_of
 from hosts.fmu.geometry import scene_of
-from viewer.scene_columns import all_columns
 
 DRAWN, OTHERS = 0.025, 0.1
 """Between two values of outputs that are drawn, and of others, s, about; a longer step counts."""

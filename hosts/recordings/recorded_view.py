@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.processes import command_name
+from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.recorded_drive import read_recording
-from viewer.recording import Recording
 
 _MOST_VALUES = 8_000_000  # that are read: 64 MB
 

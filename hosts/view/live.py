@@ -20,12 +20,12 @@ from hosts.recordings.format import is_recording
 from hosts.view.open_page import open_page
 
 if TYPE_CHECKING:
+    from ali3.scene.recording import Recording
     from hosts.common.numbers import Value
     from hosts.common.world_files import World
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.fmu.variables import Variable
     from hosts.view.page_parts import FmuParts
-    from viewer.recording import Recording
 
 _PATIENCE = 2.0
 _MOST_PICTURES = 4

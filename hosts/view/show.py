@@ -17,7 +17,7 @@ from hosts.fmu.fmu_file import fmu_file
 from hosts.view.open_page import open_page
 
 if TYPE_CHECKING:
-    from viewer.recording import Recording
+    from ali3.scene.recording import Recording
 
 _PLOTTED = 3  # signals of a result that is not drawn
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from viewer.base64_numbers import decoded, octets
+from ali3.scene.base64_numbers import decoded, octets
 
 COLOURS = {
     "asphalt": "#5d6066",

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from ali3.iso_3888 import Track
-from viewer.road_types import SurfaceClass
+from ali3.scene.road_types import SurfaceClass
 
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
 Height = Annotated[float, Field(ge=-1e4, le=1e4)]

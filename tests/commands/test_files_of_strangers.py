@@ -26,6 +26,8 @@ from ali3.alias_file import read_content
 from ali3.commands import COMMANDS
 from ali3.errors import UserError
 from ali3.read_parameter_set import read_parameter_set
+from ali3.scene.mesh_file import read_mesh
+from ali3.scene.scene import read_scene
 from hosts.compare.log_aliases import Dialect, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.driving.manoeuvre_file import read_manoeuvre
@@ -55,8 +57,6 @@ from mbs.worlds.make_world import read_world
 from tests.altered_files import altered
 from tests.in_process import run
 from tests.quick import quick
-from viewer.mesh_file import read_mesh
-from viewer.scene import read_scene
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="pipes, devices and alarms are those of POSIX")
 

@@ -12,15 +12,15 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from ali3.errors import FileError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
 from tests.viewer import hand_scenes, moving_car
 from tests.viewer.gltf_files import TO_EARTH, accessor, content, run_node, world
 from tests.viewer.hand_scenes import floats, indices
-from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
 from viewer.gltf.flexible import stress_colors
 from viewer.gltf.materials import linear
 from viewer.gltf.roads import road_solid, surfaces_of
-from viewer.recording import Recording
 from viewer.solids import box
 
 T = np.linspace(0.0, 2.0, 201)

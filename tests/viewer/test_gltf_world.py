@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import trimesh
 
+from ali3.scene.recording import Recording
 from tests.viewer.gltf_files import TO_EARTH, run_node
 from tests.viewer.hand_scenes import moving
 from tests.viewer.hand_world import LANES, height, scenery, terrain
 from viewer.gltf import write_gltf
-from viewer.recording import Recording
 
 T = np.linspace(0.0, 4.0, 81)
 RADIUS, SPEED = 0.3, 10.0

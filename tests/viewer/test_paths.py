@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from tests.viewer.hand_scenes import floats, moving
 from tests.viewer.test_player import Opened
 from tests.viewer.test_player import opened as opened
-from viewer.recording import Recording
 
 pytestmark = pytest.mark.slow
 

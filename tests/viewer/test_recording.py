@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import MOST_TIMES, Recording
+from ali3.scene.scene_columns import all_columns
 from tests.viewer.hand_scenes import crank, everything
-from viewer.errors import ViewerError
-from viewer.recording import MOST_TIMES, Recording
-from viewer.scene_columns import all_columns
 
 TIMES = np.linspace(0.0, 2.0, 21)
 

@@ -6,14 +6,16 @@ import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ali3.extras import missing_module
 from ali3.files import check_writable, whole_file
-from viewer.errors import ViewerError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
+from ali3.scene.written import WrittenGltf
 from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
@@ -23,7 +25,6 @@ from viewer.gltf.roads import road_solid, surfaces_of
 from viewer.gltf.scenery import scenery_solids
 from viewer.gltf.terrain import earth_axes, surface_look, terrain_solids
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
-from viewer.recording import Recording
 
 if TYPE_CHECKING:
     from viewer.gltf.document import Document
@@ -36,22 +37,6 @@ _FAR = 2e-3  # of the size of the scene: what a reader would see
 _ROAD = Look("road", (0.08, 0.08, 0.085, 1.0), 0.0, 0.9)
 _WHITE = Look("stress", (1.0, 1.0, 1.0, 1.0), 0.1, 0.6)
 _FRAME = Look("steel", (0.27, 0.31, 0.34, 1.0), 0.85, 0.42)
-
-
-class WrittenGltf(NamedTuple):
-    """A glTF file that was written."""
-
-    path: Path
-    size: int
-    """Bytes."""
-    times: int
-    """Of the recording that were kept."""
-    position_error: float
-    """Largest distance of a drawn point between the kept times from where it was recorded, mm."""
-    angle_error: float
-    """The same for the orientation, degrees."""
-    notes: list[str]
-    """Sentences: what is not drawn, or drawn in another way."""
 
 
 def write_gltf(
