@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.driving.missed_jumps import missed_end, missed_jumps
+from hosts.driving.missed_inputs import missed_end, missed_inputs
 from hosts.driving.pilots.pilot import Pilot, refuse_missing
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
@@ -154,7 +154,7 @@ def run(
         if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin
-    jumps = missed_jumps(manoeuvre, step, straight, whole, acts)
+    lost = missed_inputs(manoeuvre, step, straight, whole, acts)
     progress(rows.done)
     recorded, values = rows.close(last)
     names = inputs + outputs
@@ -171,7 +171,7 @@ def run(
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         rows.jumps,
         lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
-        missed=[told for told in (manoeuvre.late_begin(acts), jumps, end) if told is not None],
+        missed=[told for told in (manoeuvre.late_begin(acts), lost, end) if told is not None],
         start=dict(manoeuvre.start),
     )
 

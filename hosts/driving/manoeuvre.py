@@ -73,6 +73,17 @@ class Manoeuvre:
             for name, v in self.inputs.items()
         }
 
+    def column(self, name: str, times: NDArray[np.float64], held: bool, before: bool = False) -> NDArray[np.float64]:
+        """Values of one input at many times, see `at`. `times`: s, shape (n,). Result: shape (n,)."""
+        k = np.searchsorted(self.time, times + (-ON_TIME if before else ON_TIME), side="left" if before else "right")
+        one, other = np.maximum(k - 1, 0), np.minimum(k, len(self.time) - 1)
+        values, long = self.inputs[name], self.time[other] - self.time[one]
+        if held:
+            return values[one]
+        part = np.clip((times - self.time[one]) / np.where(long > 0.0, long, 1.0), 0.0, 1.0)
+        part = np.where(long > 0.0, part, 0.0)
+        return np.asarray((1.0 - part) * values[one] + part * values[other])
+
 
 def _between(one: float, other: float, part: float) -> float:
     value = one + part * (other - one)
