@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 
+INITIAL_SPEED = "initial.speed"
+"""Parameter of a car that starts at a speed, m/s."""
 ON_TIME = 1e-9
 """By which a row may miss the time that is meant, s."""
 

@@ -123,8 +123,8 @@ def test_a_summary_of_rows_says_so() -> None:
          "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0231, "
          "2.31 % of its range, at 0.104 s; --step 0.005 has it to within 1 %"),
         (True, (0.0, 0.104, 0.2), (0.0, 1.0, 0.0), "corners",
-         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0481, 4.81 % "
-         "of its range, at 0.104 s; --step 0.002 has it to within 1 %"),
+         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0481, "
+         "4.81 % of its range, at 0.104 s; --step 0.002 has it to within 1 %"),
         (True, (0.0, 0.1, 0.101, 0.105, 0.105, 0.2), (0.0, 0.0, 1.0, 1.0, 5.0, 5.0), "corners and jumps",
          "2 of u, the first at 0.101 s: each becomes a line over its step of 10 ms, and u is off by up to 2.5, 50 % of "
          "its range, at 0.105 s; --step 0.001 has it to within 1 %"),
