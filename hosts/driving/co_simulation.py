@@ -19,6 +19,7 @@ from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.driving.steady_throttle import with_change_of_speed, with_throttle
 from hosts.fmu.fmu import StepRefusedError
 
 
@@ -69,6 +70,8 @@ def run(
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
+    A throttle that the manoeuvre asks to be found is found before, in the same instance, which is then reset.
+
     Real inputs of its table go straight between its rows where the FMU follows input derivatives. Parameters, whole
     numbers, inputs that a driver acts on and all inputs of other FMUs are held over each step.
 
@@ -97,6 +100,9 @@ def run(
     """
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
+    if manoeuvre.find_throttle:
+        manoeuvre = with_throttle(run, fmu, manoeuvre, step)
+        return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last))
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     outputs = fmu.names("output")
     whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}

@@ -64,11 +64,11 @@ class Course:
             return f"lane 1 was not driven from its beginning at {begin:.4g} m: the front starts at {front[0]:.4g} m"
         for number, gate in enumerate(self.gates, start=1):
             if front.max() < gate.x_start:
-                return f"lane {number} was not reached: it begins at {gate.x_start:.4g} m, the front comes to {front.max():.4g} m"
+                place = f"it begins at {gate.x_start:.4g} m, the front comes to {front.max():.4g} m"
+                return f"lane {number} was not reached: {place}"
         if rear[-1] <= end:
-            return (
-                f"lane {len(self.gates)} was not left: it ends at {end:.4g} m, the rear is at {rear[-1]:.4g} m at last"
-            )
+            place = f"it ends at {end:.4g} m, the rear is at {rear[-1]:.4g} m at last"
+            return f"lane {len(self.gates)} was not left: {place}"
         apart = float(np.abs(np.diff(x)).max(initial=0.0, where=(front[1:] >= begin) & (rear[:-1] <= end)))
         return f"rows are {apart:.3g} m apart, lanes are seen by {ROWS:g} m or less" if apart > ROWS else ""
 

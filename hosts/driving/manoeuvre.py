@@ -39,6 +39,8 @@ class Manoeuvre:
     """At which the FMU then stands, s; `time` counts from there."""
     held: frozenset[str] = frozenset()
     """Inputs that keep the value of a row up to the next one."""
+    find_throttle: bool = False
+    """Whether the throttle is the one that holds the speed of the start straight on; it is found before the run."""
     step: float | None = None
     """Communication step that it was recorded with, s; taken where no other is asked for."""
 
