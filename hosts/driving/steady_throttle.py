@@ -21,8 +21,8 @@ KEPT = 0.03
 """Share of the speed at the start by which it may change before that is told."""
 _LONGEST = 30.0  # s, in which the throttle is found
 _WINDOW = 1.0  # s, over which speed and throttle are steady
-_STEADY = 0.01  # of the throttle
-_CLOSE = 0.002  # of the speed
+_STEADY = 0.004  # of the throttle
+_CLOSE = 0.0005  # of the speed
 _ENOUGH = 0.01  # of the speed, of a car whose gearbox hunts
 
 
@@ -108,5 +108,5 @@ def with_change_of_speed(result: Result) -> Result:
     if abs(change[k]) <= KEPT:
         return replace(result, notes=[*result.notes, ("throttle", words)])
     until = float(result.time[int((np.abs(change) > KEPT).argmax()) - 1])
-    remedy = f"more than {100.0 * KEPT:g} %; up to --stop-time {math.floor(1e3 * until) / 1e3:g} it is less"
+    remedy = f"more than {100.0 * KEPT:g} %; up to --stop-time {until:.9g} it is less"
     return replace(result, missed=[*result.missed, ("throttle", f"{words}: {remedy}")])
