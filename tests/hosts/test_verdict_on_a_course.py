@@ -92,6 +92,7 @@ def said_of(fmu: Path, out: Path, capsys: pytest.CaptureFixture[str], *more: str
     return line.removeprefix("ISO 3888-1").strip()
 
 
+@pytest.mark.slow
 def test_what_the_command_says(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Remedies are those that help: each is tried."""
     for speed in (15.0, 20.0):
