@@ -93,7 +93,7 @@ def test_the_throttle_is_that_of_the_resistance(speed: float) -> None:
     assert "more than" not in rows["throttle"]
 
 
-@pytest.mark.parametrize(("steering", "told"), [(0.02, False), (-0.1, True), (0.1, True)])
+@pytest.mark.parametrize(("steering", "told"), [(0.02, False), (0.07, True), (-0.1, True)])
 def test_a_change_above_3_per_cent_is_told_with_a_time_that_helps(steering: float, told: bool) -> None:
     result = run(Slider(), asked(22.22, steering), H)  # type: ignore[arg-type]
     change = result["speed"] / 22.22 - 1.0

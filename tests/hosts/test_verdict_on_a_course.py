@@ -25,7 +25,8 @@ def verdict(
     driver = make_driver({"course": course, "speed": repr(asked)} | SIZE, {})
     path = np.array([driver.course.path(v) for v in x])
     columns = {"chassis.x": x, "chassis.y": path[:, 0] + aside, "chassis.yaw": np.arctan(path[:, 1])}
-    columns["speed"] = np.full(len(x), speed)
+    # only as the front comes to the first lane is it this fast
+    columns["speed"] = np.where(np.abs(x + 1.5 - 15.0) < 0.4, speed, 0.5 * speed)
     names, values = list(columns), np.column_stack(list(columns.values()))
     result = Result(names, {}, x / 20.0, values, 1.0, 1.0, more.get("failed_steps", 0), [])
     (row,), gates = course_result(result, driver)

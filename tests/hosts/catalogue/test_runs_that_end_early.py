@@ -6,8 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
 import pytest
 
+from hosts.catalogue.braking_measures import measures_of
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.dwell_measures import measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, processed, table
@@ -15,6 +17,7 @@ from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.common.errors import HostError
+from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.sine_with_dwell import sine_with_dwell
 from tests.hosts.catalogue.bicycle import BicycleCar
@@ -49,7 +52,7 @@ class Ending(TestedCar):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TESTS)
 def test_a_limit_is_not_kept_by_a_run_that_was_not_driven(name: str, prototype: TestedCar) -> None:
-    """Each is cut at once, while the speed is reached, and soon after the test has begun."""
+    """Each is cut at once, while the speed is reached, and later."""
     cars = [Ending("cut", prototype.path, at=at) for at in (0.02, 0.7, 1.6)]
     cars += [] if name in MOVED_BY_ITSELF else [Ending("stands", prototype.path, stands=True)]
     for car in cars:
@@ -62,6 +65,26 @@ def test_a_limit_is_not_kept_by_a_run_that_was_not_driven(name: str, prototype: 
         missing = [m for m in record.measures if m.is_missing]
         assert missing or record.notes
         assert any(m.note for m in missing) or record.notes
+
+
+def stop(end: float) -> Result:
+    """From 100 km/h with 8 m/s2 from 1 s on, no wheel locked, recorded until `end`, s."""
+    time = np.arange(0.0, end + 1e-9, 0.005)
+    speed = np.clip(100.0 / 3.6 - 8.0 * np.clip(time - 1.0, 0.0, None), 0.0, None)
+    energy = 500.0 * speed**2
+    columns = {"speed": speed} | {f"wheel_{w}.slip": 0.0 * time for w in WHEELS}
+    columns |= {"energy.total": energy, "energy.kinetic": energy + 1.0, "energy.drive": 0.0 * time}
+    columns |= {"energy.brakes": energy - energy[0], "energy.tyres": 0.0 * time}
+    return Result(list(columns), {}, time, np.column_stack(list(columns.values())), 1.0, end, 0, [])
+
+
+@pytest.mark.parametrize(("end", "whole"), [(1.05, False), (2.0, False), (4.4, False), (5.0, True)])
+def test_a_stop_keeps_its_limits_once_the_car_stands(end: float, whole: bool) -> None:
+    measures = measures_of(stop(end), 1.0, {"speed": 100.0, "pedal": 1.0})
+    judged = {m.name: m.is_kept for m in measures if m.limit is not None}
+    assert len(judged) == 7
+    assert [kept for name, kept in judged.items() if name != "deceleration.mean_fully_developed"] == 6 * [whole]
+    assert all(m.note for m in measures if m.is_missing)
 
 
 def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
