@@ -21,6 +21,7 @@ from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.fmu.fmu import StepRefusedError
 from hosts.run.command import main
 from hosts.run.run_summary import summary
+from hosts.simulator.headless import OfManoeuvre
 from hosts.study.job import Job
 from hosts.study.plan import job_digest
 
@@ -141,6 +142,13 @@ def test_a_file_says_so(tmp_path: Path) -> None:
         (tmp_path / "m.toml").write_text(f"stop_time = 1.0\n{text}\n")
         with pytest.raises(HostError, match=words):
             read_manoeuvre(str(tmp_path / "m.toml"))
+
+
+def test_the_simulator_refuses_what_it_cannot_find() -> None:
+    car: Any = SimpleNamespace(inputs=["steering", "throttle", "brake"])
+    with pytest.raises(HostError, match=r"'step_steer' finds its throttle in a run before"):
+        OfManoeuvre(read_manoeuvre("step_steer"), car)
+    OfManoeuvre(read_manoeuvre("step_steer_given_throttle"), car)
 
 
 @pytest.mark.slow
