@@ -102,8 +102,13 @@ def trusted() -> list[Again]:
 
 def car() -> list[Again]:
     """Errors of three manoeuvres of the prototype in the kernel, and of two of the hatchback."""
-    rows = [accuracy.measure(name, 0.01, None, 1) for name in ("step_steer", "double_lane_change_replay", "drop")]
-    hatchback = [accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer", "full_lock")]
+    rows = [
+        accuracy.measure(name, 0.01, None, 1)
+        for name in ("step_steer_given_throttle", "double_lane_change_replay", "drop")
+    ]
+    hatchback = [
+        accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer_given_throttle", "full_lock")
+    ]
     keys = ("manoeuvre", "h, ms")
     return [
         Again(SPEED, car_blocks(rows)["car"], "car", keys, HELD),
@@ -135,7 +140,7 @@ def drawn() -> list[Again]:
 
 def tabled() -> list[Again]:
     """Errors of cars by tables in a part of their manoeuvres."""
-    names = "step_steer", "double_lane_change_replay", "kerb_lock_brake"
+    names = "step_steer_given_throttle", "double_lane_change_replay", "kerb_lock_brake"
     todo = ((car, name) for car in tabled_cars.CARS for name in names)
     text = tabled_cars.table_of([tabled_cars.compare(car, name, tabled_cars.STEP) for car, name in todo])
     return [Again("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]

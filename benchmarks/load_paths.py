@@ -21,7 +21,7 @@ from benchmarks.car.load_paths import GUIDED, port_forces, principal_loads
 from benchmarks.shared.command import parser_of, watched
 from mbs.vehicle import load
 
-MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "full_lock", GUIDED)
+MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "full_lock", GUIDED)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -15,7 +15,7 @@ from mbs.vehicle.levels.errors import load_error, path_error
 
 STEP = 0.005  # s
 CARS = (manoeuvres.PROTOTYPE, "hatchback")
-SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
+SMOOTH = ("step_steer_given_throttle", "slalom", "steady_cornering", "double_lane_change_replay")
 """Manoeuvres of rolling wheels on a plane road, without pedals pressed at once."""
 
 

@@ -58,16 +58,15 @@ class Passage:
             return math.nan
         return float(clearance(self.course, *self.place, *self.size).min())
 
-    @property
-    def is_through(self) -> bool:
-        """Whether the car has left the last lane."""
-        end = self.course.gates[-1].x_end + 0.5 * self.size[0]
-        return bool(self.after.any() and self.place[0][-1] > end)
+    @cached_property
+    def not_driven(self) -> str:
+        """What of the lanes the car has not driven; empty: it has driven all."""
+        return self.course.not_driven(self.place[0], self.size[0])
 
     @property
     def clean(self) -> bool:
         """Whether the car is through without a cone."""
-        return self.is_through and self.least_clearance > 0.0 and not self.reason
+        return not self.not_driven and self.least_clearance > 0.0 and not self.reason
 
     @property
     def why(self) -> str:
@@ -80,7 +79,7 @@ class Passage:
             return f"a cone is hit by {-self.least_clearance:.3g} m"
         if self.result.failed_steps:
             return f"the FMU refused the step at {self.result.time[-1]:.4g} s"
-        return "" if self.is_through else "the car does not come through"
+        return self.not_driven and f"the car does not come through: {self.not_driven}"
 
     def at(self, quantity: str, x: float) -> float:
         """Value of an output when the car's front is at a place of the course; NaN if it is not there."""

@@ -18,7 +18,7 @@ from hosts.common.units import known_unit, unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.spikes import spike_words, spikes
-from hosts.driving.missed_jumps import counted
+from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.aliased_fmu import AliasedFmu

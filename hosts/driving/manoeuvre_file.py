@@ -20,7 +20,7 @@ from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 
 SUFFIXES = (".toml", ".csv")
 """Of files that hold manoeuvres."""
-_KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
+_KEYS = ("stop_time", "held", "find_throttle", "start", "driver", "inputs", "state")
 
 
 def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
@@ -28,8 +28,9 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
 
     `manoeuvre`: name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has
     ``stop_time`` in s, ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time``
-    and each input, ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to
-    begin with: ``file`` beside it, ``time``. `stop_time`: in place of its own, s. Raises `HostError` with the line or
+    and each input, ``held``, a list of those that keep a value up to the next time, ``find_throttle``, true
+    where the throttle is the one that holds the speed of the start, and a ``[state]`` of the FMU to begin with:
+    ``file`` beside it, ``time``. `stop_time`: in place of its own, s. Raises `HostError` with the line or
     key and the reason.
     """
     path = Path(manoeuvre)
@@ -75,7 +76,12 @@ def _read_toml(path: Path) -> Manoeuvre:
     held = content.get("held", [])
     if not isinstance(held, list) or any(not isinstance(name, str) or name not in inputs for name in held):
         raise HostError(f"{path}: held must be a list of names of [inputs].")
-    return Manoeuvre(path.stem, time, inputs, stop_time, start, words, *state, frozenset(held))
+    find = content.get("find_throttle", False)
+    if not isinstance(find, bool):
+        raise HostError(f"{path}: find_throttle is {json.dumps(find, default=str)[:40]}; it must be true or false.")
+    if find and (words or "throttle" in inputs):
+        raise HostError(f"{path}: with find_throttle there is no {'[driver]' if words else 'throttle in [inputs]'}.")
+    return Manoeuvre(path.stem, time, inputs, stop_time, start, words, *state, frozenset(held), find)
 
 
 def _table(content: Mapping[str, Any], key: str, path: Path) -> dict[str, Any]:

@@ -45,7 +45,9 @@ class Result:
     lost: list[str] = field(default_factory=list)
     """Inputs that moved between the rows otherwise than the rows tell, where not every step has one."""
     missed: list[tuple[str, str]] = field(default_factory=list)
-    """What `Manoeuvre.late_begin`, `missed_jumps` and `missed_end` say of the manoeuvre."""
+    """What `Manoeuvre.late_begin`, `missed_inputs` and `missed_end` say of the manoeuvre."""
+    notes: list[tuple[str, str]] = field(default_factory=list)
+    """What else is said of the manoeuvre: what and how much."""
     start: Mapping[str, Value] = field(default_factory=dict)
     """What was set before the start."""
     marks: list[dict[str, Any]] = field(default_factory=list)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -94,9 +93,10 @@ def _run(options: argparse.Namespace) -> int:
             other = OtherNames(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
-        if known and not manoeuvre.driver:
-            raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
-        manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
+        if known:
+            from hosts.driving.driver import with_settings
+
+            manoeuvre = with_settings(manoeuvre, known, fmu.variables, options.stop_time)
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver: Driver | None = None

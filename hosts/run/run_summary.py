@@ -75,7 +75,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     moved = [name for name in result.late if np.ptp(result[name]) > 0.0]
     if moved:
         rows.append(("inputs held over a step", f"{', '.join(moved)}: {500.0 * step:.3g} ms late on average"))
-    rows += result.missed
+    rows += [*result.notes, *result.missed]
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
