@@ -97,7 +97,7 @@ def read_curves(folder: Path, name: str, key: str) -> CurveTable:
     Raises `CarFileError`: there is no such file, or it is no such table; the message says what is missing.
     """
     what = f"{key} ({name})"
-    table = TextTable(beside(folder, name, key), CarFileError, what, units=True)
+    table = TextTable(beside(folder, name, key), CarFileError, what, known=(TRAVEL, f"{TRAVEL}_left"), units=True)
     given = dict(zip(table.names, table.values(finite=False).T, strict=True))
     used = [n for n in given if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
     columns = {n: _in_si(what, n, table.units.get(n, ""), given[n]) for n in used}
