@@ -127,8 +127,8 @@ def _beyond_table(simulation: SteppedSystem) -> str:
     column, value, first, last = simulation.instance.beyond_table()
     name = prepared(simulation.system)[1]["coordinates"][column]
     return (
-        f" {name!r} is {value:.4g}; its table goes from {first:.4g} to {last:.4g}: give it one that covers what the run "
-        "can reach."
+        f" {name!r} is {value:.4g}; its table goes from {first:.4g} to {last:.4g}: give it one that covers what the "
+        "run can reach."
     )
 
 
