@@ -13,6 +13,7 @@ from typing import Any
 
 from ali3.errors import UserError
 from ali3.json_reading import read_json
+from ali3.near_names import did_you_mean
 from ali3.told_warnings import told_warnings
 
 WORLDS = Path(__file__).parent
@@ -69,7 +70,9 @@ def _file(given: str) -> Path:
     for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
         if place.is_file() and Path(given).name == given:
             return place
-    raise UserError(f"There is no world '{given}' and no such file; worlds are {', '.join(shipped_worlds())}.")
+    worlds = shipped_worlds()
+    near = did_you_mean(given, worlds, f"worlds are {', '.join(worlds)}", 1)
+    raise UserError(f"There is no world '{given}' and no such file{near}")
 
 
 def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
