@@ -12,8 +12,8 @@ from pathlib import Path
 from ali3.errors import reason
 from ali3.reading import other_encoding
 from ali3.tables import cells_of
+from ali3.units import known_unit
 from hosts.common.errors import HostError
-from hosts.common.units import known_unit
 from hosts.compare.log_aliases import Dialect
 
 _DELIMITERS = (";", "\t", ",", "|")

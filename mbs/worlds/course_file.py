@@ -177,8 +177,8 @@ def read_course(file: Path) -> dict[str, Float]:
             f"write a heading above them. Known are {KNOWN}."
         )
     names = [_column(name) for name in table.names] or list(UNNAMED[: table.width])
-    if None in names:
-        raise RoadFileError(f"{file} has a column {brief(table.names[names.index(None)])}; known are {KNOWN}.")
+    if "" in names:
+        raise RoadFileError(f"{file} has a column {brief(table.names[names.index('')])}; known are {KNOWN}.")
     if not {"x", "y"} <= set(names) or len(set(names)) < len(names):
         raise RoadFileError(f"{file} must have a column x and a column y, each once, and no other twice.")
     if (sides := {"right", "left"} & set(names)) and (len(sides) < 2 or "width" in names):
@@ -186,11 +186,11 @@ def read_course(file: Path) -> dict[str, Float]:
     return dict(zip(names, table.values(least=0).T, strict=True))
 
 
-def _column(heading: str) -> str | None:
-    """What a column is by its heading; None: it is not known, or not in metres."""
+def _column(heading: str) -> str:
+    """What a column is by its heading; empty: it is not known, or not in metres."""
     name = re.sub("[ -]+", "_", heading.strip().lower())
     match = _IN_METRES.fullmatch(name)
-    return COLUMNS.get(match[1] if match and name != "bank_m" else name)
+    return COLUMNS.get(match[1] if match and name != "bank_m" else name, "")
 
 
 def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float, float]) -> None:

@@ -13,8 +13,8 @@ KNOWN = ("spring.stiffness", "spring.damping", "Chassis.ay", "chassis.AY", "bob.
     ("name", "near"),
     [
         ("CHASSIS.AY", ["Chassis.ay", "chassis.AY"]),
-        ("spring.stifness", ["spring.stiffness", "spring.damping"]),
-        ("Spring.Stifness", ["spring.stiffness", "spring.damping"]),
+        ("spring.stifness", ["spring.stiffness"]),
+        ("Spring.Stifness", ["spring.stiffness"]),
         ("gearbox.ratios.damping", ["spring.damping"]),
         ("bob", ["bob.x"]),
         ("b", []),
