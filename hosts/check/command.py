@@ -136,6 +136,10 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         return soak(options, parser.prog)
     if options.junit is not None:
         check_writable(options.junit)
+    if options.manoeuvre is not None:
+        from hosts.recordings.load_manoeuvre import check_asked
+
+        check_asked(options.manoeuvre)
     fmu = fmu_file(options.fmu)
     if table:
         from hosts.check.parameters import parameters

@@ -12,6 +12,7 @@ from pathlib import Path
 from ali3.errors import reason
 from ali3.reading import other_encoding
 from ali3.tables import cells_of
+from ali3.units import known_unit
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 
@@ -56,14 +57,14 @@ def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
         )
     heading, unit_line = _heading(path, lines, delimiter, first, width, stated)
     names, units = [], {}
-    for k, cell in enumerate(_cells(lines[heading], delimiter)):
+    for k, cell in enumerate(_cells(_bare(lines[heading]), delimiter)):
         match = _NAME_AND_UNIT.fullmatch(cell)
         name = match["name"] if match else cell
         names.append(name)
         if match:
             units[name] = match["unit"]
         elif unit_line is not None:
-            cells = _cells(lines[unit_line], delimiter)
+            cells = _cells(_bare(lines[unit_line]), delimiter)
             units[name] = cells[k] if k < len(cells) else ""
     twice = next((n for k, n in enumerate(names) if n and n in names[:k]), None)
     if twice is not None:
@@ -133,7 +134,10 @@ def _heading(
         if stated.units is None and below < first and len(_cells(lines[below], delimiter)) == width:
             units = below
         return stated.heading - 1, units
-    before = [k for k in range(first) if k != units and _is_heading(_cells(lines[k], delimiter), width)]
+    fitting = [k for k in range(first) if k != units and _is_heading(_cells(_bare(lines[k]), delimiter), width)]
+    before = [k for k in fitting if lines[k] == _bare(lines[k])] or fitting
+    # Comments may have the names, and units of names that are none.
+    before += [k for k in fitting if k not in before and _has_units(_cells(_bare(lines[k]), delimiter))]
     if not before:
         raise HostError(
             f"The log {path} has no line of {width} names before its values in line {first + 1}; "
@@ -145,7 +149,16 @@ def _heading(
 
 def _is_heading(cells: Sequence[str], width: int) -> bool:
     """Whether a line may hold names: loggers fill up lines of other words with delimiters."""
-    return len(cells) == width and 2 * sum(map(bool, cells)) > width and not cells[0].startswith("#")
+    return len(cells) == width and 2 * sum(map(bool, cells)) > width
+
+
+def _has_units(cells: Sequence[str]) -> bool:
+    return all(known_unit(cell) is not None for cell in cells)
+
+
+def _bare(line: str) -> str:
+    """A line without the mark of a comment."""
+    return line.lstrip(" #") if line.lstrip().startswith("#") else line
 
 
 def _decimal(rows: Sequence[str], delimiter: str) -> str:

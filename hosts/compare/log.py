@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from ali3.near_names import did_you_mean
+from ali3.units import known_unit
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.units import known_unit, unit_definition, unit_of
+from hosts.common.units import unit_definition, unit_of
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.spikes import spike_words, spikes

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.near_names import did_you_mean
 from ali3.reading import LARGEST_TEXT, no_file, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
@@ -34,10 +35,8 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     key and the reason.
     """
     path = Path(manoeuvre)
+    check_manoeuvre(manoeuvre)
     if path.suffix not in SUFFIXES:
-        if manoeuvre not in manoeuvre_names():
-            names = ", ".join(manoeuvre_names())
-            raise HostError(f"There is no manoeuvre '{manoeuvre}'. Give a file.toml, a file.csv or one of: {names}.")
         path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if p.is_file())
     if path.suffix == ".toml":
         made = _read_toml(path)
@@ -52,6 +51,17 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     if not made.stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")
     return made
+
+
+def check_manoeuvre(manoeuvre: str) -> None:
+    """Refuse a word that is neither a file nor the name of a manoeuvre, before anything is made for it.
+
+    `manoeuvre`: as `read_manoeuvre` takes it. Raises `HostError`: with near names, or all.
+    """
+    if Path(manoeuvre).suffix in SUFFIXES or manoeuvre in (names := manoeuvre_names()):
+        return
+    near = did_you_mean(manoeuvre, names, f"give a file.toml, a file.csv or one of: {', '.join(names)}")
+    raise HostError(f"There is no manoeuvre '{manoeuvre}'{near}")
 
 
 def _read_toml(path: Path) -> Manoeuvre:

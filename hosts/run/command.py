@@ -13,10 +13,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.options import Parser, add_option, assignment, given_of
+from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
+from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
+from hosts.common.units import unit_of
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
 
@@ -38,7 +40,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
         "--driver",
         action="append",
         default=[],
-        type=assignment,
+        type=_driver_setting,
         metavar="NAME=VALUE",
         help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
     )
@@ -80,10 +82,12 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.asked_manoeuvre import manoeuvre_of
+    from hosts.recordings.load_manoeuvre import check_asked
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, summary
 
+    check_asked(options.manoeuvre)
     path, known = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
         other: OtherNames | None = None
@@ -132,6 +136,12 @@ def _run(options: argparse.Namespace) -> int:
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
     return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+
+
+def _driver_setting(text: str) -> tuple[str, float]:
+    """``NAME=VALUE`` with a number, or one with a unit where that of the name is known."""
+    name, value = name_and_text(text)
+    return name, quantity(unit_of(name) or unit_of(f"vehicle.{name}") or "")(value)
 
 
 def _words(name: str) -> str:

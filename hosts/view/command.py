@@ -13,6 +13,7 @@ from pathlib import Path
 from ali3.decimal_number import number
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
+from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
 
@@ -60,7 +61,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(shown, "--to", dest="end")
     shown.add_argument("--most", type=int, default=5001, metavar="N", help="times in the page at most; default: 5001")
     shown.add_argument("--camera", metavar="NAME", help="camera at the start, and of pictures")
-    shown.add_argument("--at", type=number, metavar="T", help="time at the start, and of the picture, s")
+    shown.add_argument("--at", type=quantity("s"), metavar="T", help="time at the start, and of the picture, s")
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")
     shown.add_argument("--deformation", type=number, metavar="N", help="deformations are drawn N times; default: 1")
     shown.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at, and no page")

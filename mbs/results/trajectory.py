@@ -302,7 +302,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         TableError
             The file cannot be read, or a heading or a value is not what `to_csv` writes; the message names the line.
         """
-        table = TextTable(path, TableError, units=True)
+        table = TextTable(path, TableError, known=("time",), units=True)
         names = table.names[1:]
         if table.names[0] != "time" or table.units.get("time") != "s":
             raise TableError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")

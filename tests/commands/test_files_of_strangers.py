@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import io
 import os
+import pickle
 import random
 import shutil
 import signal
@@ -245,6 +246,23 @@ def _places() -> dict[str, Callable[[Path, bytes], Any]]:
         "one line": lambda path, _: path.write_bytes(b"a" * 11_000_000),
         "cut": lambda path, good: path.write_bytes(good[: len(good) // 2]),
     }
+
+
+TABLES = [kind for kind, (name, _, good, _) in KINDS.items() if name.endswith(".csv") and not good.startswith("0,")]
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_a_heading_that_is_a_comment_keeps_its_meaning(tmp_path: Path, kind: str) -> None:
+    """Nothing that a table says is passed over: it is read the same, or refused."""
+    name, _, good, read = KINDS[kind]
+    found = []
+    for mark in ("", "# "):
+        (tmp_path / name).write_text(mark + good.replace("@", "1"))
+        try:
+            found.append(pickle.dumps(read(tmp_path / name)))
+        except (UserError, ValueError) as error:
+            found.append(str(error).encode())
+    assert found[0] == found[1]
 
 
 class _Late(BaseException):

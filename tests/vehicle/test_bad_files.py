@@ -311,7 +311,7 @@ def test_a_file_with_a_byte_order_mark_is_read(copied):
     assert load(file).name == "prototype"
 
 
-@pytest.mark.parametrize("name", ["", "protoype", "/nowhere/car.toml", "a\0b", "x" * 5000, "..."])
+@pytest.mark.parametrize("name", ["", "/nowhere/car.toml", "a\0b", "x" * 5000, "..."])
 def test_names_of_no_car(name):
     with pytest.raises(CarFileError, match=r"^There is no car '.*the cars of the package are .*prototype, saloon\.$"):
         load(name)

@@ -29,7 +29,9 @@ def page(found: Kinematics, gives: Compliance) -> str:
             (line if any(line[1:]) else line[:1] for line in (*rows(found), *compliance_rows(gives))),
         ),
     ]
-    for figure in (travel_figure(found, "front"), travel_figure(found, "rear"), steer_figure(found)):
+    figures = [travel_figure(found, axle) for axle, motion in found.curves if motion == "parallel"]
+    figures += [steer_figure(found) for _, motion in found.curves if motion == "steer"]
+    for figure in figures:
         parts.append(picture(_png(figure), figure.get_suptitle()))
     return document(title, parts)
 

@@ -105,6 +105,14 @@ def test_the_line_of_units_may_stand_above_that_of_the_names(fmu: AliasedFmu, tm
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
 
 
+@pytest.mark.parametrize("head", ["# time,pull,bob.x\n# s,kN,m\n", "time,pull,bob.x\n#s,kN,m\n"])
+def test_names_and_units_may_be_comments(fmu: AliasedFmu, tmp_path: Path, head: str) -> None:
+    log = read(fmu, tmp_path, head + rows("{t},{f},{x}"))
+    assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
+    remark = read(fmu, tmp_path, "#by,A.,Smith\ntime,pull,bob.x\n" + rows("{t},{f},{x}"))
+    assert remark.inputs["pull"].values == pytest.approx(0.5 * np.arange(ROWS))
+
+
 def test_factor_and_offset_are_those_of_other_alias_files(fmu: AliasedFmu, tmp_path: Path) -> None:
     """The number in the log is factor * ours + offset, as in the alias file of an FMU."""
     log = read(
