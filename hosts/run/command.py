@@ -83,7 +83,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.recordings.asked_manoeuvre import manoeuvre_of
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
-    from hosts.run.run_summary import energy_balance, summary
+    from hosts.run.run_summary import energy_balance, pace, summary
 
     path, known = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
@@ -131,7 +131,8 @@ def _run(options: argparse.Namespace) -> int:
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
-    return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+    printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
+    return print_result(printed, result, (table, picture, record))
 
 
 def _words(name: str) -> str:
