@@ -63,7 +63,9 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
     recording = Recording(scene, time, columns, drive.meta["units"], name, rows.epoch)
     kinds = [event["kind"] for event in drive.events]
-    jumps = [f"{kind} {kinds.count(kind)} times" for kind in ("reset", "rewind", "upright") if kind in kinds]
+    done = {"reset": "reset", "rewind": "rewound", "upright": "set upright"}
+    counts = {words: kinds.count(kind) for kind, words in done.items() if kind in kinds}
+    jumps = [f"{words} {'once' if count == 1 else f'{count} times'}" for words, count in counts.items()]
     if jumps:
         recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
     return recording, told

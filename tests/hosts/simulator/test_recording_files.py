@@ -298,7 +298,7 @@ def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], 
     assert len(recording.t) == 183
     assert recording.t[-1] == pytest.approx(1.73)
     assert np.all(np.diff(recording.t) >= 0.0)
-    assert "reset 2 times, rewind 6 times, upright 1 times" in recording.notes[-1]
+    assert "reset 2 times, rewound 6 times, set upright once" in recording.notes[-1]
     meta = json.loads((folder / "recording.json").read_text())
     (folder / "recording.json").write_text(json.dumps(meta | {"fmu": "gone.fmu"}))
     with pytest.raises(HostError, match="gone.fmu, which is not there any more; name it by --geometry FMU"):
