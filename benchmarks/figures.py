@@ -31,11 +31,11 @@ from benchmarks.car import (
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_table
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
+from benchmarks.charts_again import charts
 from benchmarks.methods import honesty, naive, pages, stability, stability_margins
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.paper.pages import four_bar_blocks, puma_blocks
-from benchmarks.shared.charts_again import charts
 from benchmarks.shared.command import watched
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
 from benchmarks.shared.pages import DOCS, table

@@ -8,9 +8,8 @@ import pytest
 
 from ali3.chart_words import description_of
 from ali3.charts import save_picture
-from benchmarks import figures
+from benchmarks import charts_again, figures
 from benchmarks.pages import PAGES
-from benchmarks.shared import charts_again
 from benchmarks.shared.figures import Again, between, differences, read, rows_of, same, written
 from benchmarks.shared.pages import DOCS
 from hosts.run.plot_panels import table_of
