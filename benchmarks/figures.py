@@ -1,8 +1,9 @@
 """Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT] [--write]``.
 
 Counts and errors of a part of the tables are made again, in a minute or two; times are not compared. Each difference is
-a sentence with the page, the table, the row and both figures, and the exit code is 1. What the whole commands measure
-is written into the pages by `python -m benchmarks.pages`; tables that no other command makes are with ``--write``.
+a sentence with the page, the table, the row and both figures, and the exit code is 1. Charts that are drawn in seconds
+are drawn again, and their words compared: titles, axes, curves, summaries. What the whole commands measure is written
+into the pages by `python -m benchmarks.pages`; tables that no other command makes, and these charts, with ``--write``.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from benchmarks.car import (
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_table
 from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
+from benchmarks.charts_again import charts
 from benchmarks.methods import honesty, naive, pages, stability, stability_margins
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
@@ -280,6 +282,7 @@ def others_tests() -> list[Again]:
 
 
 WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
+    "charts": charts,
     "elements": elements,
     "bending": bending,
     "flexible hatchback": flexible_hatchback,
@@ -287,7 +290,7 @@ WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
     "start values": start_values,
     "naive": naive_sizes,
 }
-"""Tables that no other command writes; in whole with ``--write``, else a quick part of them."""
+"""Charts, and tables that no other command writes; in whole with ``--write``, else a quick part of them."""
 MADE: dict[str, Callable[[], list[Again]]] = {
     "Table 1": paper_table_1,
     "Table 2": paper_table_2,
@@ -325,11 +328,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     made = [again for make in watched(chosen) for again in make()]
     if options.write:
         for again in made:
-            write_text(DOCS.parent / again.page, written(again, read(again.page)))
-        print(f"{len(made)} tables written")
+            if again.picture:
+                (DOCS.parent / again.page).write_bytes(again.picture)
+            else:
+                write_text(DOCS.parent / again.page, written(again, read(again.page)))
+        print(f"{len(made)} tables and charts written")
         return 0
     said = all_differences(made)
-    print("\n".join(said) or f"{len(made)} tables and sentences of the pages are as they are made now.")
+    print("\n".join(said) or f"{len(made)} tables, sentences and charts of the pages are as they are made now.")
     return 1 if said else 0
 
 

@@ -108,7 +108,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 row: dict[str, Any] = {"drive": name, "fidelity": fidelity, "step_ms": ms, "limit": limit}
                 rows.append(row | summary(costs, 1e-3 * ms) | replay.measure(costs, 1e-3 * ms))
         if options.fall is not None:
-            save_chart(limited_fall.chart(_falls(fmu)), options.fall)
+            save_chart(limited_fall.chart(falls(fmu)), options.fall)
     print_table(rows, COLUMNS)
     print(f"\n{WORDS}")
     if counter() is None:
@@ -119,7 +119,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _falls(fmu: Path) -> dict[int, list[limited_fall.Fall]]:
+def falls(fmu: Path) -> dict[int, list[limited_fall.Fall]]:
     """Runs by fidelity in steps of 2 ms, the first without a limit."""
     found = {f: [limited_fall.fall(fmu, f, 2e-3, limit) for limit in (0, *LEFT[f])] for f in LEFT}
     for fidelity, runs in found.items():

@@ -56,7 +56,7 @@ def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
         "name": recording.name,
         "scene": scene,
         "count": len(recording.t),
-        "time": block({"time": recording.t}, "f8"),
+        "time": block({"time": recording.t, "epoch": recording.epoch}, "f8"),
         "blocks": [block(columns, kind) for columns, kind in ((fine, "f8"), (rough, "f4")) if columns],
         "units": recording.units,
         "order": list(recording.columns),

@@ -34,6 +34,9 @@ class Recording:
         Of the columns.
     name : str
         Of the run; by default that of the scene.
+    epoch : array of shape (n,), optional
+        Whole numbers, another one where the motion begins anew, as at a reset: nothing is drawn from one to the next.
+        By default it is one motion.
 
     Attributes
     ----------
@@ -60,11 +63,13 @@ class Recording:
         columns: Mapping[str, ArrayLike],
         units: Mapping[str, str] | None = None,
         name: str = "",
+        epoch: ArrayLike | None = None,
     ) -> None:
         if scene is not None:
             check_scene(scene)
         self.name = name or (str(scene["name"]) if scene is not None else "run")
         self.t = _times(t)
+        self.epoch = np.zeros(len(self.t)) if epoch is None else _column("epoch", epoch, len(self.t))
         self.columns = {str(key): _column(str(key), values, len(self.t)) for key, values in columns.items()}
         self.units = {key: str((units or {}).get(key, "")) for key in self.columns}
         self.scene: dict[str, Any] | None = None
@@ -99,15 +104,15 @@ class Recording:
         count = len(self.t)
         if count <= most:
             return self
-        kept = chosen_times(self.t, int(most))
+        kept = chosen_times(self.t, int(most), self.epoch)
         made = object.__new__(Recording)
         made.name, made.scene, made.units, made.missing = self.name, self.scene, self.units, self.missing
-        made.t = self.t[kept]
+        made.t, made.epoch = self.t[kept], self.epoch[kept]
         made.columns = {name: values[kept] for name, values in self.columns.items()}
         span = float(self.t[-1] - self.t[0])
         note = f"{len(kept)} of {count} times are shown, one every {span / (len(kept) - 1):.2g} s."
         if self.scene is not None:
-            note += largest_gap_of_motion(self.scene, self.t, self.columns, kept)
+            note += largest_gap_of_motion(self.scene, self.t, self.columns, kept, self.epoch)
         made.notes = [*self.notes, note]
         return made
 
@@ -133,6 +138,7 @@ class Recording:
         made = object.__new__(Recording)
         made.__dict__ |= self.__dict__ | {
             "t": self.t[kept],
+            "epoch": self.epoch[kept],
             "columns": {name: values[kept] for name, values in self.columns.items()},
             "notes": list(self.notes),
         }

@@ -8,13 +8,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ali3.files import whole_file
 from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.tables import write_json
 from mbs.common.progress import DELAY, progress_for
 
 T = TypeVar("T")
-DPI = 110
 
 
 def parser_of(name: str, text: str | None, *, json: bool = True, chart: str | None = None) -> argparse.ArgumentParser:
@@ -61,9 +59,9 @@ def pyplot() -> Any:
 
 def save_chart(figure: Any, file: Path) -> None:
     """Write a figure as PNG, say where, and close it; the same figure gives the same bytes with the same Matplotlib."""
-    with whole_file(file) as made:
-        figure.savefig(made, dpi=DPI, metadata={"Software": None})
-    pyplot().close(figure)
+    from ali3.charts import save_picture
+
+    save_picture(figure, file)
     print(f"written: {file}")
 
 

@@ -73,11 +73,6 @@ class RecordedDrive:
         """Of each column, how many steps lie between two of its values."""
         return list(self.meta["every"])
 
-    @property
-    def left_out(self) -> list[str]:
-        """Outputs that are not recorded."""
-        return list(self.meta["left_out"])
-
     def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
         """Which values of rows are recorded. `epoch_before`: of the row before the first of these; None: there is none.
 
@@ -206,11 +201,9 @@ def read_recording(folder: Path) -> RecordedDrive:
         if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
             raise HostError(f"{file} does not say the {key} of the recording.")
     every = meta.get("every")
-    if not isinstance(every, list) or not all(isinstance(k, int) and k > 0 for k in every):
-        raise HostError(f"{file} does not say by 'every' how many steps lie between two values of a column.")
-    names = meta.get("left_out")
-    if len(every) != len(meta["columns"]) or not isinstance(names, list) or not all(isinstance(n, str) for n in names):
-        raise HostError(f"{file} does not say by 'every' and 'left_out' what of the columns is recorded.")
+    known = isinstance(every, list) and len(every) == len(meta["columns"])
+    if not known or not all(isinstance(k, int) and k > 0 for k in every):
+        raise HostError(f"{file} does not say by 'every' of each column how many steps lie between two of its values.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     events = _events(folder / EVENTS)
     count = meta.get("events")

@@ -85,7 +85,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.recordings.load_manoeuvre import check_asked
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
-    from hosts.run.run_summary import energy_balance, summary
+    from hosts.run.run_summary import energy_balance, pace, summary
 
     check_asked(options.manoeuvre)
     path, known = fmu_file(options.fmu), dict(options.driver)
@@ -135,7 +135,8 @@ def _run(options: argparse.Namespace) -> int:
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
-    return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+    printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
+    return print_result(printed, result, (table, picture, record))
 
 
 def _driver_setting(text: str) -> tuple[str, float]:

@@ -33,7 +33,7 @@ _ERROR = "solver.energy_error"
 
 
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
-    """Rows of the summary table; those whose variables the FMU lacks are left out.
+    """Rows of the summary table; those whose variables the FMU lacks are left out. The same run has the same rows.
 
     `step`: communication step, s; `course`: rows of `course_result`, where a driver followed a course.
     Returns what and how much.
@@ -89,14 +89,14 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
     rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))
-    factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
-    rows.append(
-        (
-            "real-time factor",
-            f"{factor:.1f} ({result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms)",
-        )
-    )
     return rows
+
+
+def pace(result: Result, step: float) -> tuple[str, str]:
+    """How fast this machine was, as a row of the summary table; no picture has it. `step`: as for `summary`."""
+    factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
+    took = f"{result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms"
+    return "real-time factor", f"{factor:.1f} ({took})"
 
 
 def energy_balance(result: Result) -> list[tuple[str, str]]:

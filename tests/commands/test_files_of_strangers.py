@@ -174,7 +174,7 @@ def _rows(path: Path) -> list[Any]:
     """Reads a recording of which one file is the stranger's."""
     good = {
         "recording.json": '{"format": "ALi3 recording", "version": 2, "fmu": "a.fmu", "guid": "", "inputs": 1, '
-        '"step": 0.01, "start": {}, "columns": ["u"], "every": [1], "left_out": [], "units": {}, "closed": true}',
+        '"step": 0.01, "start": {}, "columns": ["u"], "every": [1], "units": {}, "closed": true}',
         "inputs_outputs.csv": "time,count,epoch,u\n0,0,0,1\n",
     }
     if path.suffix == ".parquet":

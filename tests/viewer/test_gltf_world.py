@@ -110,6 +110,18 @@ def test_paths_lie_where_the_run_has_been(written):
     assert wheel.vertices[:, 1].mean() == pytest.approx(-1.75, abs=1e-6)
 
 
+def test_paths_end_at_a_reset(tmp_path):
+    """Half-way the body is put 40 m aside."""
+    recording = run(roads=[], scenery=[])
+    recording.columns["body.y"] = np.where(T > 2.0, 38.0, -2.0)
+    recording.epoch = np.where(T > 2.0, 1.0, 0.0)
+    path = write_gltf(tmp_path / "reset.glb", recording).path
+    for name in ("path", "path wheel"):
+        (band,) = parts(path, name)
+        assert np.ptp(band.triangles[..., 1], axis=1).max() < 1.0
+        assert band.vertices[:, 1].min() < -1.5 < 38.0 < band.vertices[:, 1].max()
+
+
 def test_what_is_left_out_is_said(written, tmp_path):
     notes = " ".join(written.notes)
     assert "things of the scenery are left out" in notes

@@ -135,6 +135,7 @@ class _Writer:
         span = float(t[-1])
         looked = kept_times(t, max(2.0 * rate, min(8.0 * rate, _LOOKED_AT / span)) if span > 0.0 else rate)
         self._t: Vectors = t[looked]
+        self._epoch = recording.epoch[looked]
         self._speed = speed
         self._columns: Mapping[str, NDArray[Any]] = {name: values[looked] for name, values in recording.columns.items()}
         self.parts = Parts(FramePoses(scene, self._columns, len(self._t)), scene)
@@ -182,7 +183,7 @@ class _Writer:
         self.parts.fixed += [(GROUND, kind, meshes) for kind, meshes in kinds.items()]
         if left_out:
             self.parts.notes.append(f"{left_out} things of the scenery are left out; the others stand by the way.")
-        paths = path_solids(self._scene, self.parts.poses, self._up)
+        paths = path_solids(self._scene, self.parts.poses, self._up, self._epoch)
         self.parts.fixed += [(GROUND, name, [(band, look)]) for name, band, look in paths]
 
     def _add_terrain(self, road: Mapping[str, Any], axes: Vectors, near: Vectors, far: Vectors) -> None:

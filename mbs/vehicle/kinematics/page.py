@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING
 
+from ali3.chart_words import png_metadata
 from ali3.html_elements import document, element, picture, table
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance import Compliance
@@ -38,5 +39,5 @@ def page(found: Kinematics, gives: Compliance) -> str:
 
 def _png(figure: Figure) -> bytes:
     out = io.BytesIO()
-    figure.savefig(out, format="png", dpi=110)
+    figure.savefig(out, format="png", dpi=110, metadata=png_metadata(figure))
     return out.getvalue()
