@@ -235,6 +235,8 @@ def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) ->
         if not start.good or start.open > EXACT:
             return None
         more = motion(loops, close(loops, start.places, share, g), share, g, seed)
+        if not more:
+            return None
         if max(c.open for c in more) <= EXACT:
             return Found(g, start)
         positions = positions + more
