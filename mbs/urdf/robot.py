@@ -117,7 +117,7 @@ def read_urdf(
     _place(robot, below, at)
     groups = _groups(below)
     massless = _bodies(robot, urdf, groups, None if floating else groups[next(iter(below))], file.name)
-    if not robot.model.bodies:
+    if not robot.model.bodies and not massless:
         raise ModelError(f"{file.name}: no link of it moves against the root, which is fixed; floating=True frees it.")
     lines = {name: (robot.poses[j.child][:3, 3], robot.poses[j.child][:3, :3] @ _axis(j)) for name, j in joints.items()}
     try:

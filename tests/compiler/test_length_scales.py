@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import PPoly
 from scipy.special import ellipk
 
-from mbs import Model, ModelError, compile, simulate
+from mbs import Model, ModelError, Simulation, compile, simulate
 from mbs.scenes import slider_crank
 
 SIZES = [1e-9, 1e-7, 1e-6, 1.0, 1e3, 1e5]
