@@ -20,7 +20,7 @@ DROP = 1e-12
 VANISHED = 1e-10
 """A row of which nothing is larger than this part of what was added up, or of its largest ever, is none; far from the
 origin more is left."""
-OF_ERROR = 10.0
+OF_ERROR = 50.0
 """How many times the error of a drawing may be left of a row that follows from others."""
 
 
