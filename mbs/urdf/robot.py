@@ -89,7 +89,8 @@ def read_urdf(
     Warns
     -----
     UrdfWarning
-        Of friction, and of damping of sliding joints, which the model has not.
+        Of friction, of damping of sliding joints, of hinges that became a universal or ball joint, and of inertias
+        that were corrected.
     """
     file = Path(path)
     urdf = _read(file)
