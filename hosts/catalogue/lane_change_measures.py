@@ -84,8 +84,8 @@ class Passage:
     def at(self, quantity: str, x: float) -> float:
         """Value of an output when the car's front is at a place of the course; NaN if it is not there."""
         front = self.place[0] + 0.5 * self.size[0]
-        k = int(np.argmax(front >= x))
-        return float(self.result[quantity][self.after][k]) if len(front) and front[k] >= x else math.nan
+        there = np.flatnonzero(front >= x)
+        return float(self.result[quantity][self.after][there[0]]) if len(there) else math.nan
 
 
 _LARGEST = (
