@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.near_names import did_you_mean
 from ali3.words import brief
+from hosts.common.angles import continuous
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.units import known_unit, unit_definition, unit_of
@@ -267,8 +268,8 @@ def _signal(
         values = (theirs.factor * values + theirs.offset - own.offset) / own.factor
     there = np.isfinite(values)
     t, values = time[there], values[there]
-    if unit == "rad" and len(values) and "yaw" in ours:
-        values = np.unwrap(values)
+    if unit == "rad" and variable.causality == "output":  # an input jumps where it is told to
+        values = continuous(values)
     return Signal(ours, column.name, unit, t, values)
 
 

@@ -118,7 +118,7 @@ def _evaluate(node: Node, result: Result) -> Array | float:
     """An array over time of a signal, a number of anything else."""
     name = signal_name(node)
     if name is not None:
-        return np.asarray(result.time if name == TIME and TIME not in result else result[name])
+        return np.asarray(result.time if name == TIME and TIME not in result else result.continuous(name))
     if isinstance(node, ast.Call):
         return _called(node, result)
     if isinstance(node, ast.UnaryOp):
