@@ -187,7 +187,7 @@ def test_bulk_data_that_cannot_be_used_are_refused(tmp_path: Path, deck: str, wo
 
 
 def test_grid_points_behind_tabs_and_replicated_ones(tmp_path: Path) -> None:
-    """A tab leads to the next field, of 8 or 16 columns; cards that are not used and lines before the bulk may differ."""
+    """A tab leads to the next field, of 8 or 16 columns; other cards and lines before the bulk may differ."""
     (tmp_path / "deck.bdf").write_text(
         "TITLE\t= TABS AND 12345678\t=\nBEGIN BULK\nCQUAD4\t12345678\t1\t1\n=\t*1\t=\t==\n=(2)\n"
         "GRID\t1\t\t1.5\t2.\t-3.\t0\nGRID*\t2\t\t0.123456789\t1.\t*\n*\t2.\nGRID    3       \t  4.\t5.\t6.\n"
