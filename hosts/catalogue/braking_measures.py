@@ -185,10 +185,10 @@ def _course(result: Result, first: int) -> list[Measure]:
         aside = turned = math.nan
         note = f"the car does not tell {missing}"
     else:
-        x, y, yaw = (result[n] for n in names)
+        x, y, yaw = (result.continuous(n) for n in names)
         heading = yaw[first]
         aside = float(-math.sin(heading) * (x[-1] - x[first]) + math.cos(heading) * (y[-1] - y[first]))
-        turned, note = float(np.unwrap(yaw)[-1] - np.unwrap(yaw)[first]), ""
+        turned, note = float(yaw[-1] - yaw[first]), ""
     return [
         Measure("deviation.lateral", aside, "m", text, note=note),
         Measure("deviation.yaw", turned, "rad", "change of the heading while braking, positive to the left", note=note),

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.record import Line, Plot
+from hosts.common.angles import angle_difference
 from hosts.common.wheels import WHEELS
 from hosts.driving.course import Course
 from hosts.driving.result import Result
@@ -44,11 +45,11 @@ class Passage:
         """x, y and yaw in the axes of the course since it has begun, of shape (m,)."""
         x0, y0, yaw0 = self.pose
         dx, dy = self.result["chassis.x"][self.after] - x0, self.result["chassis.y"][self.after] - y0
-        yaw = self.result["chassis.yaw"][self.after] - yaw0
+        yaw = angle_difference(self.result["chassis.yaw"][self.after], yaw0)
         return (
             math.cos(yaw0) * dx + math.sin(yaw0) * dy,
             math.cos(yaw0) * dy - math.sin(yaw0) * dx,
-            np.arctan2(np.sin(yaw), np.cos(yaw)),
+            yaw,
         )
 
     @cached_property

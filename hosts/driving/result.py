@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.angles import continuous
 from hosts.common.numbers import Value
 
 
@@ -58,3 +59,10 @@ class Result:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         return np.asarray(self.values[:, self.names.index(name)])
+
+    def continuous(self, name: str) -> NDArray[np.float64]:
+        """A signal; of runs that were put one after the other each, an angle (rad) without jumps by whole turns."""
+        values = self[name]
+        if self.units.get(name) != "rad":
+            return values
+        return np.concatenate([continuous(part) for part in np.split(values, self.starts[1:])])

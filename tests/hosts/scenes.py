@@ -53,6 +53,20 @@ def tuned() -> mbs.Model:
     return m
 
 
+def turntable() -> mbs.Model:
+    """A disc that a torque turns against a damper; its heading is wrapped."""
+    m = mbs.Model("turntable", dimension=2, gravity=(0.0, 0.0))
+    disc = m.body("chassis", mass=2.0, com=(0.0, 0.0), inertia=1.0)
+    m.revolute("axle", m.ground, disc, point=(0.0, 0.0))
+    angle = m.relative_angle("turned", m.ground, disc)
+    damper = m.torsional_spring_damper("damper", angle, stiffness=0.0, damping=1.0)
+    m.torque("motor", disc, inputs=m.input("pull", min=-50.0, max=50.0, unit="N.m"))
+    m.parameter("damping", 1.0, 0.1, 10.0, "N.m.s/rad", targets=[(damper, "damping", 1.0)])
+    m.sense_angle("chassis.yaw", disc, "yaw")
+    m.sense_rotation("chassis.wz", disc, order=1)
+    return m
+
+
 def switched() -> mbs.Model:
     """An input that is a whole number beside one that is not, and what the model sees of them."""
     m = mbs.Model("switched", dimension=2, gravity=(0.0, 0.0))

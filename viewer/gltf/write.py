@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
 _LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
+_NEAR = 1000.0  # m from the origin: single precision is then within 0.03 mm
 _AROUND = 60.0  # m: what of a world is drawn beside the way
 _FAR = 2e-3  # of the size of the scene: what a reader would see
 _ROAD = Look("road", (0.08, 0.08, 0.085, 1.0), 0.0, 0.9)
@@ -50,11 +52,12 @@ def write_gltf(
 ) -> WrittenGltf:
     """Write the motion of a recording as a glTF 2.0 file with shapes, materials and one animation.
 
-    Lengths are in metres and y is up, as glTF has it. The node of a frame has its name and moves with it; time 0 is the
-    first of the recording. Motion is linear between the times, rotations go along great arcs. Flexible parts move by
-    morph targets and have the colours of their stress at the time when it is largest, because glTF has no colours over
-    time. Roads, scenery and the whole path are there as far as they are near the way. Arrows, plots, ghosts, marks and
-    cameras are not in the file.
+    Lengths are in metres and y is up, as glTF has it. The node of a frame has its name and moves with it; time 0 is
+    the first of the recording. Farther than 1 km from the origin places are relative to one near the motion, which a
+    note tells and the extras of the scene and of its first node have as ``origin``: earth axes, m. Motion is linear
+    between the times, rotations go along great arcs. Flexible parts move by morph targets and have the colours of
+    their stress at the time when it is largest, because glTF has no colours over time. Roads, scenery and the whole
+    path are there as far as they are near the way. Arrows, plots, ghosts, marks and cameras are not in the file.
 
     Parameters
     ----------
@@ -151,6 +154,17 @@ class _Writer:
         self._root = self.document.node(f"scene {recording.name}" if taken else recording.name, None)
         self.document.place(self._root, "rotation", turn)
         self._begin = float(recording.t[0])
+        self._origin = self._middle()
+        if self._origin.any():
+            self.document.tell_origin(self._root, self._origin)
+
+    def _middle(self) -> Vectors:
+        """What is taken from all places in earth axes, m: whole metres, and 0 near the origin."""
+        places = [self.parts.poses.of(name).position for name in self._scene["frames"]] or [np.zeros((1, 3))]
+        every = np.vstack(places)
+        if np.abs(every).max() < _NEAR:
+            return np.zeros(3)
+        return np.asarray(np.round(0.5 * (every.min(axis=0) + every.max(axis=0))))
 
     def add_shapes(self, deformation: float) -> None:
         for shape in self._scene["shapes"]:
@@ -200,10 +214,13 @@ class _Writer:
         for name in [*(frame for frame, _, _ in self.parts.fixed), *(part["frame"] for part, _ in self.flexible)]:
             self._frame(name)
         for name, motion, meshes in self.parts.free:
+            motion.position = motion.position - self._origin
             node = self.document.node(name, self._root, self.document.mesh(name, meshes))
             motion.reach = _corners([solid.positions for solid, _ in meshes])
             self._count(self._animate(node, motion))
         for frame, name, meshes in self.parts.fixed:
+            if frame == GROUND:
+                meshes = [(replace(solid, positions=solid.positions - self._origin), look) for solid, look in meshes]
             self.document.node(name, self._frame(frame), self.document.mesh(name, meshes))
         for part, deformation in self.flexible:
             self._write_flexible(part, deformation)
@@ -211,6 +228,12 @@ class _Writer:
     def notes(self) -> list[str]:
         """What there is to say of the file."""
         made = list(self.parts.notes)
+        if self._origin.any():
+            x, y, z = self._origin
+            made.append(
+                f"Places are relative to x = {x:.0f} m, y = {y:.0f} m, z = {z:.0f} m, for numbers of a glTF file have "
+                "seven digits; the extras of the scene and of its first node have them as origin."
+            )
         if self._begin != 0.0:
             made.append(f"Time 0 of the file is {self._begin:g} s of the recording.")
         if self._speed != 1.0:
@@ -240,6 +263,8 @@ class _Writer:
             parent = self._frame(frame["parent"])
             before = self._frame_errors[frame["parent"]]
             self._relative(motion, frame)
+        if name != GROUND and frame.get("parent", GROUND) == GROUND:
+            motion.position = motion.position - self._origin
         reach = [s.positions for frame_name, _, meshes in self.parts.fixed if frame_name == name for s, _ in meshes]
         reach += [np.array(part["nodes"], dtype=float) for part, _ in self.flexible if part["frame"] == name]
         motion.reach = _corners(reach) if reach else motion.reach
@@ -266,7 +291,8 @@ class _Writer:
         """Give a node its motion; what does not change is written once. Its largest errors, m and rad."""
         track = thinned(motion, self._t, self._rate)
         self._write_track(node, track)
-        return largest_errors(motion, track, self._t)
+        written = replace(track, position=np.float32(track.position).astype(float))
+        return largest_errors(motion, written, self._t)
 
     def _write_track(self, node: int, track: Track) -> None:
         for path, values in (("translation", track.position), ("rotation", track.quaternion), ("scale", track.scale)):

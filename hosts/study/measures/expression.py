@@ -105,7 +105,7 @@ class Expression:
         for signal in sorted(self.signals):
             if signal not in result:
                 raise HostError(f"The run has no signal '{signal}'.")
-            values = np.asarray(result[signal], dtype=float)
+            values = np.asarray(result.continuous(signal), dtype=float)
             wrong = ~np.isfinite(values)
             if wrong.any():
                 first = int(wrong.argmax())
