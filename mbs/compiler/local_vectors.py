@@ -11,6 +11,8 @@ from mbs.common.checks import Vector
 from mbs.model.body import Body
 
 SAME = 1e-9
+SHORT = 1e-3
+"""Points of a body nearer than this part of its length give no direction: their round-off would be that of the body."""
 
 
 def body_length(body: Body) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.affine import Affine
-from mbs.compiler.local_vectors import body_length, distinct
+from mbs.compiler.local_vectors import SHORT, body_length, distinct
 from mbs.model.body import Body
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.mechanism import Mechanism
@@ -82,7 +82,8 @@ def choose(body: Body) -> list[Choice]:
     axes = distinct([size * u for u in body.joint_axes], opposites=True)
     if not points or len(points) + len(axes) > MANY:
         return frame
-    items = [*(w - points[0] for w in points[1:]), *axes]
+    apart = [w - points[0] for w in points[1:]]
+    items = [*(w for w in apart if np.linalg.norm(w) > SHORT * size), *axes]
     chosen: list[Choice] = [("p", 1.0, points[0])]
     for item in [*((f"v{n}", 0.0, w) for n, w in enumerate(items)), *frame[1:]]:
         trial = [*chosen, item]

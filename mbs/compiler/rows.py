@@ -14,7 +14,7 @@ import numpy as np
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector
-from mbs.compiler.local_vectors import body_length, distinct
+from mbs.compiler.local_vectors import SHORT, body_length, distinct
 from mbs.compiler.polynomial import Polynomial, RowTerms, add_product, cleaned, substitute
 from mbs.model.body import Body
 
@@ -35,7 +35,7 @@ def candidates(body: Body) -> list[Vector]:
     found += [size * u for u in body.joint_axes]
     points = distinct([np.zeros(body.dimension), *body.joint_points])[:MOST_POINTS]
     found += [p - q for k, p in enumerate(points) for q in points[:k]]
-    return [w for w in found if hypot(*w.tolist()) > 1e-6 * size]
+    return [w for w in found if hypot(*w.tolist()) > SHORT * size]
 
 
 def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:

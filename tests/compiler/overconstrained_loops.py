@@ -178,11 +178,12 @@ def scissor_lift(
     centre = scale * R @ np.array([0.8, height])
     plate = m.body("plate", mass=5.0, com=centre, inertia=scale**2)
     m.revolute("head", plate, down, point=at(0.0, height))
-    m.point_on_line("top", (up, at(1.6, height)), (plate, at(1.6, height)), axis=along(1.0, 0.0))
+    over = 0.0 if guide == "head" else 1.6  # a line through the head: its end there is the head's but for the drawing
+    m.point_on_line("top", (up, at(1.6, height)), (plate, at(over, height)), axis=along(1.0, 0.0))
     if guide == "line":
         m.point_on_line("guide", (plate, at(0.0, height)), (m.ground, at(0.0, 0.0)), axis=along(0.0, 1.0))
     else:
-        m.prismatic("guide", plate, m.ground, axis=along(0.0, 1.0), point=at(0.8, height))
+        m.prismatic("guide", plate, m.ground, axis=along(0.0, 1.0), point=at(0.0 if guide == "head" else 0.8, height))
     _sensors(m, plate, centre)
     return m
 
