@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentTypeError
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,12 +12,28 @@ from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.pages import table
 from mbs import Trajectory
-from mbs.common.errors import ModelError
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 from mbs.vehicle.levels import choice
 from mbs.vehicle.levels.choice import Choice
 
+STEPS = (0.01, 0.005, 0.002)  # s
+COLUMNS = {
+    "manoeuvre": "",
+    "fidelity": "",
+    "h_s": ".3f",
+    "coordinates": "d",
+    "rows": "d",
+    "modes": "d",
+    "moment": ".3f",
+    "moment_unfiltered": ".3f",
+    "motion": ".1e",
+    "wheel_load": ".3f",
+    "iterations_mean": ".2f",
+    "iterations_max": "d",
+    "us_per_step": ".0f",
+    "realtime_factor": ".1f",
+}
 COLOURS = {
     Fidelity.TABLE: "#999999",
     Fidelity.RIGID: "#222222",
@@ -37,14 +52,6 @@ REQUIRED = {
     "moments to 1 %": ("moment", 0.01),
 }
 STRESSES = ("moment", "moment_unfiltered")
-
-
-def fidelity_of(text: str) -> Fidelity:
-    """From an argument of a command: a number or a name."""
-    try:
-        return Fidelity.of(int(text) if text.isdigit() else text)
-    except ModelError as error:
-        raise ArgumentTypeError(str(error)) from error
 
 
 def modes_of(fidelity: Fidelity) -> int:

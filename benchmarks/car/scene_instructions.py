@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,8 +11,10 @@ import numpy as np
 
 from benchmarks.car import manoeuvres
 from benchmarks.shared.instructions import instructions
+from benchmarks.shared.pages import Row, table
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Simulation, System
+from mbs.kernel import build
 
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
 
@@ -25,6 +27,14 @@ class Scene(NamedTuple):
     steps: int
     system: Callable[[], System]
     manoeuvre: str = ""
+
+
+def compiled(folder: Path) -> Path:
+    """The program that repeats steps."""
+    program, what = folder / "run_system", "the program that repeats steps"
+    sources, include = [SOURCE, *build.sources(lanes=False)], (build.HERE / "include",)
+    build.compile_c(sources, build.host_target(), program, include=include, what=what, shared=False)
+    return program
 
 
 def command_of(scene: Scene, program: Path, folder: Path) -> list[str]:
@@ -68,3 +78,10 @@ def input_rows(manoeuvre: Manoeuvre, system: System, times: np.ndarray) -> np.nd
         signal = signals.get(entry["name"], entry["start"])
         columns.append(np.interp(times, *signal) if isinstance(signal, tuple) else np.full(len(times), signal))
     return np.array(columns, float).T
+
+
+def instruction_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """What a step costs in iterations, factorizations and instructions."""
+    lines = [r | {"step, ms": f"{r['step_ms']:g}"} for r in rows]
+    columns = {"scene": "", "step, ms": "", "iterations": ".3f", "factorizations": ".3f", "solves": ".2f"}
+    return {"instructions": table(lines, columns | {"instructions": ",d"})}
