@@ -1,4 +1,4 @@
-"""Error against time: ``python -m benchmarks.work_precision PART``: methods, tolerances, other engines, naive models."""
+"""Error against time: ``python -m benchmarks.work_precision PART``: methods, tolerances, other engines."""
 
 from __future__ import annotations
 

@@ -195,7 +195,8 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
     lines = []
     for kind in KINDS:
         for asked, controlled in (("fixed steps", False), ("tolerance", True)):
-            part = [r for r in rows if r["class"] == kind and r["cpu_s"] is not None and ("tol" in r["asked"]) == controlled]
+            mine = [r for r in rows if r["class"] == kind and r["cpu_s"] is not None]
+            part = [r for r in mine if ("tol" in r["asked"]) == controlled]
             if not part:
                 continue
             count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}

@@ -24,18 +24,18 @@ _FMU, _SIGNALS = 2.2e6, 20 * 100 * 8
 def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Tables by name, of those that were measured."""
     made: dict[str, str] = {}
-    runs = [r for r in rows if r["what"] == "runs"]
+    runs = [r for r in rows if r["table"] == "runs"]
     car, spring = ([_shown(r) for r in runs if r["case"] == case] for case in ("car", "spring"))
     if car:
         columns = {"workers": "d", "runs": ",d", "run, s": ".4f", "runs/s": ".2f", "chunks": ",d"}
         columns |= {"overhead, ms/run": ".2f", "overhead": ".2%", "bytes/run": ".0f", "parts": "d", "failed": "d"}
-        loop = next((r for r in rows if r["what"] == "loop"), None)
+        loop = next((r for r in rows if r["table"] == "loop"), None)
         alone = f"\n\nThe same runs in a plain loop without Dask take {loop['run_s']:.4f} s each." if loop else ""
         made["study overhead"] = table(car, columns) + alone
     if spring:
         columns = {"runs": ",d", "main before, MB": ".0f", "main at most, MB": ".0f", "main, ms/run": ".3f"}
         columns |= {"worker, MB": ".0f", "bytes/run": ".0f", "parts": "d", "start again, s": ".1f"}
-        again = {r["runs"]: r["start_s"] for r in rows if r["what"] == "start again"}
+        again = {r["runs"]: r["start_s"] for r in rows if r["table"] == "start again"}
         made["study memory"] = table([r | {"start again, s": again.get(r["runs"])} for r in spring], columns)
     single = _single(rows)
     if single:
@@ -60,10 +60,10 @@ def _shown(row: Row) -> dict[str, Any]:
 def _single(rows: Sequence[Row]) -> list[dict[str, Any]]:
     found = []
     for r in rows:
-        if r["what"] == "plan":
+        if r["table"] == "plan":
             line = {"what": f"plan, {r['method'].replace('_', ' ')}", "number": r["runs"], "ms each": r["main_ms"]}
             found.append(line | {"in all, s": r["start_s"], "MB": r["main_mb"]})
-        elif r["what"] == "rows":
+        elif r["table"] == "rows":
             number, written = r["runs"], 1e-3 * r["main_ms"] * r["runs"]
             found.append({"what": "rows written", "number": number, "ms each": r["main_ms"], "in all, s": written})
             seconds = r["found_s"]
@@ -72,7 +72,7 @@ def _single(rows: Sequence[Row]) -> list[dict[str, Any]]:
             )
             line = {"what": "rows opened by pandas", "number": number, "ms each": 1e3 * r["read_s"] / number}
             found.append(line | {"in all, s": r["read_s"], "MB": r["read_mb"]})
-        elif r["what"] == "empty tasks":
+        elif r["table"] == "empty tasks":
             line = {"what": "empty tasks, client and scheduler", "number": r["runs"], "ms each": r["main_ms"]}
             found.append(line | {"in all, s": r["elapsed_s"]})
     return found
@@ -90,11 +90,11 @@ def parts_of(seconds: float, rate: float) -> int:
 
 def _extrapolated(rows: Sequence[Row]) -> list[dict[str, str]]:
     """The arithmetic, with what was measured in it."""
-    springs = sorted((r for r in rows if r["what"] == "runs" and r["case"] == "spring"), key=lambda r: r["runs"])
-    car = max((r for r in rows if r["what"] == "runs" and r["case"] == "car"), key=lambda r: r["workers"])
-    written = next(r for r in rows if r["what"] == "rows")
-    task = next(r for r in rows if r["what"] == "empty tasks")["main_ms"]
-    plan = max((r for r in rows if r["what"] == "plan"), key=lambda r: r["main_mb"])
+    springs = sorted((r for r in rows if r["table"] == "runs" and r["case"] == "spring"), key=lambda r: r["runs"])
+    car = max((r for r in rows if r["table"] == "runs" and r["case"] == "car"), key=lambda r: r["workers"])
+    written = next(r for r in rows if r["table"] == "rows")
+    task = next(r for r in rows if r["table"] == "empty tasks")["main_ms"]
+    plan = max((r for r in rows if r["table"] == "plan"), key=lambda r: r["main_mb"])
     run, seconds = 0.1, 0.1 * RUNS / CORES
     rate, size = CORES / run, round(_CHUNK_S / run)
     tasks = rate / size

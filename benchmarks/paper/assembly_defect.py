@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.references.assembly_defect import COMPONENTS, ORIGIN, reference
+from benchmarks.references.assembly_defect import COMPONENTS, reference
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, table
 from benchmarks.shared.timing import best_time

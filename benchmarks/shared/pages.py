@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,20 @@ def table(rows: Sequence[Row], columns: Mapping[str, str]) -> str:
     head = [key.replace("_", " ") for key in columns]
     lines = [head, ["---"] * len(head)] + [[cell(r.get(k), f) for k, f in columns.items()] for r in rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def crossed(
+    rows: Sequence[Row],
+    name: Callable[[Row], str],
+    column: str,
+    cell: Callable[[Row], str],
+    title: str,
+) -> str:
+    """Rows by name, a column for each value of a key."""
+    lines: dict[str, dict[str, str]] = {}
+    for row in rows:
+        lines.setdefault(name(row), {title: name(row)})[row[column]] = cell(row)
+    return table(list(lines.values()), dict.fromkeys([title, *dict.fromkeys(r[column] for r in rows)], ""))
 
 
 def machine(meta: Row) -> str:

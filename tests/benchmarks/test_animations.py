@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from benchmarks import animations
-from benchmarks.paper.animations import ANIMATIONS, FPS, SIZE
+from benchmarks.pictures.animations import ANIMATIONS, FPS, SIZE
 from tests.in_browser import chromium_or_skip
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.paper.animations import ANIMATIONS
+from benchmarks.pictures.animations import ANIMATIONS
 from viewer.poses import FramePoses
 from viewer.recording import Recording
 

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.car import driven_worlds, fidelity_runs, manoeuvres
+from benchmarks.car import fidelity_runs, manoeuvres
+from benchmarks.pictures import driven_worlds
 from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
 from mbs.model.model import Model
