@@ -31,7 +31,6 @@ from benchmarks.car import (
     trajectories,
     trust,
 )
-from benchmarks.car.rig_chart import draw
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from mbs.vehicle import car_names, load
@@ -121,7 +120,6 @@ PARTS = {
         options={"cars": ([], "names, folders or files; by default all of the package that have links")},
         pages=("cars.md",),
         blocks=lambda rows: {"handling": measures.measure_table(rows)},
-        chart=lambda rows, file: draw({name: load(name) for name in measures.cars_of(rows)}, file),
     ),
     "trust": Part(
         "errors by steps in a period, by speed over a kerb, and of hard manoeuvres",

@@ -156,7 +156,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     return row
 
 
-def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
+def verdict(rows: Sequence[Row]) -> list[str]:
     """Per manoeuvre and for all: the largest step within the bounds, and its real-time factor."""
     lines, largest = [], []
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))

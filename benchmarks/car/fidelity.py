@@ -10,7 +10,7 @@ from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import NAMES, OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.figures import between, rows_of
-from benchmarks.shared.pages import table
+from benchmarks.shared.pages import Row, table
 from mbs import Trajectory
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
@@ -96,7 +96,7 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
     }
 
 
-def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
+def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> Choice:
     """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
     `rows`: of `measure`, or from a JSON file; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: on its error: a
@@ -107,7 +107,7 @@ def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> C
     return choice.cheapest(rows, {output: tolerance})
 
 
-def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
+def chart(rows: Sequence[Row], file: Path) -> None:
     """Stress and motion errors over time per step, one column per manoeuvre."""
     plt = pyplot()
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
@@ -151,7 +151,7 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     save_chart(figure, file)
 
 
-def choice_blocks(rows: Sequence[dict[str, Any]]) -> dict[str, str]:
+def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The cheapest fidelity and step for what is required of the flexible car."""
     lines = []
     for title, (output, tolerance) in REQUIRED.items():
@@ -181,7 +181,7 @@ def _error(output: str, value: float) -> str:
     return f"{1e3 * value:.1f} mm" if output == "motion" else f"{100.0 * value:.1f} %"
 
 
-def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
+def verdict(rows: Sequence[Row]) -> list[str]:
     """The cheapest fidelity for some outputs and tolerances."""
     lines = []
     for output, tolerance in REQUIRED.values():

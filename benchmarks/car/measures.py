@@ -215,14 +215,9 @@ def measure_rows(measured: Mapping[str, Mapping[str, float]]) -> list[dict[str, 
     ]
 
 
-def cars_of(rows: Sequence[Row]) -> list[str]:
-    """Cars that have a column."""
-    return [key for key in rows[0] if key not in ("measure", "unit", "usual", "meaning")]
-
-
 def measure_table(rows: Sequence[Row]) -> str:
     """The table of the page on cars."""
-    cars = cars_of(rows)
+    cars = [key for key in rows[0] if key not in ("measure", "unit", "usual", "meaning")]
     names = (r["measure"].replace("_", " ") + ("" if r["unit"] == "1" else f", {r['unit']}") for r in rows)
     lines = [row | {"measure": name} for row, name in zip(rows, names, strict=True)]
     return table(lines, {"measure": "", **dict.fromkeys(cars, ".2f"), "usual": ""})

@@ -2,8 +2,7 @@
 
 At each fidelity and step it is driven once without a limit of the iterations of a step and once with `LIMITS`; with all
 modes of its frame it makes the paper's kerb test too. Measured is processor time of the thread, which leaves out what
-others do in between; the worst steps are repeated from their saved states by a C program, and their instructions are
-counted where valgrind is installed.
+others do in between.
 """
 
 from __future__ import annotations
@@ -18,9 +17,7 @@ import fmpy
 
 from ali3.errors import UserError
 from benchmarks.car.step_costs import drive, summary
-from benchmarks.car.step_replay import REPEATS, Replay
 from benchmarks.car.wild_ground import write_ground
-from benchmarks.shared.instructions import counter
 from benchmarks.shared.pages import Row, table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
@@ -43,9 +40,7 @@ COLUMNS = {
     "p99_9_us": ".0f",
     "worst_us": ".0f",
     "worst_alone_us": ".0f",
-    "replayed_us": ".0f",
     "quarter_us": ".0f",
-    "instructions": ",d",
     "iterations": ".2f",
     "most_iterations": "d",
     "halvings": "d",
@@ -53,9 +48,8 @@ COLUMNS = {
     "residual_mm": ".2g",
     "refused": "d",
 }
-WORDS = f"""worst_alone_us: of steps that the system did not interrupt; replayed_us: the worst repeated, the least
-of {REPEATS} times; quarter_us: a quarter of the deadline; instructions: of the step with most iterations; capped: steps
-that ended at the limit; residual_mm: the largest that they left"""
+WORDS = """worst_alone_us: of steps that the system did not interrupt; quarter_us: a quarter of the deadline; capped:
+steps that ended at the limit; residual_mm: the largest that they left"""
 
 
 def measure(options: Namespace) -> list[dict[str, Any]]:
@@ -74,7 +68,6 @@ def measure(options: Namespace) -> list[dict[str, Any]]:
         cars = {WILD: options.fmu or _built(Path(folder))}
         if cases[-1][0] == KERB:
             cars[KERB] = _kerb(Path(folder))
-        replays = {name: Replay(car, Path(folder, f"unpacked {name}")) for name, car in cars.items()}
         for k, (name, fidelity, ms, limit) in enumerate(cases):
             start = {"fidelity": fidelity, "solver.step_iterations": limit, "road.file": str(road.resolve())}
             how = (start, options.seconds, targets) if name == WILD else ({}, kerb_test.DURATION, None)
@@ -83,9 +76,7 @@ def measure(options: Namespace) -> list[dict[str, Any]]:
                 lambda share, k=k: bar.update((k + share) / len(cases)),
             )
             row: dict[str, Any] = {"drive": name, "fidelity": fidelity, "step_ms": ms, "limit": limit}
-            rows.append(row | summary(costs, 1e-3 * ms) | replays[name].measure(costs, 1e-3 * ms))
-    if counter() is None:
-        print("valgrind is not installed: instructions were not counted")
+            rows.append(row | summary(costs, 1e-3 * ms))
     return rows
 
 

@@ -60,6 +60,12 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
     return {name: _table(name) for name in names}
 
 
+def blocks() -> dict[str, str]:
+    """The tables of the page by their marks."""
+    found = tables()
+    return {"car variables": overview(found)} | full(found)
+
+
 def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     """The variables of all cars in the order of the first, without repetition for wheels and axles."""
     merged: dict[tuple[str, str, str], Shown] = {}

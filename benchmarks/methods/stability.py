@@ -11,7 +11,7 @@ import mbs
 from benchmarks.baselines.run import METHODS as CLASSICAL
 from benchmarks.baselines.run import run
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY, suits
-from benchmarks.methods.stability_margins import SQUEEZED, margin_table, margins, said_of_the_default
+from benchmarks.methods.stability_margins import SQUEEZED, margin_table, margins
 from benchmarks.references.cases import CASES, SAMPLES, exact_of, size_of, system_of
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
@@ -195,12 +195,11 @@ def explain(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 def stability_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Margins of the default settings, and what became of the classical methods."""
-    found, counts = margins(rows), dict.fromkeys(OUTCOMES, "d")
+    counts = dict.fromkeys(OUTCOMES, "d")
     charts = (f"![{CASES[s].title}](images/stability_{s}.png)\n" for s in dict.fromkeys(r["scene"] for r in rows))
     return {
-        "margins": margin_table(found),
+        "margins": margin_table(margins(rows)),
         "classical": table(explain(rows), {"scene": "", "method": ""} | counts | {"first stop": ""}),
-        "default": said_of_the_default(found),
         "why": table([{"method": k, "why": v} for k, v in WHY.items()], {"method": "", "why": ""}),
         "stability charts": "\n".join(charts),
     }

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.methods.kernel_methods import TITLES
 from benchmarks.shared.pages import Row, table
 
 USUAL_STEP = 0.01  # s
@@ -71,33 +70,3 @@ def margin_table(margins: Sequence[Row]) -> str:
     decades = dict.fromkeys(("decades_below", "decades_above"), ".0f") | {"usual_h_s": ".0e"}
     decades |= dict.fromkeys(("usual_below", "usual_above"), ".0f")
     return table(margins, columns | decades)
-
-
-def said_of_the_default(margins: Sequence[Row]) -> str:
-    """What the margins say about the default method, in words."""
-    name = TITLES[mbs.Settings().method]
-    lines = [m for m in margins if m["method"] == name]
-    usual = {m["scene"]: USUAL_STEP * SQUEEZED.get(m["scene"], 1.0) for m in lines}
-    fine = [m for m in lines if (m["largest_fine_h_s"] or 0.0) > 0.999 * usual[m["scene"]]]
-
-    def worst(key: str, unit: str) -> str:
-        """The smallest value and its scenes."""
-        least = min(m[key] for m in fine)
-        scenes = [m["scene"] for m in fine if m[key] == least]
-        return f"{least:.2g}{unit} ({'all of them' if len(scenes) == len(fine) else ', '.join(scenes)})"
-
-    said = (
-        f"{name}, the default: fine with its default settings from the smallest step tried up to {USUAL_STEP:g} s (a "
-        f"hundredth of that for the squeezer) on {len(fine)} of {len(lines)} scenes."
-    )
-    if fine:
-        said += (
-            f" At that step the first eps that is not fine is {worst('usual_below', ' decades')} or more below the "
-            f"default and {worst('usual_above', ' decades')} or more above; over all fine steps together "
-            f"{worst('decades_below', '')} and {worst('decades_above', '')}."
-        )
-    reach = {m["scene"]: m["largest_fine_h_s"] for m in lines if m not in fine}
-    small = [f"{scene} (up to {h:.2g} s)" for scene, h in reach.items() if h is not None]
-    none = [scene for scene, h in reach.items() if h is None]
-    said += f" Fine at smaller steps alone: {', '.join(small)}." if small else ""
-    return said + (f" Not fine at any step: {', '.join(none)}." if none else "")

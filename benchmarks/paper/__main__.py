@@ -15,6 +15,7 @@ from typing import Any
 import mbs
 from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
 from benchmarks.paper.measured_guides_chart import draw
+from benchmarks.references.assembly_defect import ORIGIN
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import kerb_test
@@ -77,7 +78,7 @@ PARTS = {
         options=QUICK,
         pages=("flexible.md",),
         blocks=lambda rows: {"defect": assembly_defect.defect_table([r for r in rows if r["table"] == "bars"])},
-        words=lambda rows: f"Against {assembly_defect.ORIGIN}\nWith rigid bars: {assembly_defect.refusal()}",
+        words=lambda rows: f"Against {ORIGIN}\nWith rigid bars: {assembly_defect.refusal()}",
         chart=assembly_defect.draw,
     ),
     "kerb": Part(

@@ -25,7 +25,7 @@ def test_small_sizes_and_their_tables(tmp_path: Path) -> None:
     assert again["start_s"] > 0.1
     assert 20.0 < written["bytes"] < 500.0
     tasks: dict[str, Any] = {
-        "what": "empty tasks",
+        "table": "empty tasks",
         "runs": 100,
         "workers": 1,
         "elapsed_s": 0.1,
