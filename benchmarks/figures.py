@@ -308,7 +308,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--variables", action="store_true", help="write the tables of docs/variables.md alone")
     options = parser.parse_args(arguments)
     if options.variables:
-        write_blocks(("variables.md",), variable_tables.blocks())
+        write_blocks(("variables.md",), variable_tables.blocks(variable_tables.tables()))
         return 0
     makers = {name: partial(make, options.write) for name, make in WRITTEN.items()}
     makers |= {} if options.write else MADE

@@ -12,7 +12,7 @@ from benchmarks import peers
 from benchmarks.methods import bicycle, dissipative, error_control, naive, work_precision
 from benchmarks.methods.kernel_methods import suits
 from benchmarks.methods.work_precision_chart import LOST, draw
-from benchmarks.references.cases import CASES, size_of, system_of
+from benchmarks.references.cases import CASES, SLOW, size_of, store, system_of
 from benchmarks.shared.command import Part, run, say_missing, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.warned import wrong_on_purpose
@@ -62,6 +62,11 @@ def _bicycle(options: Namespace) -> list[dict[str, Any]]:
     return linear + [{"table": "methods", **bicycle.measure(*one)} for one in watched(todo)]
 
 
+def _motions(options: Namespace) -> None:
+    for name in watched(options.only):
+        store(name)
+
+
 PARTS = {
     "charts": Part(
         "every method over a range of steps and tolerances against exact motions, beside other engines",
@@ -101,6 +106,12 @@ PARTS = {
         _bicycle,
         bicycle.COLUMNS,
         options={"quick": (False, "one step size")},
+    ),
+    "motions": Part(
+        "write the exact motions that take long, by minimum-norm accelerations under DOP853 or Radau",
+        _motions,
+        names=SLOW,
+        rows=False,
     ),
     "naive": Part(
         "what models without savings cost: twelve coordinates a body, a row for every equation of a joint",

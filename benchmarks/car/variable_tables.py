@@ -60,9 +60,8 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
     return {name: _table(name) for name in names}
 
 
-def blocks() -> dict[str, str]:
-    """The tables of the page by their marks."""
-    found = tables()
+def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
+    """The tables of the page by their marks, from `tables`."""
     return {"car variables": overview(found)} | full(found)
 
 
