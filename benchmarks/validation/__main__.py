@@ -28,7 +28,7 @@ from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
 from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
-from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
+from benchmarks.validation.multibody import Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
 
 ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
@@ -64,7 +64,6 @@ FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # s, inner one of the car
 BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
-SIGNALS = {"yaw rate": (YAW, "+.4f"), "lateral velocity": (LATERAL, "+.2f")}
 COLUMNS = {
     "models": MODEL_COLUMNS,
     "parts": LACKING,
@@ -72,16 +71,6 @@ COLUMNS = {
     "curves": {"quantity": "", "ay, g": "+.1f", "seconds": ".1f", "measured": ".2f", "spread": ".2f"},
     "folds": FOLDS,
     "numbers": {"model": "", "found": "", "starts": ""},
-    "bins": {
-        "quantity": "",
-        "low": "g",
-        "high": "g",
-        "unit": "",
-        "signal": "",
-        "samples": "d",
-        "rms": ".3g",
-        "mean": ".3g",
-    },
     "notes": {"note": ""},
 }
 
@@ -119,7 +108,6 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
         "curves": _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive),
         "folds": _folds(best, swapped),
         "numbers": _numbers(simple),
-        "bins": car.bins,
         "notes": [{"note": note} for note in car.notes],
     }
     if options.picture is not None:
@@ -217,22 +205,10 @@ def _named(f: Fitted) -> list[tuple[Any, float]]:
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The tables of the page by their marks."""
     of = {name: [{k: v for k, v in r.items() if k != "table"} for r in rows if r["table"] == name] for name in COLUMNS}
-    by = {f"by {quantity}": _by(quantity, of["bins"]) for quantity in ("speed", "lateral acceleration")}
     form = COLUMNS["curves"] | dict.fromkeys(list(of["curves"][0])[5:], ".2f")
     plain = {name: table(of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds", "numbers")}
     notes = "\n".join(f"- {row['note']}" for row in of["notes"])
-    return plain | by | {"curves": table(of["curves"], form), "notes": notes}
-
-
-def _by(quantity: str, bins: Sequence[Row]) -> str:
-    """Deviations of the car by speed or lateral acceleration."""
-    told, lines = [b for b in bins if b["quantity"] == quantity], []
-    for low, high, unit in sorted({(b["low"], b["high"], b["unit"]) for b in told}):
-        of = {b["signal"]: b for b in told if b["low"] == low}
-        line = {f"{quantity}, {unit}": f"{low:g} to {high:g}", "samples": of[YAW]["samples"]}
-        lines.append(line | {f"{n}, {k}": of[sensor][k] for n, (sensor, _) in SIGNALS.items() for k in ("rms", "mean")})
-    form = {f"{name}, {key}": form for name, (_, form) in SIGNALS.items() for key in ("rms", "mean")}
-    return table(lines, {next(iter(lines[0])): "", "samples": "d"} | form)
+    return plain | {"curves": table(of["curves"], form), "notes": notes}
 
 
 PARTS = {
