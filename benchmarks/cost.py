@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import lanes, real_time, scene_instructions
-from benchmarks.car.lanes import lane_blocks, thousand
 from benchmarks.methods import growth
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
@@ -86,8 +85,7 @@ PARTS = {
         names=tuple(scene[0] for scene in lanes.SCENES),
         options={"rounds": (3, "of which each part of a run counts by its least")},
         pages=("speed.md",),
-        blocks=lane_blocks,
-        words=lambda rows: f"A second of {lanes.THOUSAND} cars, computed from the steps above\n{thousand(rows)}",
+        blocks=lanes.lane_blocks,
     ),
 }
 

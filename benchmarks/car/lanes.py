@@ -23,7 +23,6 @@ from mbs.simulation.prepared_system import prepared
 
 CARS = 16  # two full groups of the widest lanes
 PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
-THOUSAND = 1000
 LANES = {
     "lanes": ("slalom", "lane change"),
     "lanes tables": ("slalom, tables", "lane change, tables"),
@@ -32,7 +31,6 @@ LANES = {
 }
 """Scenes by table."""
 WAYS = {"single": "one after the other"}
-OF_CARS = {"slalom": "with links", "slalom, tables": "by tables"}
 Start: TypeAlias = Callable[[int, float, float], Simulation]
 """Of the number of a variant, the step and the end of the run, s."""
 
@@ -166,10 +164,10 @@ def _step(
 
 
 def lane_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """What lanes give, their memory, and a second of many cars."""
+    """What lanes give, and their memory."""
     tables = {name: [row for row in rows if row["scene"] in scenes] for name, scenes in LANES.items()}
     blocks = {name: _table_of_ways(part) for name, part in tables.items() if part}
-    return blocks | {"lanes memory": _memory(rows), "thousand cars": thousand(rows)}
+    return blocks | {"lanes memory": _memory(rows)}
 
 
 def scene_of(row: Row) -> str:
@@ -197,30 +195,6 @@ def _memory(rows: Sequence[Row]) -> str:
         sizes = {f"{WAYS.get(way, way)}, kB": r["kilobytes_a_car"] for way, r in _groups(rows, scene).items()}
         lines.append({"scene": scene} | sizes)
     return table(lines, {key: "" if key == "scene" else ".0f" for key in lines[0]})
-
-
-def thousand(rows: Sequence[Row]) -> str:
-    """What a second of a thousand cars takes, computed from their steps."""
-    lines = []
-    there = {row["scene"] for row in rows}
-    for scene, car in OF_CARS.items():
-        if scene not in there:
-            continue
-        ways = _groups(rows, scene)
-        widest = list(ways)[-1]
-        lanes = int(widest.split()[0])
-        single, wide = (1e-3 * ways[way]["us_a_step"] / ways[way]["step_ms"] for way in ("single", widest))
-        memory = [f"{1e-6 * THOUSAND * ways[way]['kilobytes_a_car']:.2g} GB" for way in ("single", widest)]
-        lines.append(
-            {
-                "car": car,
-                f"{THOUSAND} cores, a car each": f"{1e3 * single:.1f} ms",
-                f"{-(-THOUSAND // lanes)} cores, {widest}": f"{1e3 * wide * lanes:.1f} ms",
-                f"one core, {widest}": f"{THOUSAND * wide:.1f} s",
-                f"memory: alone, in {widest}": ", ".join(memory),
-            }
-        )
-    return table(lines, dict.fromkeys(lines[0], "")) if lines else ""
 
 
 KERB = 7.0  # s: shortly before the front wheels are over it

@@ -167,18 +167,14 @@ def summary(costs: Costs, step: float) -> dict[str, object]:
     return {
         "steps": len(us),
         "mean_us": float(us.mean()),
-        "p99_us": float(np.percentile(us, 99.0)),
         "p99_9_us": float(np.percentile(us, 99.9)),
         "worst_us": float(us.max()),
         "worst_alone_us": float(alone.max()) if len(alone) else math.nan,
-        "interrupted": int(costs.interrupted.sum()),
         "quarter_us": 0.25e6 * step,
         "iterations": float(costs.iterations.mean()),
         "most_iterations": int(costs.iterations.max()),
-        "histogram": np.bincount(costs.iterations).tolist(),
         "halvings": int(costs.halvings.sum()),
         "capped": int(costs.capped.sum()),
         "residual_mm": 1e3 * float(costs.residual.max()),
         "refused": len(costs.refused),
-        "starts": costs.starts,
     }

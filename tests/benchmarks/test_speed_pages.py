@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from benchmarks import car_peers
 from benchmarks.car import real_time
-from benchmarks.car.lanes import LANES, OF_CARS, lane_blocks
+from benchmarks.car.lanes import LANES, lane_blocks
 from benchmarks.shared.figures import between, read, rows_of
 
 US = {"single": 40.0, "2 lanes": 32.0, "4 lanes": 16.0, "4 lanes, 2 threads": 20.0}
@@ -19,7 +19,7 @@ def lane_rows(scenes):
 
 
 def test_lanes():
-    scenes = dict.fromkeys([*OF_CARS, *(scene for names in LANES.values() for scene in names)])
+    scenes = [scene for names in LANES.values() for scene in names]
     blocks = lane_blocks(lane_rows(scenes))
     tables = {name: rows_of(text) for name, text in blocks.items()}
     for name, names in LANES.items():
@@ -27,14 +27,8 @@ def test_lanes():
         assert len(tables[name]) == len(US)
         assert tables[name][2][f"{names[0]}, 5 ms"] == "16.0 (2.50)"
         assert between(read("docs/speed.md"), name)
-    assert [row["scene"] for row in tables["lanes memory"]] == list(scenes)
+    assert [row["scene"] for row in tables["lanes memory"]] == scenes
     assert tables["lanes memory"][0]["4 lanes, kB"] == "266"
-    links, tabled = tables["thousand cars"]
-    assert (links["car"], tabled["car"]) == ("with links", "by tables")
-    assert links["1000 cores, a car each"] == "8.0 ms"
-    assert links["250 cores, 4 lanes"] == "12.8 ms"
-    assert links["one core, 4 lanes"] == "3.2 s"
-    assert links["memory: alone, in 4 lanes"] == "0.29 GB, 0.27 GB"
 
 
 def test_other_cars_and_worst_steps():

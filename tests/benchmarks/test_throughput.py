@@ -1,4 +1,4 @@
-"""`python -m benchmarks.cost throughput`: all ways make the same steps; what a thousand cars take."""
+"""`python -m benchmarks.cost throughput`: all ways make the same steps."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mbs.kernel.binding.many import widest_lanes
 
 
 @pytest.mark.slow
-def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
+def test_all_ways_make_the_same_steps(tmp_path, monkeypatch):
     names = ("slalom", "double four-bar", "flexible four-bar")
     monkeypatch.setattr(lanes, "PARTS", 2)
     measure = lanes.measure
@@ -27,8 +27,3 @@ def test_ways_and_the_thousand_cars(tmp_path, capsys, monkeypatch):
     assert all(row["steps_alone"] == 0 for row in rows.values())
     assert all(row["cars_in_real_time_a_core"] == pytest.approx(5e3 / row["us_a_step"]) for row in rows.values())
     assert rows["2 lanes"]["kilobytes_a_car"] > rows["single"]["kilobytes_a_car"] > 100.0
-    single = rows["single"]["us_a_step"] / 5.0
-    table = capsys.readouterr().out.partition("A second of 1000 cars")[2]
-    assert f"| with links | {single:.1f} ms |" in table
-    assert f"| {1e-3 * rows['single']['kilobytes_a_car']:.2g} GB, " in table
-    assert "four-bar" not in table  # a mechanism is no car
