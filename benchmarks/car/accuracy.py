@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ali3.errors import UserError
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
 from benchmarks.shared.pages import Row, table
@@ -121,7 +122,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     report = found.report
     assert report is not None
     if len(found.t) != len(t) or not np.allclose(found.t, t, rtol=0.0, atol=1e-6):
-        raise ValueError(
+        raise UserError(
             f"The reference of {name} is of another duration; "
             f"run python -m benchmarks.car references --car {car} --only {name}."
         )

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.errors import UserError
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import NAMES, OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
@@ -155,7 +156,10 @@ def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The cheapest fidelity and step for what is required of the flexible car."""
     lines = []
     for title, (output, tolerance) in REQUIRED.items():
-        c = cheapest(rows, output, tolerance)
+        try:
+            c = cheapest(rows, output, tolerance)
+        except ValueError as error:
+            raise UserError(f"The table of docs/flexible_car.md needs all manoeuvres and steps: {error}") from error
         choice = {
             "cheapest fidelity, step": f"{int(c.fidelity)}, {1e3 * c.h:g} ms",
             "ms per s": f"{c.ms_per_second:.0f}",

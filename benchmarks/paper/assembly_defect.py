@@ -41,7 +41,6 @@ COLUMNS = {
     },
     "largest moments, N m": {"diameter_mm": "g"} | dict.fromkeys(COMPONENTS, ".4g"),
 }
-GOAL = 0.03  # of the peak
 
 
 def measure(case: tuple[int, int, int], repeats: int) -> tuple[dict[str, Any], mbs.Trajectory]:

@@ -75,7 +75,7 @@ def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Seque
         value = getattr(options, key)
         if isinstance(default, (int, float)) and default > 0 and not value > 0:
             parser.error(f"--{key.replace('_', '-')} is {value}; it is a positive number.")
-    return run_command(partial(_work, name, part, options), (RuntimeError, ValueError))
+    return run_command(partial(_work, name, part, options), (RuntimeError,))
 
 
 def _add_options(parser: ArgumentParser, part: Part) -> None:

@@ -54,11 +54,6 @@ def replace(text: str, blocks: Mapping[str, str]) -> str:
     return text
 
 
-def print_blocks(blocks: Mapping[str, str]) -> None:
-    """Show the tables of a page on the terminal."""
-    print("\n\n".join(f"{name}\n{content}" for name, content in blocks.items()))
-
-
 def _wrapped(content: str) -> str:
     """The lines that are no rows of a table, wrapped; an item of a list is indented."""
     lines = []
