@@ -184,11 +184,7 @@ PARTS = {
     )
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("car_peers", __doc__, PARTS, arguments)
-
+main = partial(run, "car_peers", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

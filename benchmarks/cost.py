@@ -7,6 +7,7 @@ import sys
 import tempfile
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -89,11 +90,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("cost", __doc__, PARTS, arguments)
-
+main = partial(run, "cost", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -6,6 +6,7 @@ import sys
 import tempfile
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -96,11 +97,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("fmu", __doc__, PARTS, arguments)
-
+main = partial(run, "fmu", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

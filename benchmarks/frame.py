@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -60,11 +60,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("frame", __doc__, PARTS, arguments)
-
+main = partial(run, "frame", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

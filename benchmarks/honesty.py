@@ -73,11 +73,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("honesty", __doc__, PARTS, arguments)
-
+main = partial(run, "honesty", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

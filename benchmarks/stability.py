@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -48,11 +49,7 @@ PARTS = {
     )
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("stability", __doc__, PARTS, arguments)
-
+main = partial(run, "stability", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -123,11 +124,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("work_precision", __doc__, PARTS, arguments)
-
+main = partial(run, "work_precision", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks import references
+from benchmarks.references import motions as references
 from benchmarks.references.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, stable_speeds
 from benchmarks.references.cases import CASES, SAMPLES, exact_of, system_of
 from benchmarks.references.rolling import RollingBicycle

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import mbs
@@ -99,11 +99,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("paper", __doc__, PARTS, arguments)
-
+main = partial(run, "paper", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

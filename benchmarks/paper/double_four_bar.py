@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.references import four_bar
+from benchmarks.references.motions import four_bar
 from benchmarks.shared.command import pyplot, save_chart, watched
 from benchmarks.shared.machine import machine
 from benchmarks.shared.pages import Row, table

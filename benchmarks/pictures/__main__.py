@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from ali3.files import make_folder
@@ -55,11 +55,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("pictures", __doc__, PARTS, arguments)
-
+main = partial(run, "pictures", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

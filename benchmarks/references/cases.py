@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from benchmarks import references
+from benchmarks.references import motions as references
 from mbs.model.model import Model
 from mbs.scenes import (
     bicycle,

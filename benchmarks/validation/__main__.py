@@ -12,6 +12,7 @@ import tempfile
 from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace as replace_of
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -235,11 +236,7 @@ PARTS = {
     ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    return run("validation", __doc__, PARTS, arguments)
-
+main = partial(run, "validation", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())
