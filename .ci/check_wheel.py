@@ -8,9 +8,9 @@ import sys
 from pathlib import Path
 
 import mbs
+from ali3.scene.recording import Recording
 from viewer.bundle import LICENCES, bundle
 from viewer.page_file import write_page
-from viewer.recording import Recording
 
 CLONE = Path(__file__).resolve().parents[1]
 

@@ -13,6 +13,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
+from ali3.chart_words import png_metadata
 from ali3.files import whole_file
 
 
@@ -25,9 +26,9 @@ def _however_long() -> Iterator[None]:
 
 
 def save_picture(figure: Figure, file: Path) -> None:
-    """Write a figure as PNG and close it."""
+    """Write a figure as PNG, with what it shows in words, and close it; the same figure gives the same bytes."""
     with whole_file(file) as made, _however_long():
-        figure.savefig(made, dpi=110)
+        figure.savefig(made, dpi=110, metadata=png_metadata(figure))
     plt.close(figure)
 
 

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from ali3.commands import COMMANDS, Command
 from ali3.extras import command_needs
 from ali3.near_names import did_you_mean
-from ali3.old_commands import BEFORE
 from ali3.options import Parser
 from ali3.processes import typed_as
 from ali3.running import WRONG_USE, run_command
@@ -30,7 +29,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     if given and not given[0].startswith("-"):
         command = next((c for c in COMMANDS if c.name == given[0]), None)
         if command is None:
-            return _unknown(given[0], given[1:], prog)
+            return _unknown(given[0], prog)
         return run_command(lambda: _run(command, given[1:], prog))
     return run_command(lambda: _help(given, prog))
 
@@ -71,10 +70,7 @@ class _Version(argparse.Action):
         parser.exit(message=f"ali3 {version('ali3')}\n")
 
 
-def _unknown(name: str, arguments: Sequence[str], prog: str) -> int:
-    if name in BEFORE:
-        print(f"error: The command '{name}' is now: {prog} {BEFORE[name].line(arguments)}", file=sys.stderr)
-        return WRONG_USE
+def _unknown(name: str, prog: str) -> int:
     names = [c.name for c in COMMANDS]
     hint = did_you_mean(name, names, f"the commands are {', '.join(names)}", 1)
     print(f"error: There is no command {brief(name)}{hint} {prog} --help describes them.", file=sys.stderr)

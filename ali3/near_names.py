@@ -10,7 +10,7 @@ _LONGEST = 200  # characters of a name that are compared
 _SHORTEST = 3  # characters of a part of a name that names it
 
 
-def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: float = 0.6) -> list[str]:
+def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: float = 0.65) -> list[str]:
     """The names that one is like, the nearest first; capitals do not count.
 
     Those that are the same but for capitals; else those that are spelt like it; else those with the same last part,
@@ -30,7 +30,9 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
     return [one for key in near for one in spelt[key]][:most]
 
 
-def did_you_mean(name: str, known: Iterable[str], otherwise: str = "", most: int = MOST, closeness: float = 0.6) -> str:
+def did_you_mean(
+    name: str, known: Iterable[str], otherwise: str = "", most: int = MOST, closeness: float = 0.65
+) -> str:
     """The end of a sentence on a name that is not known: ``; did you mean 'a' or 'b'?``.
 
     `name`, `known`, `most`, `closeness`: see `near_names`; `otherwise`: what the sentence ends with where no name is

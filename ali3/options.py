@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
 from ali3.decimal_number import number, short
+from ali3.near_names import near_names
+from ali3.units import quantity
 from ali3.words import brief, shortened
 
 
@@ -18,8 +21,25 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, **given: Any) -> None:
         super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | given)
 
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As `argparse.ArgumentParser` does; a long option with one minus sign is none of one letter with its value."""
+        given = list(sys.argv[1:] if args is None else args)
+        for word in given[: given.index("--")] if "--" in given else given:
+            if re.fullmatch(r"-[A-Za-z][A-Za-z-]{2,}(=.*)?", word) and self._near(f"-{word}"):
+                self.error(f"unrecognized arguments: {word}")
+        return super().parse_known_args(given, namespace)
+
+    def _near(self, word: str) -> list[str]:
+        """Long options that a word is like."""
+        known = [name for name in self._option_string_actions if name.startswith("--")]
+        return near_names(word.partition("=")[0], known, 1, 0.7)
+
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""
+        if message.startswith("unrecognized arguments: "):
+            word = message.split()[2]
+            if word.startswith("-") and (near := self._near(f"--{word.lstrip('-')}")):
+                message += f"; did you mean {near[0]!r}?"
         if message.endswith("expected one argument"):  # also where argparse takes -1:1 for an option
             name = message.split()[1].split("/")[0].rstrip(":")
             message += f"; one that begins with a minus sign is given as {name}=-..."
@@ -78,11 +98,11 @@ SHARED: dict[str, Option] = {
     "--show-parameters": Option("", "print the parameters"),
     "--jobs": Option("N", "processes at a time", count),
     "--fidelity": Option("N", "how much of the model is computed, where there is a choice", number),
-    "--step": Option("H", "communication step, s", number),
-    "--interval": Option("T", "time between rows that are recorded, a whole multiple of the step, s", number),
-    "--stop-time": Option("T", "how long a run is, s", number),
-    "--from": Option("T", "use what was recorded from this time on, s", number),
-    "--to": Option("T", "use what was recorded up to this time, s", number),
+    "--step": Option("H", "communication step, s", quantity("s")),
+    "--interval": Option("T", "time between rows that are recorded, a whole multiple of the step, s", quantity("s")),
+    "--stop-time": Option("T", "how long a run is, s", quantity("s")),
+    "--from": Option("T", "use what was recorded from this time on, s", quantity("s")),
+    "--to": Option("T", "use what was recorded up to this time, s", quantity("s")),
     "--seed": Option("S", "a driver moves the inputs at random, the same for the same whole number", int),
     "--manoeuvre": Option(
         "NAME|FILE",
@@ -94,7 +114,8 @@ SHARED: dict[str, Option] = {
     "--parameters": Option("SSV", "parameter set (SSV file) that is set before the start; repeatable", Path),
     "--set": Option(
         "NAME=VALUE",
-        "value of a parameter or input at the start, in the unit of the FMU; wins over parameter sets; repeatable",
+        "value of a parameter or input at the start, in the unit of the FMU or with one, as 20kN/m; wins over "
+        "parameter sets; repeatable",
         name_and_text,
     ),
     "--aliases": Option(

@@ -7,7 +7,7 @@ import math
 import os
 import re
 from array import array
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
@@ -42,7 +42,8 @@ class TextTable:
 
     Empty lines and lines that begin with ``#`` are left out. Cells are divided by semicolons, tabs or commas, the first
     of these that the first line has; unless commas divide them, a comma may be the decimal mark. A cell in quotation
-    marks may hold the mark, not the end of a line. All lines have as many cells as the first.
+    marks may hold the mark, not the end of a line. All lines have as many cells as the first. The heading may be a
+    comment, as NumPy and the databases of race tracks write it.
 
     Parameters
     ----------
@@ -53,7 +54,11 @@ class TextTable:
     name : str
         How the sentence calls the file; by default its path.
     headed : bool, optional
-        Whether the first line has names; None: unless it begins with a number.
+        Whether there are names, in the first line or, where that has numbers, in a comment above it; None: where there
+        are such. Without names the columns are told apart by their order.
+    known : collection of str
+        Names of columns in small letters, without units: a comment that has one of them is a heading; by default any
+        with as many cells as the first line, none of them a number.
     units : bool
         Whether names may have units, as `HEADING`.
     whole : bool
@@ -79,6 +84,7 @@ class TextTable:
         error: Error = FileError,
         name: str = "",
         headed: bool | None = True,
+        known: Collection[str] = (),
         units: bool = False,
         whole: bool = False,
         largest: int = LARGEST,
@@ -98,9 +104,10 @@ class TextTable:
         self.decimal = "," if self._mark in (";", "\t") else ""
         cells = self._cells(*self._first)
         self.width = len(cells)
-        if headed or (headed is None and not is_number(cells[0], self.decimal)):
-            self._first = None
-            self._take_names(cells, units)
+        heading = self._heading(cells, headed, known)
+        if heading:
+            self._first = None if heading is cells else self._first
+            self._take_names(heading, units)
 
     def rows(self, every: int = 1) -> Iterator[Row]:
         """Lines below the heading, or every so many of them."""
@@ -179,6 +186,39 @@ class TextTable:
         except ValueError as fault:
             raise self.error(f"{self.name}, line {line}: {fault}.") from None
 
+    def _heading(self, first: list[str], headed: bool | None, known: Collection[str]) -> list[str]:
+        """Cells that name the columns: those of the first line, or of a comment above it; none: there are no names."""
+        if headed is False:
+            return []
+        if not any(is_number(cell, self.decimal) for cell in first):
+            return first
+        for _, cells in self.comment_cells():
+            if not any(map(is_number, cells)) and (not known or any(plain_name(cell) in known for cell in cells)):
+                return cells
+        if not is_number(first[0], self.decimal):
+            return first
+        if headed:
+            raise self.error(
+                f"{self.name}, line {self._first[0] if self._first else 1}: {brief(first[0])} is a number; above the "
+                "first values there must be a heading with a name for each column."
+            )
+        return []
+
+    def comment_cells(self) -> list[tuple[int, list[str]]]:
+        """Cells of the comments read so far that have as many as the first line, with the numbers of their lines."""
+        found = []
+        for line, comment in self.comments:
+            text = comment.lstrip("# \t")
+            for mark in (self._mark or ",", *_MARKS, " "):
+                try:
+                    cells = text.split() if mark == " " else cells_of(text, mark)
+                except ValueError:  # no line of a table
+                    continue
+                if len(cells) == self.width:
+                    found.append((line, cells))
+                    break
+        return found
+
     def _take_names(self, cells: list[str], units: bool) -> None:
         seen = set[str]()  # a table may have a million columns
         for cell in cells:
@@ -204,6 +244,11 @@ def cells_of(line: str, mark: str) -> list[str]:
     if len(line) > _LONGEST_CELL and (longest := max(map(len, cells))) > _LONGEST_CELL:
         raise ValueError(f"a cell has {longest} characters; a number or a name has at most {_LONGEST_CELL}")
     return [cell.strip() for cell in cells]
+
+
+def plain_name(cell: str) -> str:
+    """A name of a heading in small letters, without its unit."""
+    return re.sub(r"\s*[\[(][^\[\]()]*[\])]$", "", cell.strip()).lower()
 
 
 def number_of(cell: str, decimal: str = "") -> float:

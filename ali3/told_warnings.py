@@ -11,13 +11,18 @@ from ali3.words import shortened
 
 
 @contextmanager
-def told_warnings() -> Iterator[None]:
-    """A context in which warnings for a user are lines like errors are, without the place in the source."""
+def told_warnings() -> Iterator[list[str]]:
+    """A context in which warnings for a user are lines like errors are, without the place in the source.
+
+    Gives the list of what was told so far.
+    """
+    told: list[str] = []
 
     def show(message: Warning | str, *_: object) -> None:
-        print(f"warning: {shortened(str(message))}", file=sys.stderr, flush=True)
+        told.append(shortened(str(message)))
+        print(f"warning: {told[-1]}", file=sys.stderr, flush=True)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)
         warnings.showwarning = show  # type: ignore[assignment]
-        yield
+        yield told

@@ -1,8 +1,9 @@
 """Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT] [--write] [--variables]``.
 
 Counts and errors of a part of the tables are made again, in a minute or two; times are not compared. Each difference is
-a sentence with the page, the table, the row and both figures, and the exit code is 1. What the other commands measure
-they write into the pages themselves; tables that no other command makes are written here.
+a sentence with the page, the table, the row and both figures, and the exit code is 1. Charts that are drawn in seconds
+are drawn again, and their words compared: titles, axes, curves, summaries. What the other commands measure they write
+into the pages themselves; tables that no other command makes, and these charts, are written here.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from benchmarks.car.measures import measure, measure_rows, measure_table
 from benchmarks.methods import honesty, naive, stability, stability_margins
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
+from benchmarks.pictures.charts_again import charts
 from benchmarks.shared.command import watched, write_blocks
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
 from benchmarks.shared.pages import DOCS, table
@@ -97,8 +99,13 @@ def trusted() -> list[Again]:
 
 def car() -> list[Again]:
     """Errors of three manoeuvres of the prototype in the kernel, and of two of the hatchback."""
-    rows = [accuracy.measure(name, 0.01, None, 1) for name in ("step_steer", "double_lane_change_replay", "drop")]
-    hatchback = [accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer", "full_lock")]
+    rows = [
+        accuracy.measure(name, 0.01, None, 1)
+        for name in ("step_steer_given_throttle", "double_lane_change_replay", "drop")
+    ]
+    hatchback = [
+        accuracy.measure(name, 0.005, None, 1, "hatchback") for name in ("step_steer_given_throttle", "full_lock")
+    ]
     keys = ("manoeuvre", "h, ms")
     return [
         Again(SPEED, accuracy.car_blocks(rows)["car"], "car", keys, accuracy.HELD),
@@ -130,7 +137,7 @@ def drawn() -> list[Again]:
 
 def tabled() -> list[Again]:
     """Errors of cars by tables in a part of their manoeuvres."""
-    names = "step_steer", "double_lane_change_replay", "kerb_lock_brake"
+    names = "step_steer_given_throttle", "double_lane_change_replay", "kerb_lock_brake"
     todo = ((car, name) for car in tabled_cars.CARS for name in names)
     text = tabled_cars.table_of([tabled_cars.compare(car, name, tabled_cars.STEP) for car, name in todo])
     return [Again("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
@@ -268,12 +275,13 @@ def others_tests() -> list[Again]:
 
 
 WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
+    "charts": charts,
     "elements": elements,
     "flexible hatchback": flexible_hatchback,
     "crg": crg,
     "start values": start_values,
 }
-"""Tables that no other command writes; in whole with ``--write``, else a quick part of them."""
+"""Charts, and tables that no other command writes; in whole with ``--write``, else a quick part of them."""
 MADE: dict[str, Callable[[], list[Again]]] = {
     "bending": bending,
     "naive": naive_sizes,
@@ -317,11 +325,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     made = [again for make in watched(chosen) for again in make()]
     if options.write:
         for again in made:
-            write_text(DOCS.parent / again.page, written(again, read(again.page)))
-        print(f"{len(made)} tables written")
+            if again.picture:
+                (DOCS.parent / again.page).write_bytes(again.picture)
+            else:
+                write_text(DOCS.parent / again.page, written(again, read(again.page)))
+        print(f"{len(made)} tables and charts written")
         return 0
     said = all_differences(made)
-    print("\n".join(said) or f"{len(made)} tables and sentences of the pages are as they are made now.")
+    print("\n".join(said) or f"{len(made)} tables, sentences and charts of the pages are as they are made now.")
     return 1 if said else 0
 
 

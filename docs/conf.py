@@ -13,7 +13,16 @@ project = "ALi3"
 author = "ALi3 contributors"
 version = release = re.search(r'^version = "(.+)"', (DOCS.parent / "pyproject.toml").read_text(), re.MULTILINE)[1]  # type: ignore[index]
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "pages", "docstrings", "live_pages"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "made_tables",
+    "mathml",
+    "pages",
+    "docstrings",
+    "live_pages",
+]
 exclude_patterns = ["_site"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 default_role = "code"  # docstrings write names in single backticks

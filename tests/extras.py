@@ -86,7 +86,7 @@ READERS = (
     Reader("roads", "ali3 road {} plate.road", ("plate.stl", "plate.obj", "plate.ply", "plate.off")),
     Reader(
         "pictures",
-        "from viewer.mesh_file import read_mesh; read_mesh('{}')",
+        "from ali3.scene.mesh_file import read_mesh; read_mesh('{}')",
         ("ball.stl", "ball.obj", "ball.ply", "ball.off", "ball.glb"),
     ),
     Reader(

@@ -1,16 +1,9 @@
-"""Errors of what is drawn, each one sentence for the user."""
+"""The public names of errors of what is drawn, and what helps where the page that draws is missing."""
 
 from __future__ import annotations
 
-from ali3.errors import UserError
+from ali3.scene.errors import SceneError, ViewerError
+
+__all__ = ["REMEDY", "SceneError", "ViewerError"]
 
 REMEDY = 'pip install "ali3[viewer]"'
-"""Where the page that draws is missing."""
-
-
-class ViewerError(UserError, ValueError):
-    """Something cannot be drawn or shown; the message says what, and what would be right."""
-
-
-class SceneError(ViewerError):
-    """A scene is not of the format; the message names the place, the value and what would be right."""

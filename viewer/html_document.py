@@ -6,8 +6,8 @@ import json
 from html import escape
 
 from ali3 import html
+from ali3.scene.errors import ViewerError
 from viewer.bundle import bundle
-from viewer.errors import ViewerError
 
 # FMUs are WebAssembly and run in a worker that is made from the script of the page.
 _SOURCES = {"script-src": "'wasm-unsafe-eval'", "worker-src": "blob:"}

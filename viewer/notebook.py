@@ -6,9 +6,9 @@ import html
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from viewer.errors import ViewerError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
 from viewer.page_file import notes_of, page_html, thinned
-from viewer.recording import Recording
 
 
 def html_of(

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viewer.recording import Recording
-from viewer.scene_columns import pose_columns
+from ali3.scene.recording import Recording
+from ali3.scene.scene_columns import pose_columns
 
 FORMAT = "ALi3 page"
 _LARGEST_FLOAT32 = 3e38
@@ -56,7 +56,7 @@ def _run(recording: Recording, scene: int | None) -> dict[str, Any]:
         "name": recording.name,
         "scene": scene,
         "count": len(recording.t),
-        "time": block({"time": recording.t}, "f8"),
+        "time": block({"time": recording.t, "epoch": recording.epoch}, "f8"),
         "blocks": [block(columns, kind) for columns, kind in ((fine, "f8"), (rough, "f4")) if columns],
         "units": recording.units,
         "order": list(recording.columns),

@@ -5,25 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ali3.files import check_writable, whole_file
 from ali3.near_names import near_names
-from viewer.errors import ViewerError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import MOST_TIMES, Recording
+from ali3.scene.written import WrittenPage
 from viewer.html_document import html_document
 from viewer.page_data import page_data
 from viewer.player_options import check_options
-from viewer.recording import MOST_TIMES, Recording
-
-
-class WrittenPage(NamedTuple):
-    """A page that was written."""
-
-    path: Path
-    size: int
-    """Bytes."""
-    notes: list[str]
-    """Sentences: thinning, gaps, what is not drawn. They stand in the page too."""
 
 
 def write_page(

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ali3.files import check_writable, whole_file
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
 from viewer.browser import screenshot
-from viewer.errors import ViewerError
 from viewer.page_file import notes_of, thinned, write_page
-from viewer.recording import Recording
 
 
 def pictures(

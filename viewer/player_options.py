@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from ali3.near_names import did_you_mean
-from viewer.errors import ViewerError
+from ali3.scene.errors import ViewerError
 
 
 class Option(NamedTuple):

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from viewer.scene_types import Scene
+from ali3.scene.scene_types import Scene
 
 SCHEMA_FILE = Path(__file__).with_name("scene.schema.json")
 
@@ -17,7 +17,7 @@ def json_schema() -> dict[str, Any]:
     head = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of ALi3",
-        "$comment": "Written by python -m viewer.scene_schema from viewer/scene_types.py.",
+        "$comment": "Written by python -m viewer.scene_schema from ali3/scene/scene_types.py.",
     }
     schema = {key: value for key, value in made.items() if key != "title"}
     plain: dict[str, Any] = _without_nulls(schema)

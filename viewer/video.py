@@ -11,7 +11,7 @@ from contextlib import closing
 from fractions import Fraction
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,10 +19,11 @@ from ali3.bars import bar as bar_of
 from ali3.errors import UserError
 from ali3.extras import missing_package
 from ali3.files import check_writable, whole_file
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
+from ali3.scene.written import WrittenFilm
 from viewer.browser import screenshot
-from viewer.errors import ViewerError
 from viewer.page_file import notes_of, thinned, write_page
-from viewer.recording import Recording
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -36,20 +37,6 @@ _WEBP = {"quality": 50, "method": 4, "allow_mixed": True}
 
 class FilmError(UserError, RuntimeError):
     """A package that makes films is not installed, or fails; the message says what would help."""
-
-
-class WrittenFilm(NamedTuple):
-    """A film that was written."""
-
-    path: Path
-    size: int
-    """Bytes."""
-    frames: int
-    """Pictures."""
-    duration: float
-    """Of the film, s."""
-    notes: list[str]
-    """Sentences: thinning, gaps, what is not drawn."""
 
 
 def write_mp4(

@@ -47,7 +47,7 @@ OUTPUTS = (*trajectories.POSITION, "speed")
 TITLES = {
     "launch_and_brake": "launch and brake",
     "kerb_drop": "8 cm kerb at 5 m/s",
-    "step_steer": "step steer",
+    "step_steer_given_throttle": "step steer",
     "slalom": "slalom",
     "steady_cornering": "steady cornering",
     "double_lane_change_replay": "double lane change",

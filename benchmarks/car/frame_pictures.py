@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.scene.recording import Recording
 from benchmarks.shared.command import pyplot, save_chart
 from mbs import Simulation, Trajectory, compile
 from mbs.flexible.frame import Frame
@@ -17,7 +18,6 @@ from mbs.flexible.reduced_body import ReducedBody
 from mbs.scenes import kerb_test, prototype_car
 from mbs.vehicle import Car, Fidelity
 from viewer.pictures import write_picture
-from viewer.recording import Recording
 from viewer.video import write_mp4
 
 Array = NDArray[np.float64]

@@ -25,7 +25,7 @@ from mbs.vehicle import Car, Fidelity
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 
 GUIDED = "kerb_test"
-MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "full_lock", GUIDED)
+MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "full_lock", GUIDED)
 H, EVERY = 0.005, 4
 KEEP = 1e-4
 """Combinations with less than this part of the largest deformation, in the energy norm, are left out."""

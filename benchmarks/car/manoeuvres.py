@@ -22,7 +22,7 @@ from mbs.settings.input_signals import Signal
 from mbs.vehicle import load as load_car
 
 FOLDER = Path(__file__).with_name("data")
-HOST = ("launch_and_brake", "kerb_drop", "step_steer", "slalom", "drop", "steady_cornering")
+HOST = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "steady_cornering")
 OWN = ("double_lane_change_replay", "full_lock", "brake_on_slope", "kerb_lock_brake")
 NAMES = HOST + OWN
 CLOSED_LOOP = "double_lane_change"  # of the host; its replay is OWN[0]

@@ -19,7 +19,12 @@ SPEEDS = (5.0, 10.0, 20.0, 30.0)  # m/s
 STEPS = (0.001, 0.002, 0.005, 0.01)  # s
 FINE = 2e-4  # s
 BEFORE, BEHIND = 0.2, 1.0  # s of the run before and behind the kerb
-HARD = {"launch_and_brake": "vx", "step_steer": "vy", "double_lane_change_replay": "vy", "full_lock": "vy"}
+HARD = {
+    "launch_and_brake": "vx",
+    "step_steer_given_throttle": "vy",
+    "double_lane_change_replay": "vy",
+    "full_lock": "vy",
+}
 COLUMNS = {
     "frequency": {"steps_in_a_period": "d", "frequency_error": ".3g", "closed_form": ".3g"},
     "kerb": {"speed_m_s": "g"} | {f"{1e3 * h:g} ms": ".2g" for h in STEPS},

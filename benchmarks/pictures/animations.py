@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 import mbs
+from ali3.scene.recording import Recording
 from benchmarks.car import fidelity_runs, manoeuvres
 from benchmarks.pictures import driven_worlds
 from hosts.driving.course_scenery import with_course
@@ -29,7 +30,6 @@ from mbs.scenes import (
     squeezer,
 )
 from mbs.vehicle import Fidelity, load
-from viewer.recording import Recording
 from viewer.video import WrittenFilm, write_mp4
 
 SIZE = (720, 405)

@@ -12,10 +12,10 @@ from tempfile import TemporaryDirectory
 
 import mbs
 from ali3.errors import UserError
+from ali3.scene.recording import Recording
 from mbs.settings.input_signals import Signal
 from mbs.vehicle import load
 from mbs.worlds import command as world_command
-from viewer.recording import Recording
 
 STEP = 0.002
 EVERY = 5

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ali3.files import whole_file, write_text
+from ali3.files import write_text
 from ali3.running import run_command
 from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.pages import DOCS, Row, machine, replace
@@ -20,7 +20,6 @@ from benchmarks.shared.tables import print_table, write_json
 from mbs.common.progress import DELAY, progress_for
 
 T = TypeVar("T")
-DPI = 110
 
 
 @dataclass(frozen=True)
@@ -184,9 +183,9 @@ def pyplot() -> Any:
 
 def save_chart(figure: Any, file: Path) -> None:
     """Write a figure as PNG, say where, and close it; the same figure gives the same bytes with the same Matplotlib."""
-    with whole_file(file) as made:
-        figure.savefig(made, dpi=DPI, metadata={"Software": None})
-    pyplot().close(figure)
+    from ali3.charts import save_picture
+
+    save_picture(figure, file)
     print(f"written: {file}")
 
 

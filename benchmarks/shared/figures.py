@@ -1,4 +1,4 @@
-"""Figures of the pages held against figures that are made again: counts and errors, never times."""
+"""Figures and charts of the pages held against what is made again: counts and errors, panels and words, never times."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
+from ali3.chart_words import description_of
 from benchmarks.shared.pages import DOCS, replace
 
 _TABLE = re.compile(r"(?:^\|.*\n?)+", re.MULTILINE)
@@ -15,22 +16,26 @@ _DIGITS = 3  # of figures that may be one off in the last
 
 @dataclass(frozen=True)
 class Again:
-    """A table, or a sentence, of a page that was made again."""
+    """A table, a sentence or a chart of a page that was made again."""
 
     page: str
+    """Its file, or that of the chart."""
     text: str
-    """Rows of a Markdown table, or the sentence that the page must have."""
+    """Rows of a Markdown table, the sentence that the page must have, or what the chart shows in words."""
     table: str = ""
     """Between which marks the table stands; empty for a sentence."""
     keys: tuple[str, ...] = ()
     """Columns by which a row is found."""
     left_out: tuple[str, ...] = ()
     """Columns that are not compared: times, and what is round-off."""
+    picture: bytes = b""
+    """The chart as it is drawn now, a PNG."""
 
 
 def read(page: str) -> str:
-    """Text of a page."""
-    return (DOCS.parent / page).read_text(encoding="utf-8")
+    """Text of a page, or what a chart says that it shows."""
+    file = DOCS.parent / page
+    return description_of(file) if file.suffix == ".png" else file.read_text(encoding="utf-8")
 
 
 def rows_of(text: str) -> list[dict[str, str]]:
@@ -80,7 +85,13 @@ def same(shown: str | None, made: str) -> bool:
 
 
 def differences(again: Again, text: str) -> list[str]:
-    """A sentence for each figure that the text of the page has otherwise."""
+    """A sentence for each figure that the text of the page has otherwise, and for each line of words of a chart."""
+    if again.picture and not text:
+        return [f"{again.page} does not say what it shows; python -m benchmarks.figures --write draws it again."]
+    if again.picture:
+        shown, drawn = text.splitlines(), again.text.splitlines()
+        gone = [f"{again.page} shows what is not drawn now: {line}" for line in shown if line not in drawn]
+        return gone + [f"{again.page} does not show what is drawn now: {line}" for line in drawn if line not in shown]
     if not again.table:
         there = " ".join(again.text.split()) in " ".join(text.split())
         return [] if there else [f"{again.page} does not say: {again.text}"]

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import mbs
 from ali3.running import run_command
+from ali3.scene.recording import Recording
 from fmu_src.build.command import main as build
 from hosts.view.command import main as view
 from hosts.view.page_parts import FmuParts, fmu_parts
 from hosts.view.page_text import Page
 from mbs.scenes import double_four_bar
-from viewer.recording import Recording
 
 _FAILS = "ali3p_no_projection"
 

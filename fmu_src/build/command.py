@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.extras import missing_package
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option
 from ali3.running import run_command
 from ali3.told_warnings import told_warnings
@@ -88,7 +87,6 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
-    add_old_names(parser, {"--only": "--kind", "--target": "--platforms"})
     options = parser.parse_args(arguments)
     if options.ports is not None and options.car is None:
         parser.error("--ports are of a car: name it, as in ali3 build prototype")

@@ -61,8 +61,8 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
 
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
-    default of its argument `fidelity`. (The function may still be called `variants`, until the next release.) `scene`:
-    as for `load_scene`; `poses`: as `fmu_src.geometry.posed.posed_systems` takes it.
+    default of its argument `fidelity`. `scene`: as for `load_scene`; `poses`: as `fmu_src.geometry.posed.posed_systems`
+    takes it.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
     """
     with _scene(scene) as (name, build):
         module = sys.modules[build.__module__]
-        offered = getattr(module, "fidelities", None) or getattr(module, "variants", None)
+        offered = getattr(module, "fidelities", None)
         if not callable(offered) or build.__name__ != "build":
             return name, posed_systems({0: lambda: _built(scene, build)}, 0, poses), 0
         makers = offered()

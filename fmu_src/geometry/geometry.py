@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mbs
+from ali3.scene.scene_columns import columns_of
+from ali3.scene.scene_parts import frames_of
 from fmu_src.geometry.binding import bind
 from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.variables.variables import Variable
 from mbs.kernel.header.enumerations import ElementType
-from viewer.scene_columns import columns_of
-from viewer.scene_parts import frames_of
 
 FRAME_TUBE = "frame tube"
 """Name of shapes that a flexible part draws too."""

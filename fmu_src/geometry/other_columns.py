@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ali3.scene.scene_columns import columns_of
+from ali3.scene.scene_parts import frames_of
 from fmu_src.variables.variables import Variable
-from viewer.scene_columns import columns_of
-from viewer.scene_parts import frames_of
 
 _COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "computed", "vector", "tyre", "variables")
 

@@ -86,11 +86,12 @@ class NativeContents:
 
     @property
     def names(self) -> dict[str, list[list[str]]]:
-        """Names of the constraint rows and force elements of each System."""
-        return {
+        """Names of the constraint rows, force elements and coordinates of tables of each System, see `c_table`."""
+        found = {
             what: [[item["name"] for item in system.meta[f"{what}s"]] for system in self.systems]
             for what in ("row", "element")
         }
+        return found | {"coordinate": [_over_tables(system) for system in self.systems]}
 
     @property
     def texts(self) -> tuple[TextVariable, ...]:
@@ -230,3 +231,9 @@ def _page(contents: NativeContents, words: Sequence[str]) -> bytes:
 def _picture(run: ReferenceRun) -> bytes:
     moving = [column for column in run.columns.values() if float(column.max()) > float(column.min())]
     return curves_png(run.t, moving[:3])
+
+
+def _over_tables(system: mbs.System) -> list[str]:
+    """Names of coordinates up to the last that a table is over, empty those that none is."""
+    over = {int(k) for k in system.arrays["tabled_param"]}
+    return [system.meta["coordinates"][k] if k in over else "" for k in range(max(over, default=-1) + 1)]

@@ -97,9 +97,9 @@ def measures_of(result: Result, onset: float, settings: Mapping[str, float]) -> 
             note=why,
         ),
         *_attitude(result, first, moving),
-        *_wheels(result, first, moving, developed, Limit(_R13H, highest=0.0) if legal else None),
+        *_wheels(result, first, moving, developed, Limit(_R13H, highest=0.0) if legal else None, why),
         *_course(result, first),
-        *_work(result, first),
+        *_work(result, first, why),
     ]
 
 
@@ -114,9 +114,12 @@ def _attitude(result: Result, first: int, moving: NDArray[np.bool_]) -> list[Mea
 
 
 def _wheels(
-    result: Result, first: int, moving: NDArray[np.bool_], developed: NDArray[np.bool_], limit: Limit | None
+    result: Result, first: int, moving: NDArray[np.bool_], developed: NDArray[np.bool_], limit: Limit | None, why: str
 ) -> list[Measure]:
-    """Slip, locked wheels, loads of the axles and how much of the load is used as braking force."""
+    """Slip, locked wheels, loads of the axles and how much of the load is used as braking force.
+
+    `why`: why the stop is not whole: a wheel that has not locked until then may have done so later.
+    """
     slip, loads, forces = (at_wheels(result, quantity) for quantity in ("slip", "Fz", "Fx"))
     unknown = {n: f"the car does not tell wheel_FL.{n} and its like" for n in ("slip", "Fz", "Fx")}
     short = "" if moving.any() else NOT_BRAKED
@@ -134,15 +137,15 @@ def _wheels(
             if slip is None or short
             else locked(slip, result["speed"], _SLOWEST_LOCKED)[:, k] & (result.time > result.time[first])
         )
-        value = math.nan if standing is None else duration(result.time, standing)
-        note = short or ("" if slip is not None else unknown["slip"])
+        value = math.nan if standing is None or (why and not standing.any()) else duration(result.time, standing)
+        note = why or ("" if slip is not None else unknown["slip"])
         measures.append(
             Measure(
                 f"locked_time.{wheel}",
                 value,
                 "s",
                 f"time for which wheel {wheel} is locked above 15 km/h",
-                limit if not note else None,
+                limit if slip is not None else None,
                 note,
             )
         )
@@ -182,17 +185,17 @@ def _course(result: Result, first: int) -> list[Measure]:
         aside = turned = math.nan
         note = f"the car does not tell {missing}"
     else:
-        x, y, yaw = (result[n] for n in names)
+        x, y, yaw = (result.continuous(n) for n in names)
         heading = yaw[first]
         aside = float(-math.sin(heading) * (x[-1] - x[first]) + math.cos(heading) * (y[-1] - y[first]))
-        turned, note = float(np.unwrap(yaw)[-1] - np.unwrap(yaw)[first]), ""
+        turned, note = float(yaw[-1] - yaw[first]), ""
     return [
         Measure("deviation.lateral", aside, "m", text, note=note),
         Measure("deviation.yaw", turned, "rad", "change of the heading while braking, positive to the left", note=note),
     ]
 
 
-def _work(result: Result, first: int) -> list[Measure]:
+def _work(result: Result, first: int, why: str) -> list[Measure]:
     """What the braking forces and all losses take of the kinetic energy."""
     time, speed, loads, forces = result.time, result["speed"], at_wheels(result, "Fz"), at_wheels(result, "Fx")
     share, note = math.nan, "it needs the forces Fx and Fz of all wheels"
@@ -202,8 +205,8 @@ def _work(result: Result, first: int) -> list[Measure]:
         taken = -float(trapezoid(per_weight * speed[first:], time[first:])) * 9.81
         share = taken / (0.5 * (speed[first] ** 2 - speed[-1] ** 2))
     error, missing = math.nan, [n for n in ("energy.total", *WORKS[:3]) if n not in result]
-    lost = f"the car does not tell {missing[0]}" if missing else ""
-    if not missing and first < len(time) - 1:
+    lost = f"the car does not tell {missing[0]}" if missing else why
+    if not missing and not why:
         energies = sum(result[n][-1] - result[n][first] for n in WORKS if n in result)
         change = result["energy.total"][-1] - result["energy.total"][first]
         error = float((change - energies) / result["energy.kinetic"][first])
@@ -211,7 +214,9 @@ def _work(result: Result, first: int) -> list[Measure]:
     limit = None if missing else Limit("balance of energy", -0.01, 0.01)
     return [
         Measure("energy.road_share", share, "1", text, note=note),
-        Measure("energy.error", error, "1", "energy that no work accounts for, over the kinetic energy", limit, lost),
+        Measure(
+            "energy.error", error, "1", "energy that no work accounts for, over the kinetic energy", limit, lost or why
+        ),
     ]
 
 

@@ -178,7 +178,7 @@ def _signals(result: Result, watch: _Watch, steering: SteeringInput, step: float
         steady = steady[: int(np.argmax(mean)) + width // 2 + 1]  # behind it the car slides off
 
     def of(name: str) -> NDArray[np.float64]:
-        return result[name][steady] if name in result else np.full(len(steady), math.nan)
+        return result.continuous(name)[steady] if name in result else np.full(len(steady), math.nan)
 
     return CircleRun(
         result,

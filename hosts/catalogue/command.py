@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.cores import available_cores
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, assignment
 from ali3.running import run_command
 from hosts.common.errors import HostError
@@ -73,7 +72,6 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     )
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
-    add_old_names(parser, {"--parameters": "--variant"})
     options = parser.parse_args(arguments)
     given = list(sys.argv[1:] if arguments is None else arguments)
     return run_command(lambda: _list() if options.list else _catalogue(options, [*prog.split(), *given]))

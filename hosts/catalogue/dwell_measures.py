@@ -48,7 +48,9 @@ def measures_of_dwell(
         else ""
     )
     moved = [r.measures.displacement for r in turned]
-    far = math.nan if not moved or any(map(math.isnan, moved)) else min(moved)
+    # a side that was lost before has none, and does not pass by the other one
+    shown = all(any(r.amplitude >= 4.995 * a for r in side) for side in sides) and not any(map(math.isnan, moved))
+    far = min(moved) if shown else math.nan
     early = Limit(f"{LAW} S5.2.1", highest=EARLY)
     late = Limit(f"{LAW} S5.2.2", highest=LATE)
     side_notes = f"Left {math.degrees(ramps[0]):.1f}°, right {math.degrees(ramps[1]):.1f}°."
@@ -78,7 +80,7 @@ def measures_of_dwell(
             "m",
             "lateral displacement 1.07 s after the beginning of steer, least of the runs from 5 A",
             Limit(f"{LAW} S5.2.3", lowest=least),
-            "" if math.isfinite(far) else "No run with 5 A or more shows it.",
+            "" if math.isfinite(far) else "Not both sides have runs with 5 A or more that show it.",
         ),
     ]
     for word, side in zip(("left", "right"), sides, strict=True):

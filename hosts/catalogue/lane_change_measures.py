@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.record import Line, Plot
+from hosts.common.angles import angle_difference
 from hosts.common.wheels import WHEELS
 from hosts.driving.course import Course
 from hosts.driving.result import Result
@@ -44,11 +45,11 @@ class Passage:
         """x, y and yaw in the axes of the course since it has begun, of shape (m,)."""
         x0, y0, yaw0 = self.pose
         dx, dy = self.result["chassis.x"][self.after] - x0, self.result["chassis.y"][self.after] - y0
-        yaw = self.result["chassis.yaw"][self.after] - yaw0
+        yaw = angle_difference(self.result["chassis.yaw"][self.after], yaw0)
         return (
             math.cos(yaw0) * dx + math.sin(yaw0) * dy,
             math.cos(yaw0) * dy - math.sin(yaw0) * dx,
-            np.arctan2(np.sin(yaw), np.cos(yaw)),
+            yaw,
         )
 
     @cached_property
@@ -58,16 +59,15 @@ class Passage:
             return math.nan
         return float(clearance(self.course, *self.place, *self.size).min())
 
-    @property
-    def is_through(self) -> bool:
-        """Whether the car has left the last lane."""
-        end = self.course.gates[-1].x_end + 0.5 * self.size[0]
-        return bool(self.after.any() and self.place[0][-1] > end)
+    @cached_property
+    def not_driven(self) -> str:
+        """What of the lanes the car has not driven; empty: it has driven all."""
+        return self.course.not_driven(self.place[0], self.size[0])
 
     @property
     def clean(self) -> bool:
         """Whether the car is through without a cone."""
-        return self.is_through and self.least_clearance > 0.0 and not self.reason
+        return not self.not_driven and self.least_clearance > 0.0 and not self.reason
 
     @property
     def why(self) -> str:
@@ -80,13 +80,13 @@ class Passage:
             return f"a cone is hit by {-self.least_clearance:.3g} m"
         if self.result.failed_steps:
             return f"the FMU refused the step at {self.result.time[-1]:.4g} s"
-        return "" if self.is_through else "the car does not come through"
+        return self.not_driven and f"the car does not come through: {self.not_driven}"
 
     def at(self, quantity: str, x: float) -> float:
         """Value of an output when the car's front is at a place of the course; NaN if it is not there."""
         front = self.place[0] + 0.5 * self.size[0]
-        k = int(np.argmax(front >= x))
-        return float(self.result[quantity][self.after][k]) if len(front) and front[k] >= x else math.nan
+        there = np.flatnonzero(front >= x)
+        return float(self.result[quantity][self.after][there[0]]) if len(there) else math.nan
 
 
 _LARGEST = (

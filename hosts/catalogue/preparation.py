@@ -9,7 +9,7 @@ import numpy as np
 
 from hosts.catalogue.car import TestedCar
 from hosts.common.numbers import Value
-from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import described
 
@@ -52,7 +52,7 @@ def held(
 
 def start_at(car: TestedCar, speed: float) -> dict[str, Value]:
     """Start values of a car that moves at a speed, m/s, from the first; none where it cannot be started so."""
-    return {"initial.speed": speed} if "initial.speed" in car.facts.parameters else {}
+    return {INITIAL_SPEED: speed} if INITIAL_SPEED in car.facts.parameters else {}
 
 
 class RunUp:

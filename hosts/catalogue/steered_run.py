@@ -197,7 +197,7 @@ def _signals(result: Result, pilot: SteeredPilot, step: float) -> SteeredRun:
         return resample(time, values[kept], interval, first)[1]
 
     names = ("chassis.wz", "sideslip", "chassis.roll", "speed")
-    yaw_rate, sideslip, roll, speed = (even(result[n] if n in result.names else blank) for n in names)
+    yaw_rate, sideslip, roll, speed = (even(result.continuous(n) if n in result else blank) for n in names)
     return SteeredRun(
         result,
         pilot.begin,

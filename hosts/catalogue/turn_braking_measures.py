@@ -55,12 +55,12 @@ class Stop:
 
     def at(self, name: str, after: float) -> float:
         """Value of an output a time after the onset; NaN if the run does not last so long."""
-        t = self.result.time
-        return float(np.interp(self.onset + after, t, self.result[name])) if t[-1] >= self.onset + after else math.nan
+        t, when = self.result.time, self.onset + after
+        return float(np.interp(when, t, self.result.continuous(name))) if t[-1] >= when else math.nan
 
     def before(self, name: str) -> float:
         """Mean of an output on the undisturbed circle."""
-        return float(self.result[name][self.steady].mean())
+        return float(self.result.continuous(name)[self.steady].mean())
 
     @property
     def circle(self) -> tuple[float, float, float]:

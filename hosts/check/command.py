@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Literal
 from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.isolated import Isolated, Lost
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.reading import no_file
 from ali3.running import run_command
@@ -102,7 +101,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(soak, "--jobs", "as there are cores that it may use")
     add_option(soak, "--out", "out/soak")
     add_option(soak, "--json")
-    add_old_names(parser, {"--hours": "--drives N of --stop-time T each", "--seconds": "--stop-time"})
     return parser
 
 
@@ -138,6 +136,10 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         return soak(options, parser.prog)
     if options.junit is not None:
         check_writable(options.junit)
+    if options.manoeuvre is not None:
+        from hosts.recordings.load_manoeuvre import check_asked
+
+        check_asked(options.manoeuvre)
     fmu = fmu_file(options.fmu)
     if table:
         from hosts.check.parameters import parameters

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from hosts.check.junit import Case
+from hosts.common.angles import angle_difference
 from hosts.driving.result import Result
 
 BOUND = 0.01
@@ -124,8 +125,8 @@ def _deviation(
     plain = of(gap, size)
     if unit != "rad":
         return plain
-    # Within a turn nothing is off by more than half of one, so that it is no share of many turns.
-    turned = of(gap - math.tau * np.round(gap / math.tau), min(size, math.tau))
+    # Without whole turns an angle is off by a share of one, not of many.
+    turned = of(angle_difference(result[name][rows], wanted), min(size, math.tau))
     return min(plain, turned, key=lambda d: d.share)
 
 

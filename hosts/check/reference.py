@@ -166,7 +166,7 @@ def _read(
     else:
         driven = load_manoeuvre(manoeuvre)
         driven = replace(driven, step=record_of(file).step or driven.step)
-    table = TextTable(file, HostError)
+    table = TextTable(file, HostError, known=("time",))
     values = table.values()
     columns = {n: values[:, k] for k, n in enumerate(table.names) if n in outputs}
     if not columns:

@@ -9,7 +9,7 @@ from ali3.children import how_ended
 from ali3.processes import module_command
 from hosts.common.errors import HostError
 
-_ERROR = "error: "
+ERROR = "error: "
 
 
 def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -> str:
@@ -38,7 +38,7 @@ def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -
     said = "".join(lines)
     if process.returncode != 0:
         last = said.strip().splitlines()[-1:]
-        if last and last[0].startswith(_ERROR):
-            raise HostError(last[0].removeprefix(_ERROR))
+        if last and last[0].startswith(ERROR):
+            raise HostError(last[0].removeprefix(ERROR))
         raise HostError(f"The process of ali3 {how_ended(process.returncode, said)}.")
     return said

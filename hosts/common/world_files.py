@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ali3.cache import cache_folder
-from hosts.common.commands import run_ali3
+from hosts.common.commands import ERROR, run_ali3
 from hosts.common.numbers import Value
 from hosts.common.world_record import FORMAT, VERSION, read_world_record
 
 DEFAULT_WORLD = "proving_ground"
-_GOING_ON = "..."
 _START = {"x": "initial.x", "y": "initial.y", "yaw": "initial.yaw"}
 
 
@@ -63,9 +62,11 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
     folder = cache_folder("worlds", f"{room}-thin" if thin else room)
 
     def hear(line: str) -> None:
-        if line.endswith(_GOING_ON):
+        if line and not line.startswith(ERROR):  # which is raised
             tell(line)
 
     run_ali3("road", "--world", given, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
-    content = read_world_record(folder / f"{file.stem}.json")
+    # A description has a name of its own; the record of another one that stood in the file before is older.
+    record = max(folder.glob("*.json"), key=lambda path: path.stat().st_mtime_ns) if file.is_file() else None
+    content = read_world_record(record or folder / f"{file.stem}.json")
     return World(str(content["name"]), folder / content["road"], content)

@@ -18,7 +18,9 @@ from scipy.optimize import least_squares
 from hosts.compare.correlated import covariance
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
+from hosts.compare.left_out import FEWEST, Parts, jackknife, parts_of
 from hosts.compare.log import Signal
+from hosts.compare.noise import measured_noise
 
 _LEAST_CORRELATION = 0.5
 _AMBIGUOUS = 0.01
@@ -26,6 +28,8 @@ _MOST_POINTS = 20_000
 _LARGEST_DRIFT = 0.05
 # A clock moves all that a log holds; a drift that explains less of what is left is one of the model, and not told.
 _LEAST_EXPLAINED = 0.25
+_SCATTER = 1.2  # of the square of a noise that is estimated
+_ALIKE = 2.0  # of what is left and no noise: how much more of the model's difference may look like a delay
 
 
 @dataclass(frozen=True)
@@ -46,8 +50,11 @@ class Alignment:
 
     @property
     def has_drift(self) -> bool:
-        """Whether the drift is beyond two of its errors and explains a quarter of what is left without it."""
-        return abs(self.drift) > 2.0 * self.drift_error and self.explained >= _LEAST_EXPLAINED
+        """Whether the drift is beyond two of its errors and explains a quarter of what is left without it; one at which
+        the search ends is none.
+        """
+        certain = 2.0 * self.drift_error < abs(self.drift) < 0.99 * _LARGEST_DRIFT
+        return certain and self.explained >= _LEAST_EXPLAINED
 
 
 def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = True) -> Alignment:
@@ -149,6 +156,15 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
         first += len(s.time)
     jacobian = np.asarray(found.jac)
     errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, found.fun, rows, [s.time for s, _ in pairs])[0]))
+    for parts in _parts([s for s, _ in pairs]):
+        errors = np.maximum(errors, jackknife(jacobian, found.fun, parts))
+    # What is left and no noise may be a difference of the model, and another part of it as large look like a delay.
+    white = [
+        len(s.time) * (measured_noise(s.values) / d) ** 2 for s, d in zip((s for s, _ in pairs), spreads, strict=True)
+    ]
+    sums = [float(found.fun[r] @ found.fun[r]) - _SCATTER * w for r, w in zip(rows, white, strict=True)]
+    alone = np.sqrt(np.diag(np.linalg.pinv(jacobian.T @ jacobian)))
+    errors = np.maximum(errors, _ALIKE * math.sqrt(sum(max(x, 0.0) for x in sums)) * alone)
     left = float(np.mean(found.fun**2))
     correlation = math.sqrt(max(0.0, 1.0 - left))
     if not drift:
@@ -159,6 +175,15 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     explained = taken / (taken + float(found.fun @ found.fun)) if taken > 0.0 else 0.0
     drifts = float(found.x[1]), float(errors[1])
     return Alignment(float(found.x[0]), float(errors[0]), *drifts, correlation, explained=explained)
+
+
+def _parts(signals: Sequence[Signal]) -> list[Parts]:
+    """What is left out in turn: tenths of the log, and each signal where there are enough of them."""
+    found = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
+    if len(signals) >= FEWEST:
+        number = np.repeat(np.arange(len(signals)), [len(s.time) for s in signals])
+        found.append(Parts(number, np.arange(len(signals), dtype=float), 1.0))
+    return found
 
 
 def _overlap(signal: Signal, curve: Curve, delay: float) -> Signal:

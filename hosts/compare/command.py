@@ -11,12 +11,13 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.decimal_number import number
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, count
 from ali3.running import run_command
+from ali3.units import quantity
 from hosts.common.options import add_fmu, add_setting_options
 from hosts.fmu.fmu_file import fmu_file
+
+_SECONDS = quantity("s")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> int:
@@ -37,15 +38,22 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
         "--seconds", metavar="A:B,...", help="compare and fit only these seconds of the log, such as 0:80,160:240"
     )
     parser.add_argument(
-        "--windows", type=number, metavar="T", help="drive windows of this length, each from its measured state, s"
+        "--windows",
+        type=_SECONDS,
+        metavar="T",
+        help="drive windows of this length, each from its measured state, s",
     )
-    parser.add_argument("--window-every", type=number, metavar="T", help="from one window to the next, s; default: T")
-    parser.add_argument("--skip", type=number, default=0.0, metavar="T", help="first seconds that are not compared")
+    parser.add_argument("--window-every", type=_SECONDS, metavar="T", help="from one window to the next, s; default: T")
+    parser.add_argument("--skip", type=_SECONDS, default=0.0, metavar="T", help="first seconds that are not compared")
     add_option(parser, "--step", "that of the FMU")
     parser.add_argument(
-        "--longest-gap", type=number, default=0.2, metavar="T", help="without samples of an input, s; default 0.2"
+        "--longest-gap",
+        type=_SECONDS,
+        default=0.2,
+        metavar="T",
+        help="without samples of an input, s; default 0.2",
     )
-    parser.add_argument("--longest-delay", type=number, default=1.0, metavar="T", help="looked for, s; default 1")
+    parser.add_argument("--longest-delay", type=_SECONDS, default=1.0, metavar="T", help="looked for, s; default 1")
     parser.add_argument(
         "--fit",
         action="extend",
@@ -62,14 +70,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
         "each)",
     )
     parser.add_argument("--starts", type=count, default=1, metavar="N", help="fit from so many points; default 1")
-    parser.add_argument("--fit-step", type=number, metavar="T", help="inner step of the FMU while it is fitted, s")
+    parser.add_argument("--fit-step", type=_SECONDS, metavar="T", help="inner step of the FMU while it is fitted, s")
     add_option(parser, "--jobs", "as there are cores that it may use, for windows of a minute and more")
     parser.add_argument("--anyway", action="store_true", help="fit even where a signal looks like one in a wrong unit")
     add_option(parser, "--out", "out/compare", default=Path("out", "compare"))
     add_option(parser, "--json")
     add_setting_options(parser)
     add_option(parser, "--road")
-    add_old_names(parser, {"--fmu-aliases": "--aliases (and that of the log is now --log-aliases)"})
     options = parser.parse_args(arguments)
     return run_command(lambda: _compare(options))
 

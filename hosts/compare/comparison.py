@@ -42,7 +42,7 @@ def compare(
 
     `longest_delay`: the one that is looked for, s; `skip`: seconds at the beginning that are not compared.
     """
-    pairs = {n: (s.between(skip, curves[n].end), curves[n]) for n, s in outputs.items()}
+    pairs = {n: (curves[n].in_its_turns(s.between(skip, curves[n].end)), curves[n]) for n, s in outputs.items()}
     signals = {n: _compared(s, c, longest_delay) for n, (s, c) in pairs.items()}
     telling = [pairs[n] for n, s in signals.items() if math.isfinite(s.alignment.delay)]
     return Comparison(signals, align(telling or list(pairs.values()), longest_delay))

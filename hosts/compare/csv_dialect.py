@@ -12,6 +12,8 @@ from pathlib import Path
 from ali3.errors import reason
 from ali3.reading import other_encoding
 from ali3.tables import cells_of
+from ali3.units import known_unit
+from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 
@@ -20,6 +22,9 @@ _LINES = 60  # that are looked at: loggers write their settings first
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _NOT_THERE = ("", "nan", "na", "n/a", "null", "-", "#n/a", "--", "inf", "-inf")
 _DATE = re.compile(r"\d{4}-\d\d-\d\d[T ].*")
+CLOCK_TIME = re.compile(r"[+-]?\d+:\d\d(:\d\d)?([.,]\d*)?")
+"""Hours, minutes and seconds, or minutes and seconds."""
+_WITH_UNIT = re.compile(rf"({_NUMBER.pattern})\s*(?P<unit>[A-Za-z°%µ][\w°%µ/²^.]*)")
 _NAME_AND_UNIT = re.compile(r"(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
@@ -49,6 +54,7 @@ def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
     found = [(d, *_rows(lines, d)) for d in ((stated.delimiter,) if stated.delimiter else _DELIMITERS)]
     delimiter, first, width = max(found, key=lambda item: item[2])  # the first of the most columns
     if width < 2:
+        _refuse_units(path, lines, stated)
         tried = "' or '".join(repr(d)[1:-1] for d, *_ in found)
         raise HostError(
             f"The log {path} is no table of numbers with a time and signals, divided by '{tried}'; its first line is "
@@ -56,20 +62,40 @@ def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
         )
     heading, unit_line = _heading(path, lines, delimiter, first, width, stated)
     names, units = [], {}
-    for k, cell in enumerate(_cells(lines[heading], delimiter)):
+    for k, cell in enumerate(_cells(_bare(lines[heading]), delimiter)):
         match = _NAME_AND_UNIT.fullmatch(cell)
         name = match["name"] if match else cell
         names.append(name)
         if match:
             units[name] = match["unit"]
         elif unit_line is not None:
-            cells = _cells(lines[unit_line], delimiter)
+            cells = _cells(_bare(lines[unit_line]), delimiter)
             units[name] = cells[k] if k < len(cells) else ""
     twice = next((n for k, n in enumerate(names) if n and n in names[:k]), None)
     if twice is not None:
         raise HostError(f"The log {path} has the column '{twice}' twice.")
     decimal = stated.decimal or _decimal(lines[first:], delimiter)
     return FoundDialect(delimiter, decimal, encoding, names, units, first)
+
+
+def unit_behind(cell: str) -> str:
+    """What is wrong with a cell that is a number with its unit, as the rest of a sentence; empty: it is no such."""
+    match = _WITH_UNIT.fullmatch(cell.strip())
+    if match is None or known_unit(match["unit"]) is None:
+        return ""
+    return (
+        f"{brief(cell.strip())} has its unit behind its number; cells are numbers alone, and the unit stands in the "
+        f"heading, such as 'name [{match['unit']}]'."
+    )
+
+
+def _refuse_units(path: Path, lines: Sequence[str], stated: Dialect) -> None:
+    """Raises `HostError` where a line would be one of numbers without the units in its cells."""
+    for line, delimiter in ((k, d) for k in range(len(lines)) for d in (stated.delimiter, *_DELIMITERS) if d):
+        cells = [cell.strip() for cell in lines[line].split(delimiter)]
+        found = [words for cell in cells if (words := unit_behind(cell))]
+        if len(cells) > 1 and found and 2 * (len(found) + sum(map(_is_value, cells))) > len(cells):
+            raise HostError(f"The log {path}, line {line + 1}: {found[0]}")
 
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
@@ -101,7 +127,11 @@ def _cells(line: str, delimiter: str) -> list[str]:
 
 
 def _is_value(cell: str) -> bool:
-    return cell.lower() in _NOT_THERE or bool(_NUMBER.fullmatch(cell)) or bool(_DATE.fullmatch(cell))
+    return (
+        cell.lower() in _NOT_THERE
+        or bool(_NUMBER.fullmatch(cell))
+        or bool(_DATE.fullmatch(cell) or CLOCK_TIME.fullmatch(cell))
+    )
 
 
 def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int]:
@@ -133,7 +163,10 @@ def _heading(
         if stated.units is None and below < first and len(_cells(lines[below], delimiter)) == width:
             units = below
         return stated.heading - 1, units
-    before = [k for k in range(first) if k != units and _is_heading(_cells(lines[k], delimiter), width)]
+    fitting = [k for k in range(first) if k != units and _is_heading(_cells(_bare(lines[k]), delimiter), width)]
+    before = [k for k in fitting if lines[k] == _bare(lines[k])] or fitting
+    # Comments may have the names, and units of names that are none.
+    before += [k for k in fitting if k not in before and _has_units(_cells(_bare(lines[k]), delimiter))]
     if not before:
         raise HostError(
             f"The log {path} has no line of {width} names before its values in line {first + 1}; "
@@ -145,7 +178,16 @@ def _heading(
 
 def _is_heading(cells: Sequence[str], width: int) -> bool:
     """Whether a line may hold names: loggers fill up lines of other words with delimiters."""
-    return len(cells) == width and 2 * sum(map(bool, cells)) > width and not cells[0].startswith("#")
+    return len(cells) == width and 2 * sum(map(bool, cells)) > width
+
+
+def _has_units(cells: Sequence[str]) -> bool:
+    return all(known_unit(cell) is not None for cell in cells)
+
+
+def _bare(line: str) -> str:
+    """A line without the mark of a comment."""
+    return line.lstrip(" #") if line.lstrip().startswith("#") else line
 
 
 def _decimal(rows: Sequence[str], delimiter: str) -> str:

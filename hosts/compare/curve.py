@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from hosts.common.angles import angle_difference
+from hosts.compare.log import Signal
 from hosts.driving.result import Result
 
 
@@ -18,7 +21,8 @@ class Curve:
     """
 
     def __init__(self, result: Result, name: str) -> None:
-        values = result[name]
+        values = result.continuous(name)
+        self._angle = result.units.get(name) == "rad"
         self.end = float(result.time[-1])
         parts = [slice(a, b) for a, b in pairwise([*result.starts, len(values)])]
         self._parts = [_Part(result.time[part], values[part]) for part in parts]
@@ -33,10 +37,29 @@ class Curve:
         """Derivative by the time at times in s."""
         return self._of(t, 1)
 
+    def misfit(self, signal: Signal) -> NDArray[np.float64]:
+        """Simulated minus measured at the samples of a signal; of angles as `angle_difference` says, in each run."""
+        simulated = self(signal.time)
+        if not self._angle:
+            return np.asarray(simulated - signal.values)
+        found, number = np.empty(len(simulated)), self._run_of(signal.time)
+        for k in np.unique(number):
+            found[number == k] = angle_difference(simulated[number == k], signal.values[number == k])
+        return found
+
+    def in_its_turns(self, signal: Signal) -> Signal:
+        """A measured signal, of an angle that which is whole turns away and nearest to the simulated one."""
+        if not self._angle:
+            return signal
+        return replace(signal, values=self(signal.time) - self.misfit(signal))
+
+    def _run_of(self, t: NDArray[np.float64]) -> NDArray[np.int64]:
+        return np.searchsorted(self._edges, t)
+
     def _of(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
         if len(self._parts) == 1:
             return self._parts[0](t, order)
-        found, number = np.empty(len(t)), np.searchsorted(self._edges, t)
+        found, number = np.empty(len(t)), self._run_of(t)
         for k in np.unique(number).tolist():
             found[number == k] = self._parts[k](t[number == k], order)
         return found
@@ -69,6 +92,7 @@ class SensedCurve(Curve):
         self, curve: Curve, delay: float = 0.0, drift: float = 0.0, bias: float = 0.0, gain: float = 1.0
     ) -> None:
         self._curve, self._delay, self._stretch, self._bias, self._gain = curve, delay, 1.0 + drift, bias, gain
+        self._angle = curve._angle
         self.end = delay + self._stretch * curve.end
 
     def __call__(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -78,3 +102,6 @@ class SensedCurve(Curve):
     def slope(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         """Derivative by the time at times in s."""
         return np.asarray(self._gain / self._stretch * self._curve.slope((t - self._delay) / self._stretch))
+
+    def _run_of(self, t: NDArray[np.float64]) -> NDArray[np.int64]:
+        return self._curve._run_of((t - self._delay) / self._stretch)

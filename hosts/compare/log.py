@@ -11,14 +11,17 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from ali3.near_names import did_you_mean
+from ali3.units import known_unit
 from ali3.words import brief
+from hosts.common.angles import continuous
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.units import known_unit, unit_definition, unit_of
+from hosts.common.units import unit_definition, unit_of
+from hosts.compare.csv_dialect import CLOCK_TIME, unit_behind
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.spikes import spike_words, spikes
-from hosts.driving.missed_jumps import counted
+from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.aliased_fmu import AliasedFmu
@@ -203,7 +206,7 @@ def _times(
     if len(back):
         k = int(back[0])
         raise HostError(
-            f"The log {raw.path}, line {rows[k + 1] + raw.first_row + 1}: time '{name}' goes back from "
+            f"The log {raw.path}, line {raw.line(int(rows[k + 1]))}: time '{name}' goes back from "
             f"{t[k] - t[0]:.6g} s to {t[k + 1] - t[0]:.6g} s after the first sample; "
             "cut the log there, each drive is compared by itself."
         )
@@ -225,16 +228,32 @@ def _times(
 
 def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
     """Times that are written as dates, s."""
+    texts = raw.table[name].astype(str).str.strip().str.replace(",", ".", regex=False)
+    if unit != "iso" and texts.str.fullmatch(CLOCK_TIME).any():
+        return _clock_times(raw, name, texts)
     moments = pd.to_datetime(raw.table[name], errors="coerce", utc=True, format="ISO8601")
     wrong = moments.isna() & raw.table[name].notna()
+    if wrong.any() and unit != "iso":  # of numbers the first that is none
+        wrong = wrong & pd.to_numeric(raw.table[name], errors="coerce").isna()
     if wrong.any():
         row = int(np.argmax(wrong.to_numpy()))
-        raise HostError(
-            f"The log {raw.path}, line {row + raw.first_row + 1}: the time {str(raw.table[name].iloc[row])[:40]!r} is "
-            f"no {'date of ISO 8601' if unit == 'iso' else 'number'}."
-        )
+        what = "date of ISO 8601" if unit == "iso" else "number"
+        cell = str(raw.table[name].iloc[row])
+        raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is no {what}.")
     first = moments.dropna().iloc[0]
     return np.array((moments - first) / pd.Timedelta(seconds=1), dtype=np.float64)
+
+
+def _clock_times(raw: RawLog, name: str, texts: pd.Series[str]) -> NDArray[np.float64]:
+    """Times that are written as HH:MM:SS.mmm or MM:SS.mmm, s; behind midnight the next day's."""
+    wrong = ~texts.str.fullmatch(CLOCK_TIME) & raw.table[name].notna()
+    if wrong.any():
+        row = int(np.argmax(wrong.to_numpy()))
+        raise raw.error(row, name, f"the time {brief(texts.iloc[row])} is not written as {texts.iloc[0]}.")
+    parts = texts.where(raw.table[name].notna()).str.split(":", expand=True).astype(float)
+    seconds = np.array(parts.apply(lambda row: row.dropna().to_numpy() @ 60.0 ** np.arange(row.count())[::-1], axis=1))
+    days = np.cumsum(np.nan_to_num(np.diff(seconds, prepend=seconds[:1])) < -43200.0)
+    return np.asarray(seconds + 86400.0 * days)
 
 
 def _signal(
@@ -267,8 +286,8 @@ def _signal(
         values = (theirs.factor * values + theirs.offset - own.offset) / own.factor
     there = np.isfinite(values)
     t, values = time[there], values[there]
-    if unit == "rad" and len(values) and "yaw" in ours:
-        values = np.unwrap(values)
+    if unit == "rad" and variable.causality == "output":  # an input jumps where it is told to
+        values = continuous(values)
     return Signal(ours, column.name, unit, t, values)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gzip
 import re
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +17,12 @@ from ali3.tables import LARGEST
 from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
-from hosts.compare.csv_dialect import find_dialect
+from hosts.compare.csv_dialect import find_dialect, unit_behind
 from hosts.compare.log_aliases import Dialect
 from hosts.driving.run_record import RunRecord, rows_before_jumps
 
 _MDF = (".mf4", ".mdf", ".dat")
+_PARQUET = (".parquet", ".pq")
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class RawLog:
             row.iloc[0, 1:last] = before
             parts += [self.table.iloc[k:end], row]
             end = k
-        table = pd.concat([self.table.iloc[:end], *reversed(parts)], ignore_index=True)
+        table = pd.concat([self.table.iloc[:end], *reversed(parts)])  # the index is that of the rows of the file
         return replace(self, table=table, added=len(record.jumps))
 
     def numbers(self, name: str) -> NDArray[np.float64]:
@@ -61,20 +64,33 @@ class RawLog:
         wrong = numbers.isna() & column.notna()
         if wrong.any():
             row = int(np.argmax(wrong.to_numpy()))
-            raise HostError(
-                f"The log {self.path}, line {row + self.first_row + 1}, column '{name}': "
-                f"{brief(str(column.iloc[row]))} is no number."
-            )
+            cell = str(column.iloc[row])
+            raise self.error(row, name, unit_behind(cell) or f"{brief(cell)} is no number.")
         values = np.array(numbers, dtype=np.float64)
         values[~np.isfinite(values)] = np.nan
         beyond = np.flatnonzero(np.abs(values) > LARGEST_NUMBER)
         if len(beyond):
             row = int(beyond[0])
-            raise HostError(
-                f"The log {self.path}, line {row + self.first_row + 1}, column '{name}': {values[row]:g} is too large; "
-                f"numbers up to {LARGEST_NUMBER:g} are read."
-            )
+            words = f"{values[row]:g} is too large; numbers up to {LARGEST_NUMBER:g} are read."
+            raise self.error(row, name, words)
         return values
+
+    def error(self, row: int, name: str, words: str) -> HostError:
+        """What is wrong with a cell, with its line; of a row that is the heading once more, that."""
+        cells = self.table.iloc[row].astype(str).str.strip()
+        if all(cell.startswith(str(column)) for cell, column in zip(cells, self.table.columns, strict=True)):
+            words = "the heading stands there again; cut the log there, each drive is compared by itself."
+            return HostError(f"The log {self.path}, line {self.line(row)}: {words}")
+        return HostError(f"The log {self.path}, line {self.line(row)}, column '{name}': {words}")
+
+    def line(self, row: int) -> int:
+        """Number of the line of a row in the file; empty lines are none of a table."""
+        wanted = int(self.table.index[row])
+        if self.path.suffix.lower() in _PARQUET:
+            return wanted + 1
+        with gzip.open(self.path) if self.path.suffix.lower() == ".gz" else self.path.open("rb") as stream:
+            lines = (k for k, text in enumerate(stream, 1) if k > self.first_row and text.strip())
+            return next(islice(lines, wanted, None), self.first_row + wanted + 1)
 
 
 def read_log(path: Path, dialect: Dialect) -> RawLog:
@@ -89,7 +105,7 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
             f"The log {path} is a file of the kind MDF, which is not read; asammdf converts it: "
             f"asammdf.MDF('{path.name}').export('csv', '{path.stem}.csv', single_time_base=True, raster=0.01)."
         )
-    if path.suffix.lower() in (".parquet", ".pq"):
+    if path.suffix.lower() in _PARQUET:
         return _read_parquet(path)
     found = find_dialect(path, dialect)
     try:

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import partial
-from pathlib import Path
 from typing import Any
 
 import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ali3.chart_style import BLUE, COLOURS, RED, STYLE
 from hosts.common.display_units import shown_in
-from hosts.compare.comparison import ComparedSignal, Comparison
+from hosts.compare.comparison import Comparison
 from hosts.compare.log import Signal
 from hosts.compare.words import unit_shown
-from hosts.run.slide import write_slide
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"
@@ -86,30 +82,3 @@ def _inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], f
     axes.set_xlabel("time, s")
     axes.margins(x=0)
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
-
-
-def write_summary(before: Comparison, after: Comparison | None, title: str, stem: Path) -> None:
-    """Write a slide: how far all signals are apart, and three of them over each other."""
-    shown = before if after is None else after
-    head, rows = ["signal", "unit", "rms", "rms / std", "rating"], []
-    for name, s in shown.signals.items():
-        unit, factor = shown_in(s.measured.unit, name)
-        normalised, rated = s.deviations.normalised, s.rating.overall
-        numbers = (f"{x:.2f}" if math.isfinite(x) else "–" for x in (normalised, rated))
-        rows.append([name, unit_shown(unit), f"{factor * s.deviations.rms:.3g}", *numbers])
-    words = "with the parameters of the FMU" if after is None else "with the fitted parameters"
-    subtitle = f"simulated and measured, {words}; rating like ISO/TS 18571, 1 is best"
-    draws = [partial(_over, name=name, s=s) for name, s in shown.signals.items()]
-    write_slide(stem, title, subtitle, head, rows, draws)
-
-
-def _over(axes: Axes, name: str, s: ComparedSignal) -> None:
-    unit, factor = shown_in(s.measured.unit, name)
-    every = max(1, len(s.measured.time) // _POINTS)
-    t = s.measured.time[::every]
-    axes.plot(t, factor * s.measured.values[::every], ".", color=_MEASURED, markersize=2.5, label="measured")
-    axes.plot(t, factor * s.simulated(t), color=BLUE, linewidth=1.2, label="simulated")
-    axes.set_title(f"{name}, {unit}" if unit != "1" else name)
-    axes.set_xlabel("time, s")
-    axes.margins(x=0)
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))

@@ -16,6 +16,7 @@ from hosts.compare.plausibility import odd_scale, odd_speed
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
+from hosts.compare.turned_inputs import turned_input, turned_signals
 from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table
 
@@ -86,7 +87,7 @@ def _check(options: argparse.Namespace, task: Task) -> None:
 
 def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
     result = replay.run()
-    problems, told = [], len(task.notes)
+    problems, noted = [], len(task.notes)
     if result.failed_steps:
         problems.append(
             f"The FMU refused a step at {result.simulated:.4g} s of {task.stretches[0].end:.4g} s"
@@ -101,11 +102,14 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
         if name not in enough:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
     task.notes.extend(held_words(result, task.stretches))
-    for note in task.notes[told:]:
+    for note in task.notes[noted:]:
         print(f"note: {note}", flush=True)
     compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
-    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for s in compared.signals.values()]
-    return compared, problems + [line for line in (odd_speed(task.outputs), *odd) if line]
+    opposite = turned_signals(compared)
+    cause = turned_input(options.fmu, task, compared, opposite)
+    told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
+    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for s in told.values()]
+    return compared, problems + [line for line in (odd_speed(task.outputs), cause, *odd) if line]
 
 
 def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:

@@ -116,11 +116,7 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     found = deviations(signal.time, y, x)
     what = f"'{signal.source}' ({signal.name})"
-    # A wave of the other sign is also one that is late by half a period, but not as well. One that falls where the
-    # other rises has the same sign where both are positive, as a speed.
-    now = curve(signal.time)
-    still = deviations(signal.time, y, now).correlation
-    if still < -_ALIKE and not found.correlation > 0.05 - still and float(y @ now) < 0.0:
+    if (still := turned(signal, curve, delay)) is not None:
         return (
             f"{what} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
             "file turns it."
@@ -133,3 +129,17 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
         if factor / _CLOSE < ratio < factor * _CLOSE:
             return f"{what} is {ratio:.4g} times as large as in the simulation: {words}."
     return ""
+
+
+def turned(signal: Signal, curve: Curve, delay: float = 0.0) -> float | None:
+    """The correlation with the simulation of a measured signal that has its opposite sign; else None.
+
+    `delay`: of the signal, s.
+    """
+    x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
+    # A wave of the other sign is also one that is late by half a period, but not as well. One that falls where the
+    # other rises has the same sign where both are positive, as a speed.
+    now = curve(signal.time)
+    still = deviations(signal.time, y, now).correlation
+    late = deviations(signal.time, y, x).correlation
+    return still if still < -_ALIKE and not late > 0.05 - still and float(y @ now) < 0.0 else None

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
-from hosts.compare.curve import Curve
+from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.log import Signal
 from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
@@ -62,8 +62,9 @@ class Residuals:
         return np.concatenate([self._of(n, curves[n], p) for n in self.outputs])
 
     def _of(self, name: str, curve: Curve, p: Array) -> Array:
-        signal, bias, gain = self.outputs[name], self._own("bias", name, p), self._own("gain", name, p, 1.0)
-        return (bias + gain * curve(self._time(name, p)) - signal.values) / self.noise[name]
+        delay, drift, bias = (self._own(kind, name, p) for kind in ("delay", "drift", "bias"))
+        sensed = SensedCurve(curve, delay, drift, bias, self._own("gain", name, p, 1.0))
+        return sensed.misfit(self.outputs[name]) / self.noise[name]
 
     def _time(self, name: str, p: Array) -> Array:
         delay, drift = self._own("delay", name, p), self._own("drift", name, p)

@@ -14,7 +14,7 @@ from ali3.write_parameter_set import write_parameter_set
 from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit_result import Fit
-from hosts.compare.page import comparison_figure, write_summary
+from hosts.compare.page import comparison_figure
 from hosts.compare.report import write_report
 from hosts.compare.result_files import measure_records, write_json, write_signals
 from hosts.compare.task import Task
@@ -43,7 +43,7 @@ class Outcome:
 
 def paths_of(options: argparse.Namespace) -> dict[str, Path]:
     """The files to be written by suffix; `FileError` at once, before the work, if they cannot be."""
-    kinds = [".html", ".png", ".svg", "_summary.svg", "_summary.png", ".csv", *([".ssv"] if options.fit else [])]
+    kinds = [".html", ".png", ".svg", ".csv", *([".ssv"] if options.fit else [])]
     paths = {kind: options.out / f"{options.log.stem}{kind}" for kind in kinds}
     if options.json is not None:
         paths[".json"] = options.json
@@ -61,7 +61,6 @@ def write_outcome(
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
     save_pictures(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"].with_suffix(""))
-    write_summary(outcome.before, outcome.after, title, paths["_summary.svg"].with_suffix(""))
     told = bins(outcome.best, task.scales)
     write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths)
     if outcome.fit is not None:

@@ -24,7 +24,7 @@ from hosts.compare.starting_pedal import starting_pedals
 from hosts.compare.stretches import GAP, PEDALS, Spans, Stretch, begins, in_spans, one_after_the_other, spans
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.missed_jumps import missed_jumps
+from hosts.driving.missed_inputs import missed_inputs
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
@@ -170,8 +170,8 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
 
 
 def _missed(manoeuvre: Manoeuvre, step: float, slopes: bool, whole: Set[str], begin: float) -> list[str]:
-    """A sentence where an input jumps inside a communication step."""
-    missed = missed_jumps(manoeuvre, step, manoeuvre.inputs if slopes else (), whole)
+    """A sentence where an input has a corner or jumps inside a communication step."""
+    missed = missed_inputs(manoeuvre, step, manoeuvre.inputs if slopes else (), whole)
     origin = f" after {begin:g} s of the log" if begin else ""
     return [] if missed is None else [f"{missed[0]}{origin}: {missed[1]}."]
 

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.driving.missed_jumps import missed_end, missed_jumps
+from hosts.driving.missed_inputs import missed_end, missed_inputs
 from hosts.driving.pilots.pilot import Pilot, refuse_missing
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.driving.steady_throttle import with_change_of_speed, with_throttle
 from hosts.fmu.fmu import StepRefusedError
 
 
@@ -69,6 +70,8 @@ def run(
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
+    A throttle that the manoeuvre asks to be found is found before, in the same instance, which is then reset.
+
     Real inputs of its table go straight between its rows where the FMU follows input derivatives. Parameters, whole
     numbers, inputs that a driver acts on and all inputs of other FMUs are held over each step.
 
@@ -97,6 +100,9 @@ def run(
     """
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
+    if manoeuvre.find_throttle:
+        manoeuvre = with_throttle(run, fmu, manoeuvre, step)
+        return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last))
     inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
     outputs = fmu.names("output")
     whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
@@ -154,7 +160,7 @@ def run(
         if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin
-    jumps = missed_jumps(manoeuvre, step, straight, whole, acts)
+    lost = missed_inputs(manoeuvre, step, straight, whole, acts)
     progress(rows.done)
     recorded, values = rows.close(last)
     names = inputs + outputs
@@ -171,7 +177,7 @@ def run(
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         rows.jumps,
         lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
-        missed=[told for told in (manoeuvre.late_begin(acts), jumps, end) if told is not None],
+        missed=[told for told in (manoeuvre.late_begin(acts), lost, end) if told is not None],
         start=dict(manoeuvre.start),
     )
 

@@ -13,6 +13,8 @@ from ali3.iso_3888 import Gate
 
 # How far the path's curves reach into the lanes, m: it widens the bends and uses little of the room beside the car.
 EASE = 5.0
+ROWS = 1.0
+"""How far rows may be apart that show whether lanes were kept, m; in bends of 20 m what is between is 6 mm aside."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,28 @@ class Course:
             (before.x_end - EASE, after.x_start - before.x_end + 2.0 * EASE, after.centre - before.centre)
             for before, after in pairwise(self.gates)
         ]
+
+    def not_driven(self, x: NDArray[np.float64], length: float) -> str:
+        """What of the lanes a vehicle has not driven, as a sentence without its end; empty: it has driven all.
+
+        `x`: centre of the vehicle, m, shape (n,); `length`: m. It begins before the first lane, comes to each, and is
+        wholly behind the last one at its end, with rows that show what was in between.
+        """
+        if not len(x):
+            return "no lane was driven"
+        front, rear = x + 0.5 * length, x - 0.5 * length
+        begin, end = self.gates[0].x_start, self.gates[-1].x_end
+        if front[0] > begin:
+            return f"lane 1 was not driven from its beginning at {begin:.4g} m: the front starts at {front[0]:.4g} m"
+        for number, gate in enumerate(self.gates, start=1):
+            if front.max() < gate.x_start:
+                place = f"it begins at {gate.x_start:.4g} m, the front comes to {front.max():.4g} m"
+                return f"lane {number} was not reached: {place}"
+        if rear[-1] <= end:
+            place = f"it ends at {end:.4g} m, the rear is at {rear[-1]:.4g} m at last"
+            return f"lane {len(self.gates)} was not left: {place}"
+        apart = float(np.abs(np.diff(x)).max(initial=0.0, where=(front[1:] >= begin) & (rear[:-1] <= end)))
+        return f"rows are {apart:.3g} m apart, lanes are seen by {ROWS:g} m or less" if apart > ROWS else ""
 
     def corners_outside(
         self, x: NDArray[np.float64], y: NDArray[np.float64], yaw: NDArray[np.float64], length: float, width: float

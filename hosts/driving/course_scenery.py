@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ali3.cones import cone_places
 from ali3.iso_3888 import Gate
+from ali3.scene.base64_numbers import decoded
 from hosts.driving.course import Course
 from hosts.driving.ground_marks import Mark, lanes
-from viewer.base64_numbers import decoded
 from viewer.gltf.materials import LOOKS
 
 Array = NDArray[np.float64]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 
 from ali3.decimal_number import parse_number
 from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
-from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.pilot import ACTS, SENSES, refuse_missing
 from hosts.driving.simulated_fmu import SimulatedFmu
@@ -57,6 +57,28 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
             )
     values = DriverSettings(**numbers)
     return Driver(course_of(settings["course"], values.vehicle_width), values)
+
+
+def with_settings(
+    manoeuvre: Manoeuvre, given: Mapping[str, float], names: Collection[str], stop_time: float | None
+) -> Manoeuvre:
+    """The manoeuvre with settings of its driver in place of its own.
+
+    `given`: by name; the car starts at another `speed` where `names`, those of the FMU's variables, have a parameter
+    for it, and a slower one has more time, so that it comes as far; `stop_time`: that was asked for, s, and stays.
+    Raises `HostError` if there is no driver.
+    """
+    if given and not manoeuvre.driver:
+        raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
+    driver = {**manoeuvre.driver, **{name: repr(value) for name, value in given.items()}}
+    start, speed, longest = dict(manoeuvre.start), given.get("speed", 0.0), manoeuvre.stop_time
+    if speed > 0.0:
+        if INITIAL_SPEED in names:
+            start[INITIAL_SPEED] = speed
+        before = manoeuvre.start.get(INITIAL_SPEED)
+        if stop_time is None and isinstance(before, (int, float)):
+            longest = max(longest, longest * before / speed)
+    return replace(manoeuvre, driver=driver, start=start, stop_time=longest)
 
 
 def check_drivable(inputs: Collection[str], outputs: Collection[str], whose: str) -> None:

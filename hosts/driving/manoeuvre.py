@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 
+INITIAL_SPEED = "initial.speed"
+"""Parameter of a car that starts at a speed, m/s."""
 ON_TIME = 1e-9
 """By which a row may miss the time that is meant, s."""
 
@@ -37,6 +39,8 @@ class Manoeuvre:
     """At which the FMU then stands, s; `time` counts from there."""
     held: frozenset[str] = frozenset()
     """Inputs that keep the value of a row up to the next one."""
+    find_throttle: bool = False
+    """Whether the throttle is the one that holds the speed of the start straight on; it is found before the run."""
     step: float | None = None
     """Communication step that it was recorded with, s; taken where no other is asked for."""
 
@@ -72,6 +76,17 @@ class Manoeuvre:
             name: float(v[k - 1]) if name in held else _between(float(v[k - 1]), float(v[k]), float(s))
             for name, v in self.inputs.items()
         }
+
+    def column(self, name: str, times: NDArray[np.float64], held: bool, before: bool = False) -> NDArray[np.float64]:
+        """Values of one input at many times, see `at`. `times`: s, shape (n,). Result: shape (n,)."""
+        k = np.searchsorted(self.time, times + (-ON_TIME if before else ON_TIME), side="left" if before else "right")
+        one, other = np.maximum(k - 1, 0), np.minimum(k, len(self.time) - 1)
+        values, long = self.inputs[name], self.time[other] - self.time[one]
+        if held:
+            return values[one]
+        part = np.clip((times - self.time[one]) / np.where(long > 0.0, long, 1.0), 0.0, 1.0)
+        part = np.where(long > 0.0, part, 0.0)
+        return np.asarray((1.0 - part) * values[one] + part * values[other])
 
 
 def _between(one: float, other: float, part: float) -> float:

@@ -12,15 +12,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.near_names import did_you_mean
 from ali3.reading import LARGEST_TEXT, no_file, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
 
-SUFFIXES = (".toml", ".csv", ".ini")
-"""Of files that hold manoeuvres; ``.ini`` is of earlier versions."""
-_KEYS = ("stop_time", "held", "start", "driver", "inputs", "state")
+SUFFIXES = (".toml", ".csv")
+"""Of files that hold manoeuvres."""
+_KEYS = ("stop_time", "held", "find_throttle", "start", "driver", "inputs", "state")
 
 
 def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
@@ -28,22 +29,17 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
 
     `manoeuvre`: name of a manoeuvre of the host, or a file in TOML or CSV; see `read_table`. A TOML file has
     ``stop_time`` in s, ``[start]`` values, settings of a ``[driver]``, ``[inputs]`` with a list of numbers for ``time``
-    and each input, ``held``, a list of those that keep a value up to the next time, and a ``[state]`` of the FMU to
-    begin with: ``file`` beside it, ``time``. `stop_time`: in place of its own, s. Raises `HostError` with the line or
+    and each input, ``held``, a list of those that keep a value up to the next time, ``find_throttle``, true
+    where the throttle is the one that holds the speed of the start, and a ``[state]`` of the FMU to begin with:
+    ``file`` beside it, ``time``. `stop_time`: in place of its own, s. Raises `HostError` with the line or
     key and the reason.
     """
     path = Path(manoeuvre)
+    check_manoeuvre(manoeuvre)
     if path.suffix not in SUFFIXES:
-        if manoeuvre not in manoeuvre_names():
-            names = ", ".join(manoeuvre_names())
-            raise HostError(f"There is no manoeuvre '{manoeuvre}'. Give a file.toml, a file.csv or one of: {names}.")
         path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if p.is_file())
     if path.suffix == ".toml":
         made = _read_toml(path)
-    elif path.with_suffix(".ini").is_file():
-        from hosts.driving.old_manoeuvre import read_old_manoeuvre
-
-        made = read_old_manoeuvre(path)
     else:
         if not path.is_file():
             raise HostError(no_file(path))
@@ -55,6 +51,17 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     if not made.stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")
     return made
+
+
+def check_manoeuvre(manoeuvre: str) -> None:
+    """Refuse a word that is neither a file nor the name of a manoeuvre, before anything is made for it.
+
+    `manoeuvre`: as `read_manoeuvre` takes it. Raises `HostError`: with near names, or all.
+    """
+    if Path(manoeuvre).suffix in SUFFIXES or manoeuvre in (names := manoeuvre_names()):
+        return
+    near = did_you_mean(manoeuvre, names, f"give a file.toml, a file.csv or one of: {', '.join(names)}")
+    raise HostError(f"There is no manoeuvre '{manoeuvre}'{near}")
 
 
 def _read_toml(path: Path) -> Manoeuvre:
@@ -79,7 +86,12 @@ def _read_toml(path: Path) -> Manoeuvre:
     held = content.get("held", [])
     if not isinstance(held, list) or any(not isinstance(name, str) or name not in inputs for name in held):
         raise HostError(f"{path}: held must be a list of names of [inputs].")
-    return Manoeuvre(path.stem, time, inputs, stop_time, start, words, *state, frozenset(held))
+    find = content.get("find_throttle", False)
+    if not isinstance(find, bool):
+        raise HostError(f"{path}: find_throttle is {json.dumps(find, default=str)[:40]}; it must be true or false.")
+    if find and (words or "throttle" in inputs):
+        raise HostError(f"{path}: with find_throttle there is no {'[driver]' if words else 'throttle in [inputs]'}.")
+    return Manoeuvre(path.stem, time, inputs, stop_time, start, words, *state, frozenset(held), find)
 
 
 def _table(content: Mapping[str, Any], key: str, path: Path) -> dict[str, Any]:

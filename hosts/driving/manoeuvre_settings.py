@@ -9,6 +9,7 @@ from typing import Any
 from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.pilot import ACTS
+from hosts.driving.steady_throttle import THROTTLE
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.settings import START_OF, Settings
 
@@ -42,6 +43,9 @@ def set_in(
     settings.add_numbers(theirs(manoeuvre.start), f"{START_OF}{manoeuvre.name}")
     settings.add_wishes(wishes, fidelity)
     settings.overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
+    if manoeuvre.find_throttle:
+        found = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
+        settings.overwritten(theirs({THROTTLE: 0.0}), found)
     if manoeuvre.driver:
         acts = theirs(dict.fromkeys(ACTS, 0.0))
         settings.overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")

@@ -36,7 +36,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     `known`: inputs that there are; columns of other names are not read. By default all columns are inputs. Raises
     `HostError` with the line and the reason.
     """
-    table = TextTable(path, HostError)
+    table = TextTable(path, HostError, known=("time",))
     names = table.names
     for match in filter(None, map(HEADING.fullmatch, names)):
         if known is None or match[0] not in known:
@@ -94,7 +94,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is said to be held and is no input of the table.")
     start = {name: value for name, value in (start | given).items() if name not in columns}
     return Manoeuvre(
-        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step
+        path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step=step
     )
 
 

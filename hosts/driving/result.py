@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.angles import continuous
 from hosts.common.numbers import Value
 
 
@@ -45,7 +46,9 @@ class Result:
     lost: list[str] = field(default_factory=list)
     """Inputs that moved between the rows otherwise than the rows tell, where not every step has one."""
     missed: list[tuple[str, str]] = field(default_factory=list)
-    """What `Manoeuvre.late_begin`, `missed_jumps` and `missed_end` say of the manoeuvre."""
+    """What `Manoeuvre.late_begin`, `missed_inputs` and `missed_end` say of the manoeuvre."""
+    notes: list[tuple[str, str]] = field(default_factory=list)
+    """What else is said of the manoeuvre: what and how much."""
     start: Mapping[str, Value] = field(default_factory=dict)
     """What was set before the start."""
     marks: list[dict[str, Any]] = field(default_factory=list)
@@ -56,3 +59,10 @@ class Result:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         return np.asarray(self.values[:, self.names.index(name)])
+
+    def continuous(self, name: str) -> NDArray[np.float64]:
+        """A signal; of runs that were put one after the other each, an angle (rad) without jumps by whole turns."""
+        values = self[name]
+        if self.units.get(name) != "rad":
+            return values
+        return np.concatenate([continuous(part) for part in np.split(values, self.starts[1:])])

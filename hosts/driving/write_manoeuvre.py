@@ -30,6 +30,8 @@ def write_manoeuvre(manoeuvre: Manoeuvre, file: Path, comment: str = "") -> None
     lines.append(f"stop_time = {manoeuvre.stop_time!r}")
     if manoeuvre.held:
         lines.append(f"held = {json.dumps(sorted(manoeuvre.held))}")
+    if manoeuvre.find_throttle:
+        lines.append("find_throttle = true")
     columns = {"time": manoeuvre.time, **manoeuvre.inputs} if manoeuvre.inputs else {}
     tables: dict[str, Mapping[str, Any]] = {
         "start": {name: _toml(value) for name, value in manoeuvre.start.items()},

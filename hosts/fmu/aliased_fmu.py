@@ -58,6 +58,12 @@ class AliasedFmu(NamedScalars):
         self._hold({name: float(x) for name, x in start.items() if name in self._held})
         self._time = start_time
 
+    def reset(self) -> None:
+        """See `Fmu.reset`."""
+        self._fmu.reset()
+        self._hold(dict(zip(self._inputs, self.start_values(self._inputs).tolist(), strict=True)))
+        self._slopes = {}
+
     def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         chosen = self._chosen(names)
         set_theirs = self._fmu.setter([a.theirs for a in chosen])

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from hosts.common.package_names import check_car
 from hosts.fmu.car import is_car
 
 DIST = Path("dist", "PrototypeCar.fmu")
@@ -36,6 +37,8 @@ def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None 
         return FoundFmu(given)
     from hosts.fmu.built_fmu import fmu_of_car
 
+    if given is not None:
+        check_car(given)
     begin = time.monotonic()
     built: list[str] = []
 

@@ -11,12 +11,12 @@ from typing import Any
 
 from ali3.json_reading import LARGEST_JSON, read_json
 from ali3.processes import command_name
+from ali3.scene.errors import SceneError
+from ali3.scene.scene import read_scene
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.world_record import world_beside
-from viewer.errors import SceneError
-from viewer.scene import read_scene
 
 RESOURCE = "resources/geometry.json"
 _ROADS = "resources/roads"

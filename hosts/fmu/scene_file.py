@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from ali3.reading import no_file
+from ali3.scene.errors import SceneError
+from ali3.scene.scene import read_scene
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.geometry import scene_of
-from viewer.errors import SceneError
-from viewer.scene import read_scene
 
 
 def scene_from(

@@ -53,7 +53,7 @@ class Settings:
         found = []
         for name, text in given.items():
             variable = self._variables.settable(name, source)
-            found.append(Setting(variable, variable.read(text, source), source))
+            found.append(Setting(variable, variable.read(text, source, with_unit=True), source))
         self._put(found)
         for v, value in ((s.variable, s.value) for s in found if not s.changes):
             self._notes.append((v.name, f"{v.with_unit(value)} as in the FMU ({source})"))

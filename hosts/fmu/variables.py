@@ -13,6 +13,7 @@ from ali3.decimal_number import parse_number
 from ali3.near_names import MOST, did_you_mean
 from ali3.processes import command_name
 from ali3.unit_definition import BASE_UNITS, KINDS, UnitDefinition
+from ali3.units import number_with_unit
 from ali3.words import brief, range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
@@ -75,10 +76,11 @@ class Variable:
             return ", ".join(f"{number} {name}" for name, number in self.items.items())
         return range_words(self.low, self.high, self.unit if self.kind == "Real" else "1")
 
-    def read(self, text: str, source: str) -> Value:
-        """The value that a person has written, checked. `source`: how messages call where it stands.
+    def read(self, text: str, source: str, with_unit: bool = False) -> Value:
+        """The value that a person has written, checked.
 
-        Raises `HostError`: it is no value of this variable.
+        `source`: how messages call where it stands; `with_unit`: whether a unit may stand behind it, as on the command
+        line: files have numbers alone. Raises `HostError`: it is no value of this variable.
         """
         if self.kind == "String":
             return text
@@ -90,7 +92,8 @@ class Variable:
         if word in self.items:
             return self.items[word]
         try:
-            return self.check(parse_number(word), source)
+            number = number_with_unit(word, self.unit) if with_unit and self.kind == "Real" else parse_number(word)
+            return self.check(number, source)
         except ValueError as error:
             raise HostError(f"{source}: '{self.name}': {error}.") from None
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.manoeuvre_file import read_manoeuvre
+from hosts.driving.manoeuvre_file import check_manoeuvre, read_manoeuvre
 from hosts.recordings.format import is_recording
 
 
@@ -22,3 +22,9 @@ def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
 
     made = recorded_manoeuvre(Path(manoeuvre))
     return made if stop_time is None else replace(made, stop_time=stop_time)
+
+
+def check_asked(given: str | None) -> None:
+    """Refuse a word that is no manoeuvre, before an FMU is built for it. `given`: as of `load_manoeuvre`, if any."""
+    if given is not None and not is_recording(Path(given)):
+        check_manoeuvre(given)

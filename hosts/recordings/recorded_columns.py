@@ -1,13 +1,13 @@
-"""What of a drive is recorded, so that an hour of a car has at most 200 MB; the rest is found by driving it again."""
+"""How often columns of a drive are recorded; what lies between their values is found by driving it again."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.scene.scene_columns import all_columns
 from hosts.driving.run_checks import steps_of
 from hosts.fmu.geometry import scene_of
-from viewer.scene_columns import all_columns
 
 DRAWN, OTHERS = 0.025, 0.1
 """Between two values of outputs that are drawn, and of others, s, about; a longer step counts."""
@@ -18,19 +18,17 @@ def recorded_columns(
 ) -> dict[str, int]:
     """Columns of a recording, and how many steps lie between two of their values.
 
-    Inputs are recorded at every step, so that a drive can be repeated; outputs that the scene of the FMU draws about
-    every 25 ms, others at every fourth of these rows. The amplitudes of flexible parts are left out, some
-    dozens of columns that only the colours of stresses need.
+    Inputs are recorded at every step, so that a drive can be repeated; outputs that the scene of the FMU draws, also
+    the amplitudes of flexible parts, about every 25 ms, others at every fourth of these rows.
 
-    `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step; amplitudes are then
-    recorded too. Raises `HostError`: the interval is no whole multiple of the step.
+    `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step. Raises `HostError`: the
+    interval is no whole multiple of the step.
     """
     every = dict.fromkeys(inputs, 1)
     if interval is not None:
         return every | dict.fromkeys(outputs, steps_of(interval, step, "The interval"))
-    scene = scene_of(fmu) or {}
+    scene = scene_of(fmu)
     drawn = set(all_columns(scene)) if scene else set()
-    amplitudes = {name for part in scene.get("flexible") or [] for name in part["amplitudes"]}
     often = max(1, round(DRAWN / step))
     seldom = often * max(1, round(OTHERS / (often * step)))
-    return every | {name: often if name in drawn else seldom for name in outputs if name not in amplitudes}
+    return every | {name: often if name in drawn else seldom for name in outputs}

@@ -73,11 +73,6 @@ class RecordedDrive:
         """Of each column, how many steps lie between two of its values."""
         return list(self.meta["every"])
 
-    @property
-    def left_out(self) -> list[str]:
-        """Outputs that are not recorded."""
-        return list(self.meta["left_out"])
-
     def recorded(self, rows: Rows, epoch_before: int | None = None) -> NDArray[np.bool_]:
         """Which values of rows are recorded. `epoch_before`: of the row before the first of these; None: there is none.
 
@@ -197,26 +192,21 @@ def read_recording(folder: Path) -> RecordedDrive:
     if not file.is_file():
         what = "has no" if folder.is_dir() else "is no folder with a"
         raise HostError(f"{folder} {what} {DESCRIPTION}; name the folder of a recording.")
-    meta = read_json(file, HostError, finite=False)  # recordings of earlier versions may have NaN
+    meta = read_json(file, HostError)
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
         raise HostError(f"{file} is no recording of the simulator: its format is not {FORMAT!r}.")
-    if meta.get("version") not in (1, VERSION):
-        raise HostError(
-            f"{file} is a recording of version {brief(meta.get('version'))}; this program reads 1 and {VERSION}."
-        )
+    if meta.get("version") != VERSION:
+        raise HostError(f"{file} is a recording of version {brief(meta.get('version'))}; this program reads {VERSION}.")
     for key, kind in _KEYS.items():
         if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
             raise HostError(f"{file} does not say the {key} of the recording.")
-    meta = {"every": [1] * len(meta["columns"]), "left_out": []} | meta  # version 1 has all at every step
-    every = meta["every"]
-    if not isinstance(every, list) or not all(isinstance(k, int) and k > 0 for k in every):
-        raise HostError(f"{file} does not say by 'every' how many steps lie between two values of a column.")
-    names = meta["left_out"]
-    if len(every) != len(meta["columns"]) or not isinstance(names, list) or not all(isinstance(n, str) for n in names):
-        raise HostError(f"{file} does not say by 'every' and 'left_out' what of the columns is recorded.")
+    every = meta.get("every")
+    known = isinstance(every, list) and len(every) == len(meta["columns"])
+    if not known or not all(isinstance(k, int) and k > 0 for k in every):
+        raise HostError(f"{file} does not say by 'every' of each column how many steps lie between two of its values.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     events = _events(folder / EVENTS)
-    count = meta.get("events", len(events))  # versions before do not say
+    count = meta.get("events")
     if meta.get("closed") and count != len(events):
         notes.append(f"{folder / EVENTS} has {len(events)} of {brief(count)} events: it was cut or altered.")
     return RecordedDrive(folder, meta, events, notes)

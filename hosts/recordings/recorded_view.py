@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import shlex
 import zipfile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.processes import command_name
+from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
 from hosts.fmu.scene_file import scene_from
 from hosts.recordings.recorded_drive import read_recording
-from viewer.recording import Recording
 
 _MOST_VALUES = 8_000_000  # that are read: 64 MB
 
@@ -63,19 +61,11 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     # As the driver had it: it goes on where the car was reset or rewound.
     time, whole = drive.step * np.asarray(rows.steps, dtype=np.float64), set(drive.meta.get("whole", ()))
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
-    for part in (scene or {}).get("flexible") or []:
-        if set(part["amplitudes"]) & set(drive.left_out):  # drawn rigid, and without the colours of stresses
-            rigid = [*part["amplitudes"], *([part["computed"]] if "computed" in part else [])]
-            columns |= dict.fromkeys(rigid, np.zeros(len(time)))
-    recording = Recording(scene, time, columns, drive.meta["units"], name)
-    if drive.left_out:
-        again = shlex.join([str(drive.meta["fmu"]), "--manoeuvre", str(folder)])
-        recording.notes.append(
-            f"{len(drive.left_out)} outputs are not recorded, such as {drive.left_out[0]}; --interval records all; to "
-            f"compute them again: {command_name('run')} {again}"
-        )
+    recording = Recording(scene, time, columns, drive.meta["units"], name, rows.epoch)
     kinds = [event["kind"] for event in drive.events]
-    jumps = [f"{kind} {kinds.count(kind)} times" for kind in ("reset", "rewind", "upright") if kind in kinds]
+    done = {"reset": "reset", "rewind": "rewound", "upright": "set upright"}
+    counts = {words: kinds.count(kind) for kind, words in done.items() if kind in kinds}
+    jumps = [f"{words} {'once' if count == 1 else f'{count} times'}" for words, count in counts.items()]
     if jumps:
         recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
     return recording, told

@@ -116,7 +116,7 @@ class Recorder(Closing):
     table : {"parquet", "csv"}, optional
         By default Parquet where pyarrow is installed.
     every : mapping of str to int, optional
-        Names that are recorded, and how many steps lie between two of their values; by default all, at every step.
+        Of each name, how many steps lie between two of its values; by default one.
 
     Attributes
     ----------
@@ -148,21 +148,17 @@ class Recorder(Closing):
             self.told.append(f"The recording is written as CSV, which takes three times the room: {words}")
             table = "csv"
         self.folder = folder
-        steps_of = dict.fromkeys(names, 1) if every is None else every
-        self._names = [name for name in names if name in steps_of]
-        self._places = [k for k, name in enumerate(names) if name in steps_of]
-        self._every = [steps_of[name] for name in self._names]
+        self._every = [1 if every is None else every[name] for name in names]
         self._epoch: int | None = None
         self._meta = {
             "format": FORMAT,
             "version": VERSION,
             **meta,
-            "columns": self._names,
+            "columns": list(names),
             "every": self._every,
-            "left_out": [name for name in names if name not in steps_of],
-            "units": {name: units.get(name, "1") for name in self._names},
+            "units": {name: units.get(name, "1") for name in names},
         }
-        self._table: Table = (CsvTable if table == "csv" else ParquetTable)(folder, self._names, units)
+        self._table: Table = (CsvTable if table == "csv" else ParquetTable)(folder, names, units)
         self._events = (folder / EVENTS).open("x", encoding="utf-8")
         self._held: list[tuple[float, int, int, ArrayLike]] = []
         self._written, self._told, self._wrote = 0, 0, clock.monotonic()
@@ -181,8 +177,8 @@ class Recorder(Closing):
         epoch : int
             Its first row is that of a start, reset, rewind or upright, and no step.
         values : array of shape (len(names),)
-            Inputs of the step that ends there, outputs after it, also those that are not recorded. It is kept, and must
-            not change.
+            Inputs of the step that ends there, outputs after it, also those that are not due. It is kept, and must not
+            change.
         """
         self._held.append((time, count, epoch, values))
         if len(self._held) >= _MOST_ROWS or clock.monotonic() - self._wrote > _MOST_WAIT:
@@ -218,7 +214,7 @@ class Recorder(Closing):
         time, count, epoch, values = zip(*self._held, strict=True)
         self._held = []
         steps, epochs = np.array(count, np.int64), np.array(epoch, np.int64)
-        table = np.array(values, float)[:, self._places]
+        table = np.array(values, float)
         begins = epochs != np.r_[-1 if self._epoch is None else self._epoch, epochs[:-1]]
         table[~recorded(steps, begins, self._every)] = np.nan
         self._epoch = int(epochs[-1])

@@ -79,8 +79,7 @@ def _outputs(drive: RecordedDrive) -> str:
     """How many outputs are recorded how often."""
     every = Counter(drive.every[len(drive.inputs) :])
     often = [f"{number} every {1e3 * k * drive.step:g} ms" for k, number in sorted(every.items())]
-    saved = [f"{len(drive.left_out)} not recorded"] * bool(drive.left_out)
-    return ", ".join(often + saved) + f"; {len(drive.saved)} states between"
+    return ", ".join(often) + f"; {len(drive.saved)} states between"
 
 
 def _drive(folder: Path) -> RecordedDrive:

@@ -119,7 +119,7 @@ def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
 
 
 def _csv_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
-    table = TextTable(file, HostError, whole=True)
+    table = TextTable(file, HostError, known=KEYS, whole=True)
     _check_names(file, table.names, names)
     rows = table.rows()
     keys = len(KEYS)

@@ -9,15 +9,16 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.options import Parser, add_option, assignment, given_of
+from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
+from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
+from hosts.common.units import unit_of
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
 
@@ -39,7 +40,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
         "--driver",
         action="append",
         default=[],
-        type=assignment,
+        type=_driver_setting,
         metavar="NAME=VALUE",
         help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
     )
@@ -81,10 +82,12 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
     from hosts.recordings.asked_manoeuvre import manoeuvre_of
+    from hosts.recordings.load_manoeuvre import check_asked
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
-    from hosts.run.run_summary import energy_balance, summary
+    from hosts.run.run_summary import energy_balance, pace, summary
 
+    check_asked(options.manoeuvre)
     path, known = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
         other: OtherNames | None = None
@@ -94,9 +97,10 @@ def _run(options: argparse.Namespace) -> int:
             other = OtherNames(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
-        if known and not manoeuvre.driver:
-            raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
-        manoeuvre = replace(manoeuvre, driver=dict(manoeuvre.driver) | {k: repr(v) for k, v in known.items()})
+        if known:
+            from hosts.driving.driver import with_settings
+
+            manoeuvre = with_settings(manoeuvre, known, fmu.variables, options.stop_time)
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver: Driver | None = None
@@ -131,7 +135,14 @@ def _run(options: argparse.Namespace) -> int:
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
     title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
-    return print_result((settings.rows(), rows, energy_balance(result)), result, (table, picture, record))
+    printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
+    return print_result(printed, result, (table, picture, record))
+
+
+def _driver_setting(text: str) -> tuple[str, float]:
+    """``NAME=VALUE`` with a number, or one with a unit where that of the name is known."""
+    name, value = name_and_text(text)
+    return name, quantity(unit_of(name) or unit_of(f"vehicle.{name}") or "")(value)
 
 
 def _words(name: str) -> str:

@@ -2,20 +2,62 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
 from hosts.driving.driver import Driver
+from hosts.driving.manoeuvre import INITIAL_SPEED
 from hosts.driving.result import Result
+
+_CLOSE = 3.0  # km/h: that ISO 3888 lets the speed of entry be from the one that is wanted
+_STANDS = 0.5  # m/s: slower, more time is no remedy
 
 
 def course_result(result: Result, driver: Driver) -> tuple[list[tuple[str, str]], NDArray[np.float64]]:
     """The row of the summary table that says whether the vehicle stayed inside the gates, none without its path; and
     the gates, of shape (gates, 4): first and last x, right and left y, m.
+
+    "passed" are all lanes, entered at the speed that was asked for.
     """
-    gates = np.array([(g.x_start, g.x_end, g.y_right, g.y_left) for g in driver.course.gates])
+    course = driver.course
+    gates = np.array([(g.x_start, g.x_end, g.y_right, g.y_left) for g in course.gates])
     if any(f"chassis.{name}" not in result for name in ("x", "y", "yaw")):
         return [], gates
+    return [(course.name, _verdict(result, driver))], gates
+
+
+def _verdict(result: Result, driver: Driver) -> str:
+    course, length, width = driver.course, driver.settings.vehicle_length, driver.settings.vehicle_width
     x, y, yaw = (result[f"chassis.{name}"] for name in ("x", "y", "yaw"))
-    out = driver.course.corners_outside(x, y, yaw, driver.settings.vehicle_length, driver.settings.vehicle_width)
-    return [(driver.course.name, f"passed, {-out:.2f} m to spare" if out <= 0.0 else f"missed by {out:.2f} m")], gates
+    out = course.corners_outside(x, y, yaw, length, width)
+    wanted, speed = 3.6 * driver.settings.speed, 3.6 * result["speed"]
+    inside = x + 0.5 * length >= course.gates[0].x_start
+    entry = float(speed[int(inside.argmax())]) if inside.any() else math.nan
+    entered = f"entered at {entry:.1f} km/h, {wanted:.1f} km/h asked for"
+    missing = course.not_driven(x, length)
+    if missing:
+        return f"missed by {out:.2f} m; {missing}" if out > 0.0 else f"not passed: {missing}{_more(result, driver)}"
+    if out > 0.0:
+        return f"missed by {out:.2f} m; {entered}"
+    if not abs(entry - wanted) <= _CLOSE:
+        remedy = f"--driver speed={entry / 3.6:.3g} asks for that"
+        if INITIAL_SPEED in result.start and result.start[INITIAL_SPEED] != driver.settings.speed:
+            remedy = f"start with --set {INITIAL_SPEED}={driver.settings.speed:g}"
+        return f"not passed: {entered}; {remedy}"
+    return f"passed, {-out:.2f} m to spare; {entered}"
+
+
+def _more(result: Result, driver: Driver) -> str:
+    """What would help where not all lanes were driven."""
+    x, speed, gates = result["chassis.x"], float(result["speed"][-1]), driver.course.gates
+    if (late := x[0] + 0.5 * driver.settings.vehicle_length - gates[0].x_start) > 0.0:
+        return f"; start {late:.4g} m or more before"
+    if result.failed_steps:
+        return "; the FMU refused the next step"
+    if (way := gates[-1].x_end + 0.5 * driver.settings.vehicle_length - float(x[-1])) <= 0.0:
+        return "; run without --interval"
+    if speed < _STANDS:
+        return f"; the car stands at {result.time[-1]:.4g} s"
+    return f"; --stop-time {math.ceil(result.time[-1] + 1.1 * way / speed)} is long enough at its speed"

@@ -33,7 +33,7 @@ _ERROR = "solver.energy_error"
 
 
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
-    """Rows of the summary table; those whose variables the FMU lacks are left out.
+    """Rows of the summary table; those whose variables the FMU lacks are left out. The same run has the same rows.
 
     `step`: communication step, s; `course`: rows of `course_result`, where a driver followed a course.
     Returns what and how much.
@@ -75,7 +75,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     moved = [name for name in result.late if np.ptp(result[name]) > 0.0]
     if moved:
         rows.append(("inputs held over a step", f"{', '.join(moved)}: {500.0 * step:.3g} ms late on average"))
-    rows += result.missed
+    rows += [*result.notes, *result.missed]
     if "solver.iterations" in result and len(result.time) > 1:
         n = result["solver.iterations"][1:]
         rows.append(("Newton iterations", f"{n.mean():.2f} a step, {n.max():.0f} at most"))
@@ -89,14 +89,14 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
     rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))
-    factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
-    rows.append(
-        (
-            "real-time factor",
-            f"{factor:.1f} ({result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms)",
-        )
-    )
     return rows
+
+
+def pace(result: Result, step: float) -> tuple[str, str]:
+    """How fast this machine was, as a row of the summary table; no picture has it. `step`: as for `summary`."""
+    factor = result.simulated / result.wall if result.wall > 0.0 else float("inf")
+    took = f"{result.simulated:.2f} s simulated in {result.wall:.3f} s, step {1e3 * step:g} ms"
+    return "real-time factor", f"{factor:.1f} ({took})"
 
 
 def energy_balance(result: Result) -> list[tuple[str, str]]:

@@ -10,7 +10,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of
 from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.common.errors import HostError
@@ -92,7 +91,6 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     )
     add_option(recorded, "--from", dest="begin")
     add_option(recorded, "--to", dest="end")
-    add_old_names(parser, {"--seconds": "--stop-time", "--wild": "--seed"})
     return parser
 
 

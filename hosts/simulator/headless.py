@@ -49,6 +49,11 @@ class OfManoeuvre:
                 f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input of this FMU; the "
                 f"simulator moves inputs only: {', '.join(car.inputs) or 'none'}."
             )
+        if manoeuvre.find_throttle:
+            raise HostError(
+                f"The manoeuvre '{manoeuvre.name}' finds its throttle in a run before, which the simulator does not "
+                "make; give the table that 'ali3 run' writes of it."
+            )
         self._manoeuvre = manoeuvre
         self._driver: Driver | None = None
         if manoeuvre.driver:

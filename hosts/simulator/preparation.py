@@ -13,6 +13,7 @@ from fmpy.model_description import ModelDescription
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD, Wishes
+from hosts.common.package_names import check_world
 from hosts.common.world_files import DEFAULT_WORLD, World, make_world, no_world
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
@@ -96,6 +97,8 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         from hosts.recordings.recording import check_folder
 
         check_folder(asked.record)
+    if asked.world is not None:
+        check_world(asked.world)
     with ThreadPoolExecutor() as pool:
         ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
         fmu = find_fmu(asked.fmu, tell, "all")

@@ -11,7 +11,6 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of
 from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
@@ -46,7 +45,6 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
         help="of the parameter of --target, in the unit of the FMU, such as --between=-5:5; default: that of the "
         "study file, else of the FMU",
     )
-    add_old_names(parser, {"--workers": "--jobs", "--list": "--dry-run"})
     options = parser.parse_args(arguments)
     return run_command(lambda: _study(options, prog) if options.target is None else _target(options, parser))
 

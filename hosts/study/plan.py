@@ -141,7 +141,8 @@ def job_digest(job: Job) -> str:
     manoeuvre = job.manoeuvre
     parts = [repr((job.test, job.settings, job.start, job.step, job.every, job.samples)).encode()]
     if manoeuvre is not None:
-        parts += [repr((manoeuvre.stop_time, manoeuvre.start, manoeuvre.driver, manoeuvre.state_time)).encode()]
+        once = manoeuvre.stop_time, manoeuvre.start, manoeuvre.driver, manoeuvre.state_time, manoeuvre.find_throttle
+        parts += [repr(once).encode()]
         parts += [manoeuvre.time.tobytes(), manoeuvre.state or b""]
         parts += [part for name, values in manoeuvre.inputs.items() for part in (name.encode(), values.tobytes())]
     return hashlib.sha256(b"\n".join(parts)).hexdigest()

@@ -10,11 +10,11 @@ from os import PathLike
 from pathlib import Path
 
 from ali3.near_names import did_you_mean
+from ali3.units import known_unit
 from ali3.words import brief
 from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.units import known_unit
 from hosts.fmu.fmu import Fmu
 
 

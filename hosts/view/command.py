@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.decimal_number import number
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
+from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options
 
@@ -61,14 +61,13 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(shown, "--to", dest="end")
     shown.add_argument("--most", type=int, default=5001, metavar="N", help="times in the page at most; default: 5001")
     shown.add_argument("--camera", metavar="NAME", help="camera at the start, and of pictures")
-    shown.add_argument("--at", type=number, metavar="T", help="time at the start, and of the picture, s")
+    shown.add_argument("--at", type=quantity("s"), metavar="T", help="time at the start, and of the picture, s")
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")
     shown.add_argument("--deformation", type=number, metavar="N", help="deformations are drawn N times; default: 1")
     shown.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at, and no page")
     shown.add_argument("--mp4", type=Path, metavar="FILE", help="write a film, and no page")
     shown.add_argument("--gltf", type=Path, metavar="FILE", help="write the first as an animation, .glb or .gltf")
     shown.add_argument("--size", type=int, nargs=2, default=(1280, 720), metavar=("W", "H"), help="pixels of pictures")
-    add_old_names(parser, {"--times": "--from T and --to T", "--beside": "an argument like the FMU"})
     return parser
 
 

@@ -14,18 +14,20 @@ from typing import TYPE_CHECKING, Any
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.options import ROAD, Wishes
+from hosts.common.package_names import check_world
 from hosts.common.road import wishes_with_road
 from hosts.fmu.fmu_file import fmu_file
 from hosts.recordings.format import is_recording
+from hosts.recordings.load_manoeuvre import check_asked
 from hosts.view.open_page import open_page
 
 if TYPE_CHECKING:
+    from ali3.scene.recording import Recording
     from hosts.common.numbers import Value
     from hosts.common.world_files import World
     from hosts.driving.manoeuvre import Manoeuvre
     from hosts.fmu.variables import Variable
     from hosts.view.page_parts import FmuParts
-    from viewer.recording import Recording
 
 _PATIENCE = 2.0
 _MOST_PICTURES = 4
@@ -45,6 +47,9 @@ def _written(options: argparse.Namespace, given: Wishes) -> int:
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
+    check_asked(options.manoeuvre)
+    if options.world is not None:
+        check_world(options.world)
     paths = [fmu_file(path) for path in options.what if path not in results]
     if not paths:
         raise HostError(f"{results[0]} is a result; --live needs an FMU, which the page runs.")

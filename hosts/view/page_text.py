@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.view.page_parts import FmuParts, packed
 from viewer.html_document import html_document
 from viewer.page_data import page_data
-from viewer.recording import Recording
 
 
 @dataclass(frozen=True)

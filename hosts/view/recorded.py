@@ -37,7 +37,7 @@ def read_table(path: Path) -> Table:
     out. Of a table that would fill the memory every so many rows are read. Raises `HostError`: it cannot be read, or is
     no such table; one sentence with file, line and reason.
     """
-    text = TextTable(path, HostError, units=True)
+    text = TextTable(path, HostError, known=("time",), units=True)
     if text.names[0] != "time":
         raise HostError(
             f"{path} is no table of results: its heading begins with {brief(text.names[0])}; it must be time."

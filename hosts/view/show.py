@@ -14,10 +14,11 @@ from hosts.common.errors import HostError
 from hosts.common.road import wishes_with_road
 from hosts.fmu.car import is_car
 from hosts.fmu.fmu_file import fmu_file
+from hosts.recordings.load_manoeuvre import check_asked
 from hosts.view.open_page import open_page
 
 if TYPE_CHECKING:
-    from viewer.recording import Recording
+    from ali3.scene.recording import Recording
 
 _PLOTTED = 3  # signals of a result that is not drawn
 
@@ -27,6 +28,7 @@ def show(options: argparse.Namespace) -> int:
     from hosts.view.view_sources import RunWishes, recordings_of
 
     page = _page(options)
+    check_asked(options.manoeuvre)
     options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
     for file in (page, options.png, options.mp4, options.gltf):
         if file is not None:

@@ -11,6 +11,7 @@ from typing import Any
 from ali3.json_reading import read_json
 from ali3.processes import command_name
 from ali3.reading import no_file
+from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.fmu.geometry import RESOURCE, scene_of
@@ -18,7 +19,6 @@ from hosts.fmu.scene_file import scene_from
 from hosts.recordings.format import is_recording
 from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.recorded import Table, read_table
-from viewer.recording import Recording
 
 # What a car without inputs of the user's is driven through.
 _CAR_MANOEUVRE = "double_lane_change"

@@ -86,13 +86,13 @@ def compiled(
     Parameters
     ----------
     closed : dict of str to tuple of float, optional
-        How far joints were moved to close the loops of the model, by name, m and rad; for the report.
+        How far joints were moved to close the loops of the model, by name, m and rad.
     watch : callable, optional
         `mode_arrays`: makes what steps are watched by.
     trees : callable, optional
         `tree_arrays`: makes what methods in relative coordinates step; without it the report has none.
     """
-    reduced = _reduced(checked(model))
+    reduced = _reduced(checked(model), closed or {})
     ordered = _ordered(model, reduced)
     start = _start(model, reduced, ordered)
     tables, no_tree, modes = _tables(model, reduced, ordered, start, watch, trees)
@@ -122,7 +122,7 @@ class _Reduced:
     """Of the model as drawn, m."""
 
 
-def _reduced(model: Mechanism) -> _Reduced:
+def _reduced(model: Mechanism, closed: Corrections) -> _Reduced:
     """Linear equations are eliminated; what is left are rows, without those that follow from others."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
@@ -134,14 +134,15 @@ def _reduced(model: Mechanism) -> _Reduced:
     stay = flexible_coordinates(model) | base_coordinates(model)
     remaining, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, stay, size)
     known = tell_apart(model, remaining, full, of_z, left)
-    candidates = [row_terms(e, j, k, known.seen, size) for j, k, e in others]
+    error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
+    candidates = [row_terms(e, j, k, known.seen, size, error) for j, k, e in others]
     for row in candidates:
         if row.columns() and row.columns()[-1] >= len(known.remaining):
             raise refuse_joint(row.name)
         switch = model.joints[row.joint].switch
         row.switch = -1 if switch is None else switch.index
     candidates += known.left
-    candidates += [row for body in model.bodies for row in rigid_rows(body, known.full)]
+    candidates += [row for body in model.bodies for row in rigid_rows(body, known.full, error)]
     check_near(model, candidates, [natural.info[k].kind for k in known.remaining], size)
     rows, dependent = independent_rows(candidates, joints_of_bodies(model), size)
     if not known.remaining:
@@ -208,7 +209,7 @@ def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
     q = close_position(
         placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
     )
-    qd = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates)
+    qd = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size)
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
     return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()))

@@ -20,6 +20,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,12 +47,12 @@ MOST_BODIES = 40
 ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
-MOVES, NEARLY = 10, 2e-3
+MOVES, NEARLY = 10, 0.02
 """Positions of a motion that is one; the largest misfit along it, parts of the size, of a loop that nearly moves."""
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
 """Attributes of a joint that its drawing makes."""
-PART_OF_LINK = 0.1
-"""A correction is less than this part of the distance of two joints of a body."""
+APART = 5.0
+"""Singular values that differ by this factor are of different kinds: redundant conditions, and short links."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +140,7 @@ def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
         return []  # it moves as drawn, and no condition is redundant
     larger: list[Corrected] | None = None
     nearly: list[Closed] = []
-    for share in sorted({min(20.0 * tolerance, NEAR), max(20.0 * tolerance, NEAR)}):
+    for share in _shares(values / values[0], tolerance):
         rank = int(np.sum(values > share * values[0]))
         if rank == loops.rows - loops.hinges:  # no other condition is redundant, not even nearly
             if loops.hinges and rank < J.shape[1]:
@@ -151,10 +152,9 @@ def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
         if max(c.open for c in positions) <= EXACT or _moves_freely(loops, positions, tolerance):
             return []
         # axes next to parallel first made so: there the conditions of a plane loop and of a Bennett loop cross
-        g = _parallel(loops, positions[0], max(4.0 * tolerance, 0.2 * share))
-        found = _constants(loops, positions, share, g)
-        if found is None and np.any(g):
-            found = _constants(loops, positions, share, np.zeros(loops.constants))
+        angles = (max(4.0 * tolerance, 0.2 * share), share, 0.0)
+        starts = {g.tobytes(): g for g in (_parallel(loops, positions[0], angle) for angle in angles)}.values()
+        found = next(filter(None, (_constants(loops, positions, share, g) for g in starts)), None)
         if found is None:
             nearly = nearly or positions
             continue
@@ -165,6 +165,15 @@ def _correct(loops: Loops, tolerance: float) -> list[Corrected]:
     if (larger or nearly) and _stands_still(loops):
         _refuse(loops, larger, nearly, tolerance)
     return []
+
+
+def _shares(values: Array, tolerance: float) -> list[float]:
+    """Limits below which singular values count as redundant, the smallest first, so that short links keep their
+    length: where the small values fall into groups, those between them, then two fixed ones.
+    """
+    limits = sorted({min(20.0 * tolerance, NEAR), max(20.0 * tolerance, NEAR)})
+    small = np.maximum(values[values < limits[0]], 1e-2 * TIGHT)
+    return sorted({math.sqrt(a * b) for a, b in pairwise(small) if a > APART * b} | set(limits))
 
 
 def _loose_motion(loops: Loops, share: float) -> list[Closed]:
@@ -226,6 +235,8 @@ def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) ->
         if not start.good or start.open > EXACT:
             return None
         more = motion(loops, close(loops, start.places, share, g), share, g, seed)
+        if not more:
+            return None
         if max(c.open for c in more) <= EXACT:
             return Found(g, start)
         positions = positions + more
@@ -313,19 +324,8 @@ def _known(v: Array, known: list[Array], near: float) -> Array:
 
 
 def _largest(loops: Loops, joints: list[Corrected]) -> float:
-    """The largest correction, parts of the size or rad; infinite if it is a good part of a link."""
-    largest = max(max(j.correction.distance / loops.size, j.correction.angle) for j in joints)
-    points: dict[int, list[tuple[Array, float]]] = {}
-    for c, j in zip(loops.conditions, joints, strict=True):
-        for end in c.ends:
-            points.setdefault(end.body, []).append((end.point, j.correction.distance))
-    for ends in points.values():
-        for k, (p, shift) in enumerate(ends):
-            for q, other in ends[:k]:
-                gap = float(np.linalg.norm(p - q))
-                if 1e-9 * loops.size < gap < (shift + other) / PART_OF_LINK:
-                    return np.inf
-    return largest
+    """The largest correction, parts of the size or rad."""
+    return max(max(j.correction.distance / loops.size, j.correction.angle) for j in joints)
 
 
 def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], tolerance: float) -> None:
@@ -335,13 +335,14 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
         "although "
     )
     allowed = f"{tolerance * loops.size:.3g} m and {tolerance:.3g} rad are allowed. Draw it more exactly"
+    stay = "; with tolerance=0 it is taken as drawn and stands still."
     needed = _largest(loops, larger) if larger else np.inf
-    if larger and needed <= MOST_TOLERANCE:
+    if larger and needed <= NEAR:
         worst = max(larger, key=lambda j: max(j.correction.distance / loops.size, j.correction.angle))
+        more = f", or allow compile more: tolerance={_round_up(needed):g}" if needed <= MOST_TOLERANCE else ""
         raise ModelError(
             f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "
-            f"{worst.correction.angle:.3g} rad, where {allowed}, or allow compile more: "
-            f"tolerance={_round_up(needed):g}."
+            f"{worst.correction.angle:.3g} rad, where {allowed}{more}{stay}"
         )
     if len(nearly) >= MOVES and max(c.open for c in nearly) <= NEARLY:
         at = max(nearly, key=lambda c: c.open)
@@ -349,7 +350,7 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
         name, value = max(zip(loops.names(), open_there.tolist(), strict=True), key=lambda item: item[1])
         raise ModelError(
             f"{start}it nearly moves: along that motion its joints stay open, '{name}' by {value * loops.size:.3g} m, "
-            f"where {allowed}."
+            f"where {allowed}{stay}"
         )
 
 

@@ -20,6 +20,8 @@ DROP = 1e-12
 VANISHED = 1e-10
 """A row of which nothing is larger than this part of what was added up, or of its largest ever, is none; far from the
 origin more is left."""
+OF_ERROR = 50.0
+"""How many times the error of a drawing may be left of a row that follows from others."""
 
 
 @dataclass
@@ -98,25 +100,31 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: 
     largest[:] = [max(most, abs(factor) * size) for most, size in zip(largest, degrees, strict=True)]
 
 
-def cleaned(p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0)) -> Polynomial:
+def cleaned(
+    p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0), error: float = 0.0
+) -> Polynomial:
     """Without coefficients that are round-off of the largest, for coordinates of 1 m and for those of `size`, m.
 
     Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
-    `largest`: what was added up, of each degree; all that is left of it, or beside `size`, may be round-off.
+    `largest`: what was added up, of each degree; all that is left of it, or beside `size`, may be round-off, or, in a
+    drawing that was corrected by `error`, parts of its size, what that has left.
     """
     kept: set[Monomial] = set()
+    vanished = max(VANISHED, OF_ERROR * error)
     for unit in {1.0, size}:
         by_degree = (1.0, unit, unit * unit)
         sizes = {m: abs(v) * by_degree[(m[0] >= 0) + (m[1] >= 0)] for m, v in p.items()}
         left = max(sizes.values(), default=0.0)
         added = max(min(1.0, size) * min(by_degree), *(v * w for v, w in zip(largest, by_degree, strict=True)))
-        if left > VANISHED * added:
+        if left > vanished * added:
             kept.update(m for m, v in sizes.items() if v > DROP * left)
     return {m: v for m, v in p.items() if m in kept}
 
 
-def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float) -> Polynomial:
-    """The polynomial of a sum of products and a linear part; `size`: of the model, m."""
+def expand(
+    products: Sequence[Product], linear: Affine, full: Sequence[Affine], size: float, error: float = 0.0
+) -> Polynomial:
+    """The polynomial of a sum of products and a linear part; `size`: of the model, m; `error`: see `cleaned`."""
     p: Polynomial = {}
     largest = [0.0, 0.0, 0.0]
     cache: dict[int, Affine] = {}
@@ -130,7 +138,7 @@ def expand(products: Sequence[Product], linear: Affine, full: Sequence[Affine], 
     for factor, a, b in products:
         add_product(p, factor, of_z(a), of_z(b), largest)
     add_product(p, 1.0, substitute(linear, full), Affine({}, 1.0), largest)
-    return cleaned(p, size, largest)
+    return cleaned(p, size, largest, error)
 
 
 def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTerms:
@@ -145,9 +153,12 @@ def expand_rates(products: Sequence[Product], full: Sequence[Affine]) -> RateTer
     return {m: v for m, v in found.items() if abs(v) > least}
 
 
-def row_terms(equation: Equation, joint: int, part: int, full: Sequence[Affine], size: float) -> RowTerms:
-    """An equation of a joint as a row over z; `size`: of the model, m."""
-    row = RowTerms(equation.name, equation.kind, joint, part, expand(equation.products, equation.linear, full, size))
+def row_terms(
+    equation: Equation, joint: int, part: int, full: Sequence[Affine], size: float, error: float = 0.0
+) -> RowTerms:
+    """An equation of a joint as a row over z; `size`: of the model, m; `error`: see `cleaned`."""
+    products = expand(equation.products, equation.linear, full, size, error)
+    row = RowTerms(equation.name, equation.kind, joint, part, products)
     if equation.angle is not None:
         theta = substitute(Affine({equation.angle.theta: 1.0}), full)
         row.theta = next(iter(theta.terms))  # angle coordinates are never eliminated

@@ -38,8 +38,12 @@ def candidates(body: Body) -> list[Vector]:
     return [w for w in found if hypot(*w.tolist()) > 1e-6 * size]
 
 
-def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
-    """Rigidity of one body over z; rows that hold identically are still among them."""
+def rigid_rows(body: Body, full: Sequence[Affine], error: float = 0.0) -> list[RowTerms]:
+    """Rigidity of one body over z; rows that hold identically are still among them.
+
+    `error`: by which the drawing was corrected, parts of its size. What it leaves of a row holds in the corrected
+    motion, but its round-off would fix what the other rows leave.
+    """
     if body.is_point:
         return []
     needed = 1 if body.dimension == 2 else 3
@@ -66,7 +70,7 @@ def rigid_rows(body: Body, full: Sequence[Affine]) -> list[RowTerms]:
             for x, y in zip(v_i.components, v_j.components, strict=True):
                 add_product(p, 1.0, x, y, largest)
             p[(-1, -1)] = p.get((-1, -1), 0.0) - float(np.dot(w_i, w_j))
-            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p, body_length(body), largest)))
+            rows.append(RowTerms(body.name, "rigid", -1, -1, cleaned(p, body_length(body), largest, error)))
     return rows
 
 

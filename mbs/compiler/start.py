@@ -20,6 +20,9 @@ from mbs.model.mechanism import Mechanism
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
+ARM = 0.1
+"""Of a mass in a given rate, parts of the model's length, at least 1 m: what moves with it weighs next to nothing."""
+
 
 def reference_position(
     model: Mechanism,
@@ -66,8 +69,9 @@ def velocity(
     arrays: RowArrays,
     guides: Array,
     guide_rates: Array,
+    length: float,
 ) -> Array:
-    """Start velocity in elimination order, from the velocities of bodies and coordinates."""
+    """Start velocity in elimination order, from the velocities of bodies and coordinates; `length`: of the model, m."""
     position = full_values(full, z)
     rates = np.zeros(len(full))
     weights, partly = {}, False
@@ -80,7 +84,7 @@ def velocity(
         weights[k] = body.velocity_weight(linear is not None, angular is not None or body.is_point)
         partly = partly or (linear is None) != (angular is None)
     M_given = full_mass(model, weights)
-    mean = float(np.mean(mass.diagonal()))
+    mean = float(np.mean(mass.diagonal())) * max(1.0, ARM * length) ** 2
     own = np.zeros(len(full))
     for i, rate in model.coordinate_rates.items():
         own[i] = max(mean, model.inertias.get(i, 0.0))

@@ -1,24 +1,67 @@
-"""Grid points in bulk data of Nastran: fields of 8 or 16 columns or between commas."""
+"""Grid points in bulk data of Nastran: fields of 8 or 16 columns or between commas, with tabs and replication."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.words import brief
+from mbs.common.errors import ModelError
+
 Array = NDArray[np.float64]
 _COLUMNS = 72
 """Of a line with data; beyond are marks of continuation."""
+_SYSTEMS = ("CORD2R", "CORD2C", "CORD2S")
+_USED = (*_SYSTEMS, "GRDSET", "GRID")
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line without its comment, and where it stands."""
+
+    where: str
+    text: str
+
+    def error(self, words: str) -> ModelError:
+        return ModelError(f"{self.where}: {words}")
+
+
+@dataclass(frozen=True)
+class _Card:
+    """A name and its data, with the lines that continue it."""
+
+    line: _Line
+    name: str
+    data: list[str]
+
+    def field(self, k: int) -> str:
+        return self.data[k] if k < len(self.data) else ""
+
+    def whole(self, k: int) -> int:
+        """A field as a whole number; 0 where it is empty."""
+        return int(self._read(k, int, "whole number"))
+
+    def numbers(self, first: int, count: int) -> Array:
+        """Fields as numbers; 0 where one is empty."""
+        return np.array([self._read(k, _number, "number") for k in range(first, first + count)])
+
+    def _read(self, k: int, reader: Callable[[str], float], what: str) -> float:
+        try:
+            return reader(self.field(k)) if self.field(k) else 0
+        except ValueError:
+            raise self.line.error(f"field {k + 2} of this {self.name} is {brief(self.field(k))}, no {what}.") from None
 
 
 def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
     """Places and systems of displacement of all grid points.
 
-    `path`: bulk data, or a whole deck; what it includes is read. Raises `ValueError` or `OSError`: a number is damaged,
-    a coordinate system is not there, or an included file.
+    `path`: bulk data, or a whole deck; what it includes is read. Raises `ModelError` with file and line: a number is
+    damaged, a coordinate system is not there; `OSError`: an included file is not.
 
     Returns
     -------
@@ -26,55 +69,52 @@ def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
         By number, ascending: the place in the basic system, and the number of the coordinate system of the
         displacements, 0: the basic one.
     """
-    found: dict[str, list[list[str]]] = {}
-    for name, *data in _cards(_lines(path)):
-        found.setdefault(name, []).append([*data, *[""] * 12])
-    systems = _Systems(
-        {
-            int(data[0]): (name[-1], int(data[1] or 0), np.array([_number(f) for f in data[2:11]]).reshape(3, 3))
-            for name in ("CORD2R", "CORD2C", "CORD2S")
-            for data in found.get(name, [])
-        }
-    )
-    default = found.get("GRDSET", [[""] * 12])[0]
+    found: dict[str, list[_Card]] = {}
+    lines = list(_lines(path))
+    begin = next((k + 1 for k, line in enumerate(lines) if re.match(r"begin\s+bulk", line.text, re.IGNORECASE)), 0)
+    for card in _cards(lines[begin:]):
+        found.setdefault(card.name, []).append(card)
+    systems = _Systems({card.whole(0): card for name in _SYSTEMS for card in found.get(name, [])})
+    default = found.get("GRDSET", [_Card(_Line("", ""), "GRDSET", [])])[0]
     points = {}
-    for data in found.get("GRID", []):
-        number = int(data[0])
+    for card in found.get("GRID", []):
+        number = card.whole(0)
         if number in points:
-            raise ValueError(f"grid point {number} is given twice")
-        given, own = (int(data[k] or default[k] or 0) for k in (1, 5))
-        points[number] = systems.basic(np.array([_number(f) for f in data[2:5]]), given), own
+            raise card.line.error(f"grid point {number} is given twice.")
+        given, own = ((card if card.field(k) else default).whole(k) for k in (1, 5))
+        points[number] = systems.basic(card.numbers(2, 3), given, card.line), own
     return dict(sorted(points.items()))
 
 
 class _Systems:
-    """Coordinate systems by number: kind, system of reference, and the three points that define each."""
+    """Coordinate systems by number: each has a system of reference, and three points that define it."""
 
-    def __init__(self, given: Mapping[int, tuple[str, int, Array]]) -> None:
+    def __init__(self, given: Mapping[int, _Card]) -> None:
         self._given = given
         self._found: dict[int, tuple[str, Array, Array]] = {}
 
-    def basic(self, place: Array, system: int, depth: int = 0) -> Array:
-        """A place in the basic system."""
+    def basic(self, place: Array, system: int, line: _Line, depth: int = 0) -> Array:
+        """A place in the basic system. `line`: that asks for it."""
         if system == 0:
             return place
         if system not in self._found:
-            self._found[system] = self._axes(system, depth)
+            self._found[system] = self._axes(system, line, depth)
         kind, origin, axes = self._found[system]
         return np.asarray(origin + axes @ _RECTANGULAR[kind](*place))
 
-    def _axes(self, system: int, depth: int) -> tuple[str, Array, Array]:
+    def _axes(self, system: int, line: _Line, depth: int) -> tuple[str, Array, Array]:
         if system not in self._given:
-            raise ValueError(f"coordinate system {system} is defined by no CORD2R, CORD2C or CORD2S")
+            raise line.error(f"coordinate system {system} is defined by no CORD2R, CORD2C or CORD2S.")
         if depth > len(self._given):
-            raise ValueError(f"coordinate system {system} refers to itself")
-        kind, reference, points = self._given[system]
-        origin, on_z, in_xz = (self.basic(point, reference, depth + 1) for point in points)
+            raise line.error(f"coordinate system {system} refers to itself.")
+        card = self._given[system]
+        points, reference = card.numbers(2, 9).reshape(3, 3), card.whole(1)
+        origin, on_z, in_xz = (self.basic(point, reference, card.line, depth + 1) for point in points)
         z, y = on_z - origin, np.cross(on_z - origin, in_xz - origin)
         if not np.linalg.norm(y) > 0.0:
-            raise ValueError(f"the points of coordinate system {system} lie on a line")
+            raise card.line.error(f"the points of coordinate system {system} lie on a line.")
         z, y = z / np.linalg.norm(z), y / np.linalg.norm(y)
-        return kind, origin, np.column_stack([np.cross(y, z), y, z])
+        return card.name[-1], origin, np.column_stack([np.cross(y, z), y, z])
 
 
 def _cylindrical(r: float, turn: float, z: float) -> Array:
@@ -96,43 +136,99 @@ _RECTANGULAR: dict[str, Callable[..., Array]] = {
 
 
 def _number(field: str) -> float:
-    """A number, whose exponent may be written without its letter: 1.-3; an empty field is 0."""
-    return float(re.sub(r"(?<=[\d.])([+-])", r"e\1", field.lower().replace("d", "e"))) if field else 0.0
+    """A number, whose exponent may be written without its letter: 1.-3."""
+    return float(re.sub(r"(?<=[\d.])([+-])", r"e\1", field.lower().replace("d", "e")))
 
 
-def _lines(path: Path, depth: int = 0) -> Iterator[str]:
+def _lines(path: Path, depth: int = 0) -> Iterator[_Line]:
     """Lines without comments, and those of included files in their place."""
-    if depth > 20:
-        raise ValueError(f"{path.name} is included within itself")
-    for raw in path.read_text(encoding="latin-1").splitlines():
-        line = raw.partition("$")[0].expandtabs(8).rstrip()
-        if included := re.match(r"include\s+['\"]?([^'\"]+)", line, re.IGNORECASE):
+    for number, raw in enumerate(path.read_text(encoding="latin-1").splitlines(), 1):
+        line = _Line(f"{path.name}, line {number}", raw.partition("$")[0].rstrip())
+        if included := re.match(r"include\s+['\"]?([^'\"]+)", line.text, re.IGNORECASE):
+            if depth == 20:
+                raise line.error(f"{path.name} is included within itself.")
             yield from _lines(path.parent / included[1].strip(), depth + 1)
-        elif line:
+        elif line.text:
             yield line
 
 
-def _cards(lines: Iterator[str]) -> Iterator[list[str]]:
-    """Name and data of each card, with the lines that continue it."""
-    card: list[str] = []
+def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
+    """Cards that are used, those that replicate the one before them written out."""
+    before, rule = _Card(_Line("", ""), "", []), list[str]()
+    for card in _joined(lines):
+        again = card.name.startswith("=")
+        if not again and not {"=", "=="} & {*card.data}:
+            before, rule = card, []
+        elif (before if again else card).name in _USED:
+            repeats = re.fullmatch(r"=\(?(\d+)\)?", card.name)
+            rule = rule if repeats else card.data
+            if not rule:
+                raise card.line.error(f"{card.name} repeats a replication, and the line before it is none.")
+            for _ in range(int(repeats[1]) if repeats else 1):
+                before = _Card(
+                    card.line, before.name if again else card.name, _replicated(rule, before.data, card.line)
+                )
+                yield before
+            continue
+        if card.name in _USED:
+            yield card
+
+
+def _replicated(rule: Sequence[str], before: Sequence[str], line: _Line) -> list[str]:
+    """Data of a card: ``=`` that before it, ``==`` all from there on, ``*(n)`` that before it and n more."""
+    made = list[str]()
+    for k, field in enumerate(rule):
+        old = before[k] if k < len(before) else ""
+        more = re.fullmatch(r"\*\(?([^()]+)\)?", field)
+        if field == "==":
+            return [*made, *before[k:]]
+        if more is None:
+            made.append(old if field == "=" else field)
+            continue
+        try:
+            whole = re.fullmatch(r"[+-]?\d+", old) and re.fullmatch(r"[+-]?\d+", more[1])
+            made.append(str(int(old) + int(more[1])) if whole else repr(_number(old) + _number(more[1])))
+        except ValueError:
+            raise line.error(
+                f"field {k + 2} adds {brief(more[1])} to {brief(old)}, which are not both numbers."
+            ) from None
+    return made
+
+
+def _joined(lines: Sequence[_Line]) -> Iterator[_Card]:
+    """Cards as they stand there, each with the lines that continue it; of a card that is not used the name."""
+    card = _Card(_Line("", ""), "", [])
     for line in lines:
-        fields = _fields(line)
-        if fields[0] and fields[0][0] not in "+*":
-            if card:
-                yield card
-            card = [fields[0].rstrip("*").upper()]
-        card += fields[1:]
-    if card:
-        yield card
+        first = (line.text.partition(",")[0] if "," in line.text else line.text.expandtabs(8)[:8]).strip()
+        if first and first[0] not in "+*":
+            yield card
+            card = _Card(line, first.rstrip("*").upper(), [])
+        if card.name in _USED or card.name.startswith("="):
+            card.data.extend(_data(line, first))
+    yield card
 
 
-def _fields(line: str) -> list[str]:
-    """The first field of a line, and its data."""
-    if "," in line:
-        fields = [field.strip() for field in line.split(",")]
-        count = 4 if fields[0].endswith("*") else 8
-        return (fields + [""] * count)[: 1 + count]
-    first = line[:8].strip()
+def _data(line: _Line, first: str) -> list[str]:
+    """The data of a line. `first`: its first field."""
     wide = 16 if first.endswith("*") or first.startswith("*") else 8
-    data = line[8:_COLUMNS].ljust(_COLUMNS - 8)
-    return [first, *(data[k : k + wide].strip() for k in range(0, _COLUMNS - 8, wide))]
+    count = (_COLUMNS - 8) // wide
+    if "," in line.text:
+        return ([field.strip() for field in line.text.split(",")[1:]] + [""] * count)[:count]
+    data = _without_tabs(line, wide)[8:_COLUMNS].ljust(_COLUMNS - 8)
+    return [data[k : k + wide].strip() for k in range(0, _COLUMNS - 8, wide)]
+
+
+def _without_tabs(line: _Line, wide: int) -> str:
+    """A line in which each tab leads to the next field."""
+    made = ""
+    *parts, last = line.text.split("\t")
+    for part in parts:
+        made += part
+        first, end = (0, 8) if len(made) < 8 else (8 + wide * ((len(made) - 8) // wide + k) for k in (0, 1))
+        if made.rfind(" ") + 1 < min(first, len(made)):
+            raise line.error(
+                f"{brief(made.split()[-1])} fills its field or is longer, and a tab follows: which field is next is "
+                "not told; write blanks or commas."
+            )
+        made = made.ljust(end)
+    return made + last

@@ -20,6 +20,8 @@ def read_foreign(path: Path, reader: Callable[[Path], Any]) -> Any:
     check_file(path, LARGEST, ModelError, path.name)
     try:
         return reader(path)
+    except ModelError:  # a sentence of our own
+        raise
     except ModuleNotFoundError as error:
         raise ModelError(f"{path.name} cannot be read. {missing_module(error, 'fem')}") from error
     except Exception as error:  # what a damaged file does to the readers is not declared

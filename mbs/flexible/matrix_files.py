@@ -118,7 +118,7 @@ def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> Fi
         A file is missing or not of that form, or the matrices are no free model.
     """
     names, positions = [], []
-    table = TextTable(nodes, ModelError)
+    table = TextTable(nodes, ModelError, known=("x", "y", "z"))
     if table.width != 4:
         raise ModelError(f"{Path(nodes).name} has the columns {', '.join(table.names)}; they must be name, x, y, z.")
     for row in table.rows():

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.scene.base64_numbers import encoded
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.recovery import fibre_stresses, section_force_field
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.section import Section
-from viewer.base64_numbers import encoded
 
 Array = NDArray[np.float64]
 MOST_POINTS = 4000

@@ -1,5 +1,5 @@
-"""Writes what the C headers say into Python and the documents: the folder `header` with the numbers and structures that
-the kernel and Python share, and the table of sensors of `docs/system_file.md`.
+"""Writes what the C headers say into Python: the folder `header` with the numbers and structures that
+the kernel and Python share.
 
 The headers are the source. After a change of theirs:
 
@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header"
-PAGE = KERNEL.parents[1] / "docs" / "system_file.md"
 PUBLIC, SYSTEM, SENSORS = "include/ali3.h", "src/system.h", "src/system/sensor_types.h"
 ELEMENTS = "src/elements/element_types.h"
 MAGIC = "src/elements/magic_formula.h"
@@ -146,19 +145,10 @@ def sensor_types() -> list[SensorEntry]:
     return entries
 
 
-def sensor_page() -> str:
-    """The table of sensors in `docs/system_file.md`."""
+def sensor_table() -> str:
+    """The table of sensors, as the page of the System file shows it on the site."""
     rows = (f"| {t.number} | {t.name} | {' | '.join(t.words)} |" for t in sensor_types())
     return "\n".join(["| type | name | ints | reals | value |", "| --- | --- | --- | --- | --- |", *rows])
-
-
-def page(text: str) -> str:
-    """The page with its table as the headers say."""
-    before, begin, rest = text.partition("<!-- begin sensors -->\n")
-    _, end, after = rest.partition("\n<!-- end sensors -->")
-    if not begin or not end:
-        raise ValueError(f"{PAGE.name} has no marks for the table of sensors.")
-    return before + begin + sensor_page() + end + after
 
 
 def structure(name: str) -> list[tuple[str, str]]:
@@ -280,10 +270,9 @@ def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:
 
 
 def main() -> None:
-    """Write the folder `header` and the table of the page."""
+    """Write the folder `header`."""
     for name, text in header().items():
         (HEADER / name).write_text(text, encoding="utf-8", newline="\n")
-    PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

@@ -22,7 +22,6 @@ from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.point_mass import PointMass
-from mbs.model.renamed_sensors import RenamedSensors
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
 from mbs.model.transmission_vocabulary import TransmissionVocabulary
@@ -39,7 +38,6 @@ class Model(
     ChannelSensorVocabulary,
     JointSensorVocabulary,
     ConstantVocabulary,
-    RenamedSensors,
     FlexibleVocabulary,
     ContactVocabulary,
     MoreGuidesVocabulary,

@@ -293,7 +293,7 @@ def _made(
             f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
         )
     if kind == "mesh":
-        from viewer.mesh_file import read_mesh
+        from ali3.scene.mesh_file import read_mesh
 
         if not isinstance(given["file"], (str, Path)):
             raise ModelError(f"The file of {what} must be the path of a file, not {shown(given['file'])}.")

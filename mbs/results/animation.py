@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ali3.scene.drawer import drawer
+from ali3.scene.recording import Recording
+from ali3.scene.written import WrittenFilm, WrittenGltf, WrittenPage
 from mbs.common.checks import instance_of, shown, text
 from mbs.results.trajectory import Trajectory
 from mbs.system.system import System
-
-if TYPE_CHECKING:
-    from viewer.gltf import WrittenGltf
-    from viewer.page_file import WrittenPage
-    from viewer.recording import Recording
-    from viewer.video import WrittenFilm
 
 
 class Animation:
@@ -39,9 +35,7 @@ class Animation:
         return f"Animation({names}; save(path), show(), to_gltf(path) and to_mp4(path) make something of it)"
 
     def _repr_html_(self) -> str:
-        from viewer.notebook import html_of
-
-        return html_of(self.recordings, options=self.options)
+        return drawer().html_of(self.recordings, options=self.options)
 
     def save(self, path: str | os.PathLike[str]) -> WrittenPage:
         """Write one HTML file that any browser shows, without a network.
@@ -58,14 +52,12 @@ class Animation:
 
         Raises
         ------
-        viewer.errors.ViewerError
+        ali3.scene.errors.ViewerError
             The script of the page is not there and cannot be built.
         ali3.errors.FileError
             The file cannot be written.
         """
-        from viewer.page_file import write_page
-
-        return write_page(path, self.recordings, options=self.options)
+        return drawer().write_page(path, self.recordings, options=self.options)
 
     def show(self) -> Path:
         """Open the page in the user's browser.
@@ -79,20 +71,10 @@ class Animation:
         ------
         viewer.browser.BrowserError
             There is no browser here, or no screen.
-        viewer.errors.ViewerError
+        ali3.scene.errors.ViewerError
             The script of the page is not there and cannot be built.
         """
-        from viewer.browser import BrowserError
-        from viewer.open_browser import open_in_browser
-
-        folder = tempfile.mkdtemp(prefix="ali3-animation-")
-        written = self.save(Path(folder, "animation.html")).path
-        if not open_in_browser(written):
-            raise BrowserError(
-                f"No browser can be opened here; the page is {written}, and save(path) writes it elsewhere: open it "
-                "in a browser on any machine."
-            )
-        return written
+        return drawer().show(self.recordings, self.options)
 
     def to_gltf(self, path: str | os.PathLike[str], **settings: Any) -> WrittenGltf:
         """Write the run, without its ghosts, as a glTF animation for Blender and others.
@@ -111,15 +93,13 @@ class Animation:
 
         Raises
         ------
-        viewer.errors.ViewerError
+        ali3.scene.errors.ViewerError
             A setting is wrong.
         ali3.errors.FileError
             The file cannot be written.
         """
-        from viewer.gltf import write_gltf
-
         factor = {"deformation": self.options["deformation"]} if "deformation" in self.options else {}
-        return write_gltf(path, self.recordings[0], **(factor | settings))
+        return drawer().write_gltf(path, self.recordings[0], **(factor | settings))
 
     def to_mp4(self, path: str | os.PathLike[str], **settings: Any) -> WrittenFilm:
         """Write a film, drawn by a Chromium without a window.
@@ -138,16 +118,14 @@ class Animation:
 
         Raises
         ------
-        viewer.errors.ViewerError
+        ali3.scene.errors.ViewerError
             A setting is wrong.
         viewer.browser.BrowserError
             There is no Chromium.
         ali3.errors.FileError
             The file cannot be written.
         """
-        from viewer.video import write_mp4
-
-        return write_mp4(path, self.recordings, options=self.options, **settings)
+        return drawer().write_mp4(path, self.recordings, options=self.options, **settings)
 
 
 def animate(
@@ -185,7 +163,7 @@ def animate(
     ------
     ValueError
         There is not one name for each run, or a run has no poses or no scene.
-    viewer.errors.ViewerError
+    ali3.scene.errors.ViewerError
         An option is wrong, or the scene does not fit the run.
 
     Examples
@@ -196,10 +174,8 @@ def animate(
     >>> mbs.animate(run, plots=["bob.position.x"]).recordings[0].name
     'pendulum'
     """
-    from viewer.player_options import check_options
-
     runs = [instance_of(Trajectory, each, "What animate draws", "a Trajectory") for each in (run, *ghosts)]
-    checked = check_options(options)
+    checked = drawer().check_options(options)
     if names is not None and len(names) != len(runs):
         raise ValueError(f"There are {len(names)} names for {len(runs)} runs: {shown(names)}; give one for each.")
     drawn = scene.scene if isinstance(scene, System) else scene

@@ -31,7 +31,7 @@ from mbs.system.drawing import Drawing
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from viewer.recording import Recording
+    from ali3.scene.recording import Recording
 
 
 class Trajectory(Mapping[str, NDArray[np.float64]]):
@@ -152,13 +152,13 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         ------
         ValueError
             The run has no scene and none is given, it is no mapping, or the run has none of its poses.
-        viewer.errors.ViewerError
+        ali3.scene.errors.ViewerError
             The scene is not of the format.
         mbs.RoadFileError
             The file of its road cannot be read any more.
         """
-        from viewer.recording import Recording
-        from viewer.scene import check_scene
+        from ali3.scene.recording import Recording
+        from ali3.scene.scene import check_scene
 
         if scene is None:
             if self.drawing is None:
@@ -205,9 +205,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if self.drawing is None or len(self.t) < 2:
             return None
         try:
-            from viewer.notebook import html_of
+            from ali3.scene.drawer import drawer
 
-            return html_of(self.recording())
+            return drawer().html_of(self.recording())
         except (UserError, ValueError) as error:
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
@@ -302,7 +302,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         TableError
             The file cannot be read, or a heading or a value is not what `to_csv` writes; the message names the line.
         """
-        table = TextTable(path, TableError, units=True)
+        table = TextTable(path, TableError, known=("time",), units=True)
         names = table.names[1:]
         if table.names[0] != "time" or table.units.get("time") != "s":
             raise TableError(f"{path}: the first line must be 'time [s]' and one 'name [unit]' per sensor.")

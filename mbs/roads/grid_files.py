@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ali3.errors import reason
 from ali3.extras import missing_package
 from ali3.reading import check_file
-from ali3.tables import Row, TextTable, is_number
+from ali3.tables import Row, TextTable, is_number, plain_name
 from ali3.words import brief, one_line
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
@@ -78,6 +78,7 @@ def _table(file: Path) -> Grid:
         raise RoadFileError(f"{file} has {len(rows)} rows; a grid needs at least two.")
     begins = [row.line for row in rows if not is_number(row.cells[0], table.decimal)]
     if not begins or begins[0] != rows[0].line:
+        _check_comments(table, rows[0].line)
         return Grid(np.array([table.numbers(row) for row in rows]))
     corner = rows[0].cells[0]
     if re.search(r"\[[^\[\]]*\]$", corner) and not corner.endswith("[m]"):
@@ -96,6 +97,22 @@ def _table(file: Path) -> Grid:
             f"{file} has {len(heights.values)} rows of heights and {len(frictions.values)} of frictions."
         )
     return replace(heights, frictions=frictions.values)
+
+
+def _check_comments(table: TextTable, first: int) -> None:
+    """A comment above a table of numbers alone that says what its columns are is not passed over."""
+    for line, cells in table.comment_cells():
+        above = [cell for cell in cells[1:] if is_number(cell, table.decimal)]
+        if line < first and len(above) == len(cells) - 1 >= 2:
+            raise RoadFileError(
+                f"{table.name}, line {line} is a comment with a number for each column but the first, as the "
+                "coordinates y of a grid; take its # away, or divide its numbers otherwise if they are none."
+            )
+        if line < first and {plain_name(cell) for cell in cells} >= {"x", "y"}:
+            raise RoadFileError(
+                f"{table.name}, line {line} names the columns {', '.join(cells)}: this is a list of points. A grid has "
+                "a row for each x and a column for each y; as the points of a course in a world such a list is read."
+            )
 
 
 def _labelled(table: TextTable, rows: list[Row]) -> Grid:

@@ -12,12 +12,12 @@ from typing import Literal
 import numpy as np
 from scipy import ndimage
 
+from ali3.scene.mesh_file import MeshError, read_corners
 from mbs.elements.road import GridRoad
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.sampled_road import SampledRoad, Values, between, compared, points_of_box
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.triangle_heights import triangle_heights
-from viewer.mesh_file import MeshError, read_corners
 
 SPACING = 0.1, 0.1
 """m, of the grid where none is given."""

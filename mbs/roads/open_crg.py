@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
+from scipy.spatial import cKDTree
 
 from ali3.extras import missing_module
 from ali3.reading import check_file
@@ -17,7 +20,7 @@ from ali3.words import one_line
 from mbs.elements.road import GridRoad
 from mbs.kernel.header.limits import ROAD_HIGHEST
 from mbs.roads.road_header import RoadFileError
-from mbs.roads.sampled_road import SampledRoad, Values, between, compared, points_of_box
+from mbs.roads.sampled_road import SampledRoad, Values, compared, grid_heights, points_of_box
 from mbs.roads.steep_faces import RoadWarning
 
 if TYPE_CHECKING:
@@ -25,6 +28,11 @@ if TYPE_CHECKING:
 
 _LARGEST = 2**31  # bytes
 _AT_ONCE = 2**18  # places
+_BLOCK = 16  # points of the grid, from one of which the heights beside the road are known to the next
+_FINER, _FINEST = 3.0, 12  # places of a comparison on the least spacing of the grid, and at most between two points
+_MOST_COMPARED = 2**24  # places
+_LOOKED_INTO = 64  # of each lot of places those at which the difference is largest
+_ROUNDS = 4  # each by steps a fourth of those before
 _LEVEL = 1e-9  # rad: a straight reference line with a smaller heading lies along x
 
 
@@ -50,34 +58,86 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
         spacing = (crg.u_inc, apart) if along else (min(crg.u_inc, apart),) * 2
     x, y = points_of_box(edges.min(axis=0), edges.max(axis=0), spacing, source)
     spacing = float(x[1] - x[0]), float(y[1] - y[0])
-    heights = np.concatenate([_heights(crg, *places)[0] for places in _places(x, y)]).reshape(len(x), len(y))
-    grid = GridRoad((float(x[0]), float(y[0])), spacing, heights)
-    return compared(grid, _known(crg, *between(grid)), source)
+    grid = GridRoad((float(x[0]), float(y[0])), spacing, _heights_about(crg, x, y))
+    worst = list[Values]()
+    found = compared(grid, _known(crg, grid, worst), source)
+    largest, place = _largest(crg, grid, np.concatenate(worst), found.largest, found.place)
+    return replace(found, largest=largest, place=place)
 
 
-def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> tuple[Values, NDArray[np.bool_]]:
-    """Heights at places, beside the road those of its border; and whether they lie on it."""
+def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
+    """Heights at places, beside the road those of its border."""
     u, v = crg.xy_to_uv(x, y)
-    on_u, on_v = np.clip(u, crg.u[0], crg.u[-1]), np.clip(v, crg.v[0], crg.v[-1])
-    return crg.uv_to_z(on_u, on_v), (on_u == u) & (on_v == v)
+    return np.asarray(crg.uv_to_z(np.clip(u, crg.u[0], crg.u[-1]), np.clip(v, crg.v[0], crg.v[-1])))
 
 
-def _places(x: Values, y: Values) -> Iterator[tuple[Values, Values]]:
-    """Places x and y of the points of a grid, some lines at once."""
-    lines = max(_AT_ONCE // len(y), 1)
-    for first in range(0, len(x), lines):
-        part = x[first : first + lines]
-        yield np.repeat(part, len(y)), np.tile(y, len(part))
+def _heights_about(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
+    """Heights of a grid: at each of its points near the road, at every 16th beside it and straight in between.
+
+    Finding where a place lies along the road takes a microsecond, and most of the box of a long road is beside it.
+    """
+    lines = tuple(np.unique([*range(0, len(a), _BLOCK), len(a) - 1]) for a in (x, y))
+    few = _heights(crg, *(a.ravel() for a in np.meshgrid(x[lines[0]], y[lines[1]], indexing="ij")))
+    few = few.reshape(len(lines[0]), len(lines[1]))
+    heights = make_interp_spline(y[lines[1]], few, 1, axis=1)(y)
+    heights = make_interp_spline(x[lines[0]], heights, 1, axis=0)(x)
+    size = _BLOCK * float(np.hypot(x[1] - x[0], y[1] - y[0]))
+    centres = [a[k[:-1]] + 0.5 * (a[k[1:]] - a[k[:-1]]) for a, k in zip((x, y), lines, strict=True)]
+    away = cKDTree(np.column_stack([crg.x, crg.y])).query(np.stack(np.meshgrid(*centres, indexing="ij"), -1))[0]
+    near = away <= float(np.abs(crg.v[[0, -1]]).max()) + crg.u_inc + size
+    for i in range(len(near)):
+        rows = slice(lines[0][i], lines[0][i + 1] + 1)
+        columns = np.flatnonzero(np.repeat(near[i], np.diff(lines[1])))
+        columns = np.union1d(columns, columns + 1)
+        if len(columns):
+            places = np.meshgrid(x[rows], y[columns], indexing="ij")
+            heights[rows, columns] = _heights(crg, *(a.ravel() for a in places)).reshape(places[0].shape)
+    return np.asarray(heights)
 
 
-def _known(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Iterator[tuple[Values, Values]]:
-    """Places with heights of the road: those of a grid that lie on it, and its own points."""
-    for places in _places(x, y):
-        z, on = _heights(crg, *places)
-        yield np.stack(places, -1), np.where(on, z, np.nan)
-    z = crg.surface_z()
-    for j, v in enumerate(crg.v):
-        yield np.stack(crg.uv_to_xy(crg.u, np.full(crg.nu, v)), -1), z[:, j]
+def _known(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]) -> Iterator[tuple[Values, Values]]:
+    """Places with heights of the road, evenly between its points and closer than those of the grid.
+
+    `worst`: takes u, v of those at which the grid is farthest off, shape (k, 2).
+    """
+    apart = [float(crg.u_inc), float(np.diff(crg.v).max())]
+    parts = [min(max(math.ceil(_FINER * d / min(road.spacing)), 3), _FINEST) for d in apart]
+    while math.prod(parts) > 1 and crg.nu * crg.nv * math.prod(parts) > _MOST_COMPARED:
+        parts[parts.index(max(parts))] -= 1
+    u, v = (
+        np.interp((np.arange((len(a) - 1) * n) + 0.5) / n, np.arange(len(a)), a)
+        for a, n in zip((crg.u, crg.v), parts, strict=True)
+    )
+    for some in np.array_split(u, math.ceil(len(u) * len(v) / _AT_ONCE)):
+        at = np.stack([np.repeat(some, len(v)), np.tile(v, len(some))], -1)
+        places, z = _surface(crg, at)
+        off = np.abs(grid_heights(road, np.asarray(road.heights), places) - z)
+        worst.append(at[np.argsort(off)[-_LOOKED_INTO:]])
+        yield places, z
+
+
+def _largest(
+    crg: pyopencrg.CrgRoad, road: GridRoad, at: Values, largest: float, place: tuple[float, float]
+) -> tuple[float, tuple[float, float]]:
+    """The largest difference of a grid near points u, v (k, 2) of a road, and its place; at least what is given."""
+    reach = np.array([crg.u_inc, float(np.diff(crg.v).max())]) / 2.0
+    around = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), -1).reshape(-1, 2)
+    for _ in range(_ROUNDS):
+        tried = np.clip(at[:, None] + reach * around, (crg.u[0], crg.v[0]), (crg.u[-1], crg.v[-1]))
+        places, z = _surface(crg, tried.reshape(-1, 2))
+        off = np.abs(grid_heights(road, np.asarray(road.heights), places) - z).reshape(tried.shape[:2])
+        best = off.argmax(axis=1)
+        k = int(off.max(axis=1).argmax())
+        if off[k, best[k]] > largest:
+            x, y = places[k * len(around) + int(best[k])].tolist()
+            largest, place = float(off[k, best[k]]), (x, y)
+        at, reach = tried[np.arange(len(at)), best], reach / 4.0
+    return largest, place
+
+
+def _surface(crg: pyopencrg.CrgRoad, at: Values) -> tuple[Values, Values]:
+    """x and y (n, 2) and heights (n,) at u and v (n, 2)."""
+    return np.stack(crg.uv_to_xy(at[:, 0], at[:, 1]), -1), np.asarray(crg.uv_to_z(at[:, 0], at[:, 1]))
 
 
 def _read(source: str) -> pyopencrg.CrgRoad:

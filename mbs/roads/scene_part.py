@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from ali3.scene.base64_numbers import encoded
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.limits import ROAD_SHARED, ROAD_TILE
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
 from mbs.roads.shared_tiles import read_shared
-from viewer.base64_numbers import encoded
 
 MOST_READ = 4_000_000
 """Points of a large road file that are read to draw it."""

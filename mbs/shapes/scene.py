@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.scene import scene_parts
+from ali3.scene.base64_numbers import encoded
 from mbs.common.checks import Vector
 from mbs.common.vectors import in_space
 from mbs.flexible.scene_part import flexible_parts
@@ -23,8 +25,6 @@ from mbs.shapes.joint_points import touched
 from mbs.shapes.roads import roads_of
 from mbs.shapes.shared_points import shared_points
 from mbs.system.drawing import Drawing, Places, matrices
-from viewer import scene_parts
-from viewer.base64_numbers import encoded
 
 TABLED = "a table moves it, and pictures follow coordinates"
 SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)"

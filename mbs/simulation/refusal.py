@@ -124,16 +124,12 @@ def _closes(evaluator: Evaluator, ahead: float) -> bool:
 
 def _beyond_table(simulation: SteppedSystem) -> str:
     """The coordinate that is farthest beyond its table."""
-    a, q = simulation.system.arrays, simulation.state.q
-    names, found = prepared(simulation.system)[1]["coordinates"], []
-    for k, column in enumerate(a["tabled_param"]):
-        if column >= 0:
-            first, step = (float(v) for v in a["tabled_axis"][2 * k : 2 * k + 2])
-            last = first + step * float(a["tabled_size"][k // 2 * 3 + 1 + k % 2] - 3)
-            x = float(q[column])
-            found.append((max(first - x, x - last) / step, f"{names[column]!r} is {x:.4g}", first, last))
-    _, said, first, last = max(found)
-    return f" {said}; its table goes from {first:.4g} to {last:.4g}: give it one that covers what the run can reach."
+    column, value, first, last = simulation.instance.beyond_table()
+    name = prepared(simulation.system)[1]["coordinates"][column]
+    return (
+        f" {name!r} is {value:.4g}; its table goes from {first:.4g} to {last:.4g}: give it one that covers what the "
+        "run can reach."
+    )
 
 
 def _farthest_changed(simulation: SteppedSystem) -> str:

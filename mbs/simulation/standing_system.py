@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,12 +18,19 @@ class StandingSystem:
     """A System at its start, on roads that are no files; the assembly modes of its loops, which take long to find, are
     not watched.
 
-    Raises `ModelError`: the start cannot be made consistent.
+    `parameters`: values by name, in place of those of the model. Raises `ModelError`: the start cannot be made
+    consistent, or a value is out of its range.
     """
 
-    def __init__(self, compiled: CompiledModel) -> None:
+    def __init__(self, compiled: CompiledModel, parameters: Mapping[str, float] | None = None) -> None:
         self._meta = compiled.meta
         self._instance = StandingInstance(LoadedSystem(compiled.kernel_bytes(modes=False)))
+        names = [entry["name"] for entry in compiled.meta["parameters"]]
+        for name, value in (parameters or {}).items():
+            try:
+                self._instance.set_parameter(names.index(name), value)
+            except KernelError as error:
+                raise ModelError(f"The parameter '{name}' cannot be {value:g}: {error.message}") from None
         start(self._instance, self._meta)
 
     @property

@@ -19,7 +19,7 @@ from ali3.decimal_number import parse_number
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
 from ali3.reading import read_bytes
-from mbs.common.checks import array, direction
+from mbs.common.checks import direction
 from mbs.common.errors import ModelError
 from mbs.elements.body_force import BodyForce
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -28,16 +28,14 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.model.perpendicular import perpendicular
+from mbs.urdf.crossed_hinges import CrossedHinges, crossed_hinges
+from mbs.urdf.inertias import UrdfWarning, mass_of, pose_of, possible_inertia
 from mbs.urdf.mimic import Follower, followers_of, start_of
 
 Pose = NDArray[np.float64]
 _LARGEST = 100_000_000
 """Bytes of a file."""
 TURNING, FREE = ("revolute", "continuous"), 1e9  # N m: range of the torque of a joint without a limit
-
-
-class UrdfWarning(UserWarning):
-    """A URDF file says what the model has not."""
 
 
 @dataclass
@@ -91,21 +89,24 @@ def read_urdf(
     Warns
     -----
     UrdfWarning
-        Of friction, and of damping of sliding joints, which the model has not.
+        Of friction, of damping of sliding joints, of hinges that became a universal or ball joint, and of inertias
+        that were corrected.
     """
     file = Path(path)
     urdf = _read(file)
     at, guides = dict(at or {}), dict(guides or {})
     joints: dict[str, Any] = {j.name: j for j in urdf.joints if j.type != "fixed"}
+    below = _tree(urdf, file.name)
+    _free_root(urdf, joints, below, floating, file.name)
     for name in (*at, *guides):
         if name not in joints:
             known = f"the joints that move are {', '.join(joints)}"
             raise ModelError(f"{file.name}: there is no joint '{name}'{did_you_mean(name, joints, known)}")
     for name, joint in joints.items():
         if joint.type not in (*TURNING, "prismatic"):
-            free = "; floating=True frees the root" if joint.type == "floating" else ""
             raise ModelError(
-                f"{file.name}: the joint '{name}' is {joint.type}; revolute, continuous and prismatic are read{free}."
+                f"{file.name}: the joint '{name}' is {joint.type}; revolute, continuous and prismatic are read, and a "
+                "floating one above the only link of a root without mass, by floating=True."
             )
         if name in guides and joint.type == "prismatic":
             raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
@@ -114,14 +115,24 @@ def read_urdf(
     at |= start_of(followers, at)
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
-    below = _tree(urdf, file.name)
     _place(robot, below, at)
-    _bodies(robot, urdf, below, floating, file.name)
-    for name, joint in joints.items():
+    groups = _groups(below)
+    massless = _bodies(robot, urdf, groups, None if floating else groups[next(iter(below))], file.name)
+    if not robot.model.bodies and not massless:
+        raise ModelError(f"{file.name}: no link of it moves against the root, which is fixed; floating=True frees it.")
+    lines = {name: (robot.poses[j.child][:3, 3], robot.poses[j.child][:3, :3] @ _axis(j)) for name, j in joints.items()}
+    try:
+        crossed = crossed_hinges(joints, groups, massless, lines)
+    except ModelError as error:
+        raise ModelError(f"{file.name}: {error}") from None
+    for hinges in crossed:
+        _cross(robot, hinges, guides, followers, file.name)
+    alone = {name: j for name, j in joints.items() if not any(j in hinges.hinges for hinges in crossed)}
+    for name, joint in alone.items():
         _joint(robot, joint, at.get(name, 0.0), guides.get(name), driven=name not in followers)
     for follower in followers.values():
         _couple(robot, joints, follower)
-    _tell_left_out(joints.values(), file.name)
+    _tell_left_out(joints.values(), crossed, file.name)
     return robot
 
 
@@ -190,44 +201,65 @@ def _place(robot: Robot, below: Mapping[str, Any], at: Mapping[str, float]) -> N
             moved[:3, :3] = Rotation.from_rotvec(value * _axis(joint)).as_matrix()
         elif joint.type == "prismatic":
             moved[:3, 3] = value * _axis(joint)
-        robot.poses[name] = robot.poses[joint.parent] @ _pose(joint.origin) @ moved
+        robot.poses[name] = robot.poses[joint.parent] @ pose_of(joint.origin) @ moved
 
 
-def _bodies(robot: Robot, urdf: Any, below: Mapping[str, Any], floating: bool, what: str) -> None:
-    """A body for all links that are fixed to each other."""
+def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floating: bool, what: str) -> None:
+    """Takes a floating joint above the only link on a root without mass out of what is read; that link is the root."""
+    free = next((joint for joint in joints.values() if joint.type == "floating"), None)
+    if free is None:
+        return
+    root, *rest = below
+    alone = [joint.name for joint in below.values() if joint is not None and joint.parent == root] == [free.name]
+    if not alone or mass_of([(link, np.eye(4)) for link in urdf.links if link.name == root])[0] > 0.0:
+        return
+    if not floating:
+        raise ModelError(f"{what}: the joint '{free.name}' is floating; floating=True takes it so.")
+    del joints[free.name], below[root]
+    below[rest[0]] = None
+
+
+def _groups(below: Mapping[str, Any]) -> dict[str, str]:
+    """Of each link the first of those that are fixed to each other."""
     groups: dict[str, str] = {}
     for name, joint in below.items():
         groups[name] = groups[joint.parent] if joint is not None and joint.type == "fixed" else name
-    links, root = {link.name: link for link in urdf.links}, next(iter(below))
+    return groups
+
+
+def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | None, what: str) -> set[str]:
+    """A body for all links that are fixed to each other; the groups without mass, which have none."""
+    links, massless = {link.name: link for link in urdf.links}, set()
     for group in dict.fromkeys(groups.values()):
-        if group == root and not floating:
-            body = robot.model.ground
-        else:
-            mass, com, inertia = _mass([(links[n], robot.poses[n]) for n, g in groups.items() if g == group])
+        own = [n for n, g in groups.items() if g == group]
+        body = robot.model.ground
+        if group != ground:
+            mass, com, inertia = mass_of([(links[n], robot.poses[n]) for n in own])
             if mass <= 0.0:
-                raise ModelError(f"{what}: the link '{group}', and what is fixed to it, has no mass and cannot move.")
+                massless.add(group)
+                continue
+            inertia = possible_inertia(inertia, f"{what}: the inertia of the link '{group}', and what is fixed to it,")
             body = robot.model.body(group, mass=mass, com=com, inertia=inertia)
-        robot.bodies |= {n: body for n, g in groups.items() if g == group}
+        robot.bodies |= dict.fromkeys(own, body)
+    return massless
 
 
-def _mass(parts: Iterable[tuple[Any, Pose]]) -> tuple[float, Pose, Pose]:
-    """Mass, centre and inertia about it of several links together, earth axes."""
-    found = []
-    for link, pose in parts:
-        if link.inertial is not None and link.inertial.mass:
-            own = pose @ _pose(link.inertial.origin)
-            inertia = array(link.inertial.inertia, (3, 3), f"the inertia of the link '{link.name}'")
-            tensor = own[:3, :3] @ inertia @ own[:3, :3].T
-            found.append((float(link.inertial.mass), own[:3, 3], tensor))
-    mass = sum(m for m, _, _ in found)
-    if mass <= 0.0:
-        return 0.0, np.zeros(3), np.zeros((3, 3))
-    com = sum((m * c for m, c, _ in found), np.zeros(3)) / mass
-    inertia = np.zeros((3, 3))
-    for m, c, tensor in found:
-        arm = c - com
-        inertia += tensor + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return mass, com, inertia
+def _cross(
+    robot: Robot, crossed: CrossedHinges, guides: Mapping[str, PPoly], followers: Mapping[str, Follower], what: str
+) -> None:
+    """A universal or ball joint in the place of hinges with links without mass between them."""
+    of = {joint.name for joint in crossed.hinges}
+    if given := of & (set(guides) | {f.leader for f in followers.values()}):
+        raise ModelError(
+            f"{what}: the joints {crossed.names}, with links without mass, are one joint without angles, and "
+            f"'{min(given)}' is given a motion or followed; give its links a small mass and inertia."
+        )
+    m, name = robot.model, " ".join(joint.name for joint in crossed.hinges)
+    first, second = robot.bodies[crossed.parent], robot.bodies[crossed.child]
+    if len(crossed.hinges) == 3:
+        m.spherical(name, first, second, point=crossed.point)
+    else:
+        m.universal(name, first, second, point=crossed.point, axis_1=crossed.axes[0], axis_2=crossed.axes[1])
 
 
 def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, driven: bool) -> None:
@@ -240,7 +272,7 @@ def _joint(robot: Robot, joint: Any, value: float, guide: PPoly | None, *, drive
     if joint.type == "prismatic":
         m.prismatic(name, second, first, axis=axis, point=point)
         along = first.vector(axis)
-        base = robot.poses[joint.parent] @ _pose(joint.origin)
+        base = robot.poses[joint.parent] @ pose_of(joint.origin)
         way = second.point(point) - first.point(base[:3, 3])
         if driven:
             _push(robot, joint, axis, point, most)
@@ -297,14 +329,19 @@ def _couple(robot: Robot, joints: Mapping[str, Any], follower: Follower) -> None
         m.coupled_slides(name, a, b, carrier_1=on_a, carrier_2=on_b, axis_1=axis_a, axis_2=axis_b, ratio=ratio)
 
 
-def _tell_left_out(joints: Iterable[Any], what: str) -> None:
+def _tell_left_out(joints: Iterable[Any], crossed: Iterable[CrossedHinges], what: str) -> None:
     left = []
+    one: set[str] = set()
+    for hinges in crossed:
+        kind = "ball" if len(hinges.hinges) == 3 else "universal"
+        one |= {joint.name for joint in hinges.hinges}
+        left.append(f"angles and torques of {hinges.names}, which are one {kind} joint, their links being without mass")
     for joint in joints:
         friction, damping = _loss(joint, "friction"), _loss(joint, "damping")
         if friction:
             left.append(f"friction of '{joint.name}', {friction:g}")
-        if damping and joint.type == "prismatic":
-            left.append(f"damping of '{joint.name}', {damping:g} N s/m")
+        if damping and (joint.type == "prismatic" or joint.name in one):
+            left.append(f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}")
     if left:
         text = f"{what}: the model is without {'; '.join(left)}. Add elements of mbs.elements for them."
         warnings.warn(text, UrdfWarning, stacklevel=3)
@@ -319,7 +356,3 @@ def _loss(joint: Any, kind: str) -> float:
 
 def _axis(joint: Any) -> Pose:
     return direction([1.0, 0.0, 0.0] if joint.axis is None else joint.axis, 3, f"the axis of the joint '{joint.name}'")
-
-
-def _pose(origin: Any) -> Pose:
-    return np.eye(4) if origin is None else np.asarray(origin, float)

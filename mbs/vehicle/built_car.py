@@ -35,7 +35,7 @@ from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within
-from mbs.vehicle.schema_version import of_this_version
+from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steering.steered import Steered
@@ -253,7 +253,7 @@ def checked_car(
     `warn`: whether to warn of what is odd; `stacklevel`: of the warning, by default of who calls `mbs.vehicle.load`.
     Raises `CarFileError`: it does not describe a car.
     """
-    data, converted = of_this_version(data, what)
+    check_version(data, what)
     try:
         car = kind.model_validate(data)
     except ValidationError as error:
@@ -274,8 +274,6 @@ def checked_car(
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
         own = {name: port for name, port in data["ports"].items() if name != "tyre"}
         checked_car(kind, {**data, "ports": own}, folder, what, warn=warn, stacklevel=stacklevel + 1)
-        for sentence in converted if warn else ():
-            warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
         return car
     if not at_rest:
         return car
@@ -300,7 +298,7 @@ def checked_car(
         raise CarFileError(_told(what, faults))
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        for sentence in (*converted, *misfit, *car_oddities(car, rest)):
+        for sentence in (*misfit, *car_oddities(car, rest)):
             warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
     return car
 

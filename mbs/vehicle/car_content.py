@@ -165,7 +165,12 @@ class CarContent(Section):
     @property
     def linked(self) -> bool:
         """Whether links carry all wheels."""
-        return self.front.suspension.linked and self.rear.suspension.linked
+        return len(self.linked_axles) == len(self.axles)
+
+    @property
+    def linked_axles(self) -> dict[str, Axle]:
+        """Axles with links, by name."""
+        return {name: axle for name, axle in self.axles.items() if axle.suspension.linked}
 
     @property
     def footprint(self) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -12,7 +12,6 @@ from pathlib import Path
 
 from ali3.columns import in_columns
 from ali3.errors import UserError
-from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
 
@@ -47,7 +46,6 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         "inputs over time, speed=V, m/s at its start; default: path=1 loads=3, three drives",
     )
     add_option(parser, "--json", "of --kinematics or --cheapest")
-    add_old_names(parser, {"--parameters": "--show-parameters"})
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")

@@ -6,6 +6,7 @@ import shutil
 from pathlib import Path
 
 from ali3.folders import whole_folder
+from ali3.near_names import did_you_mean
 from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.read_car import CARS, FILE, car_names
@@ -18,8 +19,8 @@ def copy_car(name: str, folder: Path) -> list[Path]:
     Raises `CarFileError`: there is no such car, or the folder exists; `FileError`: it cannot be written.
     """
     if name not in car_names():
-        known = ", ".join(car_names())
-        raise CarFileError(f"There is no car {shown(name)} to copy; the cars of the package are {known}.")
+        near = did_you_mean(name, car_names(), f"the cars of the package are {', '.join(car_names())}", 1)
+        raise CarFileError(f"There is no car {shown(name)} to copy{near}")
     if folder.exists() or folder.is_symlink():
         raise CarFileError(f"{folder} exists; the copy of a car needs a folder that does not.")
     with whole_folder(folder) as made:

@@ -6,6 +6,7 @@ import warnings
 from functools import cache
 from pathlib import Path
 
+from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
 from mbs.common.checks import shown
 from mbs.vehicle.built_car import C, checked_car
@@ -49,9 +50,10 @@ def file_of(car: str | Path) -> Path:
     except (OSError, ValueError):
         there = False
     if not str(car) or not there:
-        known = ", ".join(car_names())
-        file = "" if "\0" in str(car) else f"no file {path}, and "
-        raise CarFileError(f"There is no car {shown(str(car))}: {file}the cars of the package are {known}.")
+        names = car_names()
+        file = "" if "\0" in str(car) else f": no file {path}"
+        near = did_you_mean(str(car), names, f"the cars of the package are {', '.join(names)}", 1)
+        raise CarFileError(f"There is no car {shown(str(car))}{file}{near}")
     return path
 
 

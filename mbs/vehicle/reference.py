@@ -1,11 +1,13 @@
-"""Writes the reference page of the car file and its JSON Schema: ``python -m mbs.vehicle.reference``, in a clone."""
+"""The reference of the car file, and its JSON Schema.
+
+``python -m mbs.vehicle.reference`` prints the one and writes the other, in a clone.
+"""
 
 from __future__ import annotations
 
 import inspect
 import textwrap
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from pydantic.fields import FieldInfo
@@ -13,34 +15,19 @@ from pydantic.fields import FieldInfo
 from ali3.files import write_text
 from ali3.typed_paths import Table, annotation_of, by_name, keys_of, kinds_of, templates, words
 from mbs.vehicle.car import Car
-from mbs.vehicle.names import NAME_WORDS
 from mbs.vehicle.quantities import Quantity, quantities_in
 from mbs.vehicle.schema import SCHEMA_FILE, schema_text
-from mbs.vehicle.schema_version import SCHEMA
 
-PAGE = Path(__file__).parents[2] / "docs" / "car_file.md"
 WIDTH = 118
 NAME = "NAME"  # stands for a name that the user chooses
 AXLE = "AXLE"  # stands for front or rear
 TOP = "At the top of the file"
-HEAD = f"""# The car file
-
-Every table and key of a `car.toml`, version {SCHEMA} of its form; [your own car](your_own_car.md) shows how to make
-one.
-This page and `mbs/vehicle/car.schema.json`, which editors read, are written from the types that read the file, by
-`python -m mbs.vehicle.reference`.
-
-A key without a default must be given, and no other keys are known. A number outside its range is refused: but for
-coordinates the ends of a range are less than a factor of 1000 apart, so that millimetres or tonnes are noticed. *FMU*
-says whether the key is a parameter of the FMU, of the same name: *tunable* while driving, or *fixed* from the start.
-`{AXLE}` is `front` or `rear`, `{NAME}` a name of your choice: {NAME_WORDS}.
-"""
 COLUMNS = ("key", "value", "unit", "range", "default", "FMU", "what it is")
 
 
-def page() -> str:
-    """The reference page."""
-    parts = [HEAD]
+def tables() -> str:
+    """A heading and a table of keys for each table of the file."""
+    parts = []
     for table, places in _tables().items():
         paths = list(dict.fromkeys(path for path, _ in places))
         kinds = list(dict.fromkeys(kind for _, kind in places if kind))
@@ -130,8 +117,8 @@ def _line(cells: tuple[str, ...]) -> str:
 
 
 def main() -> None:
-    """Write both files."""
-    write_text(PAGE, page())
+    """Write the schema and print the reference."""
+    print(tables())
     write_text(SCHEMA_FILE, schema_text())
 
 

@@ -8,12 +8,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, RoadOfFile
+from mbs.kernel.header.limits import FARTHEST
 from mbs.model.mechanism import Mechanism
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 from mbs.vehicle.tyres import Tyre
 
-FAR_AWAY = 1e6  # m: the default kerb lies where no manoeuvre goes
+FAR_AWAY = 2.0 * FARTHEST  # m: the default kerb lies where no car can start
 KERB_HEIGHT = 0.08  # m, of the paper's test
 BUILT_IN = "of the built-in road, without effect on one from a file"
 

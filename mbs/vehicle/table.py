@@ -57,7 +57,7 @@ def read_table(folder: Path, name: str, key: str, columns: Sequence[str]) -> lis
     there too. Raises `CarFileError`: there is no such file, it is no text, or a column or a cell is missing.
     """
     what = f"{key} ({name})"
-    table = TextTable(beside(folder, name, key), CarFileError, what)
+    table = TextTable(beside(folder, name, key), CarFileError, what, known=columns)
     missing = [column for column in columns if column not in table.names]
     if missing:
         raise CarFileError(f"{what} has no column {missing[0]}; its titles are {', '.join(table.names)}.")

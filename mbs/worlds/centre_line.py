@@ -90,8 +90,11 @@ class CentreLine:
         )
 
 
-def through(points: Float, closed: bool, name: str) -> CentreLine:
-    """A line through any points, at least two. Raises `RoadFileError`: points coincide."""
+def curve_through(points: Float, closed: bool, name: str) -> tuple[CubicSpline, Float]:
+    """A spline through any points, at least two, and where along it they are, the first again at the end if closed.
+
+    `name`: how the sentence calls the course. Raises `RoadFileError`: points coincide.
+    """
     if closed and np.hypot(*(points[0] - points[-1])) > 1e-9:
         points = np.vstack([points, points[:1]])
     way = np.hypot(*np.diff(points, axis=0).T)
@@ -99,10 +102,15 @@ def through(points: Float, closed: bool, name: str) -> CentreLine:
         k = int(np.argmin(way))
         raise RoadFileError(f"Points {k + 1} and {k + 2} of the course '{name}' are the same; leave one out.")
     u = np.concatenate([[0.0], np.cumsum(way)])
-    if len(points) == 2:
+    return CubicSpline(u, points, bc_type="periodic" if closed else "natural"), u
+
+
+def through(points: Float, closed: bool, name: str) -> CentreLine:
+    """A line through any points, at least two. Raises `RoadFileError`: points coincide."""
+    curve, u = curve_through(points, closed, name)
+    if len(u) == 2:
         return _equal(points, closed)
-    curve = CubicSpline(u, points, bc_type="periodic" if closed else "natural")
-    fine = np.linspace(0.0, u[-1], max(20 * len(points), int(u[-1] / 0.05)))
+    fine = np.linspace(0.0, u[-1], max(20 * len(u), int(u[-1] / 0.05)))
     dense = curve(fine)
     s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
     n = max(4, math.ceil(s[-1] / STEP))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +14,36 @@ from numpy.typing import NDArray
 from ali3.tables import TextTable
 from ali3.words import brief
 from mbs.roads.road_header import RoadFileError
-from mbs.worlds.centre_line import CentreLine, of_segments, through
+from mbs.roads.steep_faces import RoadWarning
+from mbs.worlds.centre_line import CentreLine, curve_through, of_segments, through
 from mbs.worlds.layers import CourseLayer, HeightOf
 from mbs.worlds.world_types import Course
 
 Float = NDArray[np.float64]
-COLUMNS = ("x", "y", "z", "width", "bank")
+COLUMNS = {
+    "x": "x",
+    "y": "y",
+    "z": "z",
+    "width": "width",
+    "bank": "bank",
+    "right": "right",
+    "left": "left",
+    "width_right": "right",
+    "width_left": "left",
+    "right_width": "right",
+    "left_width": "left",
+    "w_tr_right": "right",
+    "w_tr_left": "left",
+}
+"""What a column is by its heading. `right`, `left`: from the line of the file to the edges of the road."""
+UNNAMED = ("x", "y", "z", "width")
+_IN_METRES = re.compile(r"(.*?)(?:_m|_?\[m\]|_?\(m\))?")
+KNOWN = (
+    "x, y, z, width, or right and left (widths from the line to each edge, as w_tr_right_m and w_tr_left_m), all in "
+    "metres, and bank (a slope)"
+)
+STEEP = 0.3
+"""A course that climbs more is told: the steepest streets have 0.35."""
 GAP = 25.0
 """Two points that are so many times as far apart as the others, and 10 m, are a gap."""
 
@@ -44,7 +70,10 @@ def course_layer(
     if course.bank is not None:
         _rising([s for s, _ in course.bank.grades], course, "bank.grades")
     along = _along(line, table)
-    return CourseLayer(course, line, ground, *(along.get(name) for name in ("z", "width", "bank")))
+    layer = CourseLayer(course, line, ground, *(along.get(name) for name in ("z", "width", "bank")))
+    if steep := _climb(layer):
+        warnings.warn(steep, RoadWarning, stacklevel=2)
+    return layer
 
 
 def _table(course: Course, folder: Path) -> dict[str, Float]:
@@ -56,6 +85,8 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
     else:
         file = folder / course.points
         table, name = read_course(file), str(file)
+        if "right" in table:
+            table["width"] = table["left"] + table["right"]
     if not table or len(table["x"]) < 2:
         raise RoadFileError(f"{name} has fewer than two points.")
     x, y = table["x"], table["y"]
@@ -82,25 +113,84 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
             raise RoadFileError(
                 f"{name} rises by {100.0 * grades[k]:.0f} % between points {k + 1} and {k + 2}; z must be in metres."
             )
+    if "right" in table:
+        _move_to_middle(table, course.closed, name)
     return table
+
+
+def _move_to_middle(table: dict[str, Float], closed: bool, name: str) -> None:
+    """Move the points of a file with widths to both edges to the middle between these."""
+    right, left = table["right"], table["left"]
+    for side, widths in (("right", right), ("left", left)):
+        if (widths < 0.0).any():
+            k = int(np.argmax(widths < 0.0))
+            raise RoadFileError(
+                f"{name}: the width {side} of point {k + 1} is {widths[k]:g} m; it must be 0 or more, from the line "
+                "of the file to the edge."
+            )
+    points = np.stack([table["x"], table["y"]], axis=1)
+    aside = 0.5 * (left - right)  # to the left
+    curve, stations = curve_through(points, closed, name)
+    along = curve(stations[: len(points)], 1)
+    normal = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+    middle = points + aside[:, None] * normal
+    turned = (np.diff(points, axis=0) * np.diff(middle, axis=0)).sum(axis=1) <= 0.0
+    if turned.any():
+        k = int(np.argmax(turned))
+        raise RoadFileError(
+            f"{name}: with widths of {right[k]:g} m to the right and {left[k]:g} m to the left at point {k + 1} the "
+            f"middle of the road turns back before point {k + 2}; widths must change slowly along it and be less than "
+            "the radius of the line."
+        )
+    table["x"], table["y"] = middle.T
+    if "bank" in table and "z" in table:
+        table["z"] = table["z"] - table["bank"] * aside
+
+
+def _climb(layer: CourseLayer) -> str:
+    """A sentence on the steepest place of a course that is steeper than `STEEP`, else nothing."""
+    s = np.linspace(0.0, layer.line.length, len(layer.line.points))
+    height = layer.height(s)
+    grades = np.abs(np.diff(height)) / np.diff(s)
+    k = int(np.argmax(grades))
+    if grades[k] <= STEEP:
+        return ""
+    x, y, _ = layer.line.place(s[k])
+    return (
+        f"The course '{layer.name}' climbs by {100.0 * grades[k]:.0f} % at station {s[k]:.0f} m, x = {x:.5g}, y = "
+        f"{y:.5g}; it lies between {height.min():.4g} and {height.max():.4g} m. Roads have at most "
+        f"{100.0 * STEEP:.0f} %: z must be heights in metres, not a width."
+    )
 
 
 def read_course(file: Path) -> dict[str, Float]:
     """Columns of a course file by name.
 
-    `file`: CSV; its first line may name the columns x, y, z, width and bank, else they are x, y and then z, width, bank
-    as far as there are any. Lines that begin with # are left out. Raises `RoadFileError` with the file, the line and
-    what is wrong.
+    `file`: CSV; its first line or a comment above it may name the columns, see `COLUMNS`, else they are x, y and then z
+    and width as far as there are any. Raises `RoadFileError` with the file, the line and what is wrong.
     """
-    table = TextTable(file, RoadFileError, headed=None)
-    names = [name.lower() for name in table.names] or list(COLUMNS[: table.width])
-    if unknown := [name for name in names if name not in COLUMNS]:
-        raise RoadFileError(f"{file} has a column {brief(unknown[0])}; known are {', '.join(COLUMNS)}, in metres.")
+    headings = {f"{name}{unit}" for name in COLUMNS for unit in ("", "_m")}
+    table = TextTable(file, RoadFileError, headed=None, known=headings)
+    if table.width > len(UNNAMED) and not table.names:
+        raise RoadFileError(
+            f"{file} has {table.width} columns without names, which are {', '.join(UNNAMED)} as far as there are any; "
+            f"write a heading above them. Known are {KNOWN}."
+        )
+    names = [_column(name) for name in table.names] or list(UNNAMED[: table.width])
+    if "" in names:
+        raise RoadFileError(f"{file} has a column {brief(table.names[names.index('')])}; known are {KNOWN}.")
     if not {"x", "y"} <= set(names) or len(set(names)) < len(names):
-        raise RoadFileError(f"{file} must have a column x and a column y, each once.")
-    if table.width > len(names):
-        raise RoadFileError(f"{file} has {table.width} columns; without names they are {', '.join(COLUMNS)}.")
+        raise RoadFileError(f"{file} must have a column x and a column y, each once, and no other twice.")
+    if (sides := {"right", "left"} & set(names)) and (len(sides) < 2 or "width" in names):
+        raise RoadFileError(f"{file} must have the widths right and left, both and no width beside them.")
     return dict(zip(names, table.values(least=0).T, strict=True))
+
+
+def _column(heading: str) -> str:
+    """What a column is by its heading; empty: it is not known, or not in metres."""
+    name = re.sub("[ -]+", "_", heading.strip().lower())
+    match = _IN_METRES.fullmatch(name)
+    return COLUMNS.get(match[1] if match and name != "bank_m" else name, "")
 
 
 def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float, float]) -> None:

@@ -78,15 +78,16 @@ class CourseLayer:
         self.shoulder, self.blend = course.shoulder, course.blend
         self.widths, self.banks = widths, banks
         self.reach = 0.5 * (course.width if widths is None else float(widths.max())) + self.shoulder + self.blend
-        self._height: Callable[[Float], Float]
+        self.height: Callable[[Float], Float]
+        """Of the line at stations, m."""
         if course.heights is not None:
             roundings = [course.rounding] * len(course.heights)
             vertices = course.heights
-            self._height = lambda s: vertical_curve(s, vertices, roundings)
+            self.height = lambda s: vertical_curve(s, vertices, roundings)
         else:
             if heights is None:
                 heights = ground(*line.points.T)
-            self._height = _smoothed(heights, line, 0.25 * course.smoothing / line.step)
+            self.height = _smoothed(heights, line, 0.25 * course.smoothing / line.step)
         self.tree = cKDTree(line.points)
 
     def half(self, s: Float) -> Float:
@@ -112,7 +113,7 @@ class CourseLayer:
         half = self.half(s)
         bank = self.course.bank
         pivot = {"left": half, "centre": 0.0 * half, "right": -half}[bank.pivot if bank is not None else "centre"]
-        height = self._height(s) + self.bank(s) * (pivot - offset)
+        height = self.height(s) + self.bank(s) * (pivot - offset)
         return Found(distance - half, height, s, offset)
 
 

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from viewer.base64_numbers import decoded, octets
+from ali3.chart_words import png_metadata
+from ali3.scene.base64_numbers import decoded, octets
 
 COLOURS = {
     "asphalt": "#5d6066",
@@ -65,7 +66,7 @@ def draw_map(record: dict[str, Any], file: Path) -> None:
     axes.set_xlabel("x, m")
     axes.set_ylabel("y, m")
     axes.set_title(f"{record['name']}: surfaces, scenery and the places where a car may start")
-    figure.savefig(file, dpi=110)
+    figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
 
 
 def _heights(road: dict[str, Any], bounds: list[float]) -> np.ndarray[Any, np.dtype[np.float64]]:

@@ -18,7 +18,7 @@ from ali3.folders import forget_oldest, whole_folder
 ROOT = Path(__file__).parents[2]
 CODE = (
     *("mbs/roads", "mbs/worlds", "mbs/kernel/header"),
-    *("viewer/road_types.py", "viewer/base64_numbers.py", "ali3/iso_3888.py", "ali3/cones.py"),
+    *("ali3/scene/road_types.py", "ali3/scene/base64_numbers.py", "ali3/iso_3888.py", "ali3/cones.py"),
 )
 """What worlds are made by."""
 MOST_KEPT = 12

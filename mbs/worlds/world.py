@@ -13,6 +13,8 @@ from typing import Any
 
 from ali3.errors import UserError
 from ali3.json_reading import read_json
+from ali3.near_names import did_you_mean
+from ali3.told_warnings import told_warnings
 
 WORLDS = Path(__file__).parent
 ROADS = Path(__file__).parents[1] / "roads" / "files"
@@ -47,7 +49,10 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
         made.append(picture)
     for path in made:
         print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")
-    if (off := read_json(out / f"{name}.json").get("thin")) is not None:
+    record = read_json(out / f"{name}.json")
+    for told in record.get("warnings", []) if kept else []:
+        print(f"warning: {told}", file=sys.stderr)
+    if (off := record.get("thin")) is not None:
         print(off)
     print(f"{'kept from before' if kept else 'made'}: {time.perf_counter() - begin:.2f} s")
     return 0
@@ -65,13 +70,18 @@ def _file(given: str) -> Path:
     for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
         if place.is_file() and Path(given).name == given:
             return place
-    raise UserError(f"There is no world '{given}' and no such file; worlds are {', '.join(shipped_worlds())}.")
+    worlds = shipped_worlds()
+    near = did_you_mean(given, worlds, f"worlds are {', '.join(worlds)}", 1)
+    raise UserError(f"There is no world '{given}' and no such file{near}")
 
 
 def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
     from mbs.worlds.make_world import make_world
 
-    record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
+    with told_warnings() as told:
+        record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
+    if told:
+        record["warnings"] = told
     (folder / f"{name}.json").write_text(
         json.dumps(record, allow_nan=False, separators=(",", ":"), ensure_ascii=False), encoding="utf-8"
     )

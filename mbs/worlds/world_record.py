@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from ali3.scene.base64_numbers import encoded, encoded_octets
 from mbs.worlds.patches import BOUND, DrawnPatch, patches_of
 from mbs.worlds.profiles import spaced
 from mbs.worlds.scenery import scenery_of
 from mbs.worlds.terrain import Terrain
-from viewer.base64_numbers import encoded, encoded_octets
 
 FORMAT, VERSION = "ALi3 world", 1
 MOST_CELLS = 1_500_000

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from ali3.iso_3888 import Track
-from viewer.road_types import SurfaceClass
+from ali3.scene.road_types import SurfaceClass
 
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
 Height = Annotated[float, Field(ge=-1e4, le=1e4)]
@@ -86,7 +86,7 @@ class Course(_Table):
     start: Start | None = None
     segments: list[Segment] | None = None
     points: list[Point] | str | None = None
-    """Or a CSV file beside this one: x,y and as one likes z, width, bank."""
+    """Or a CSV file beside this one: x,y and as one likes z, width or right and left, bank."""
     closed: bool = False
     width: Annotated[float, Field(ge=1.0, le=200.0)] = 8.0
     surface: SurfaceClass = "asphalt"

@@ -56,9 +56,9 @@ def test_verdict_takes_the_largest_step_within_both_bounds():
 
 @pytest.mark.slow
 def test_another_car_has_its_own_references(capsys):
-    arguments = ["--car", "hatchback", "--no-fmu", "--repeats", "1", "--only", "step_steer"]
+    arguments = ["--car", "hatchback", "--no-fmu", "--repeats", "1", "--only", "step_steer_given_throttle"]
     assert car.main(["accuracy", *arguments]) == 0
-    assert "step_steer: 10 ms" in capsys.readouterr().out
+    assert "step_steer_given_throttle: 10 ms" in capsys.readouterr().out
 
 
 def test_a_car_without_references_is_told(capsys):

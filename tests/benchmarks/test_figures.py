@@ -6,9 +6,13 @@ import re
 
 import pytest
 
+from ali3.chart_words import description_of
+from ali3.charts import save_picture
 from benchmarks import figures
+from benchmarks.pictures import charts_again
 from benchmarks.shared.figures import Again, between, differences, read, rows_of, same, written
 from benchmarks.shared.pages import DOCS
+from hosts.run.plot_panels import table_of
 
 MADE = "| method | h s | error | ms |\n| --- | --- | --- | --- |\n| a | 0.1 | 2.5 | 9 |\n| b | 0.1 | 1e-05 | 8 |"
 PAGE = f"text\n<!-- begin t -->\n{MADE}\n| c | 0.1 | 3 | 7 |\n<!-- end t -->\nThe car takes 0.36 s\nof time.\n"
@@ -45,6 +49,56 @@ def test_an_altered_figure_is_a_sentence(before, after, said):
 def test_an_altered_sentence_is_told():
     again = Again("README.md", "takes 0.36 s of time")
     assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
+
+
+def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path):
+    """A panel less, another unit, a curve more, a figure of the summary that is another."""
+    from matplotlib.figure import Figure
+
+    def drawn(name, panels, load):
+        figure = Figure()
+        figure.suptitle("a  car's\n drive")
+        axes = figure.subplots(1, len(panels) + 1)
+        for one, (title, (unit, curves)) in zip(axes, panels.items(), strict=False):
+            for curve in curves:
+                one.plot([0.0, 1.0], [0.0, 1.0], label=curve)
+            one.plot([0.0, 1.0], [0.5, 0.5])  # without a name
+            one.set_title(title, loc="left")
+            one.set(xlabel="time, s", ylabel=unit)
+        table_of(axes[-1], [("largest wheel load", load), ("distance driven", "15 m")])
+        save_picture(figure, tmp_path / name)
+        return description_of(tmp_path / name)
+
+    old = drawn("old.png", {"Speed": ("m/s²", ()), "Loads": ("kN", ("FL",)), "Iterations": ("", ())}, "2357 N")
+    new = drawn("new.png", {"Speed": ("m/s²", ()), "Loads": ("kN", ("FL", "FR"))}, "2355 N")
+    assert old.splitlines()[:3] == [
+        "a car's drive",
+        "panel Speed; x time, s; y m/s²",
+        "panel Loads; x time, s; y kN; curves FL",
+    ]
+    again = Again("docs/images/x.png", new, picture=(tmp_path / "new.png").read_bytes())
+    gone, drawn_now = (
+        "docs/images/x.png shows what is not drawn now: ",
+        "docs/images/x.png does not show what is drawn now: ",
+    )
+    assert differences(again, old) == [
+        f"{gone}panel Loads; x time, s; y kN; curves FL",
+        f"{gone}panel Iterations; x time, s",
+        f"{gone}largest wheel load: 2357 N",
+        f"{drawn_now}panel Loads; x time, s; y kN; curves FL, FR",
+        f"{drawn_now}largest wheel load: 2355 N",
+    ]
+    assert differences(again, new) == []
+    (said,) = differences(again, "")
+    assert said.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
+
+
+@pytest.mark.parametrize("name", charts_again.DRAWN)
+def test_charts_that_are_drawn_again_say_what_they_show(name):
+    page = f"docs/images/{name}"
+    assert len(read(page).splitlines()) > 1
+    pages = [DOCS.parent / "README.md", *DOCS.glob("*.md")]
+    assert any(f"images/{name})" in file.read_text(encoding="utf-8") for file in pages)
 
 
 def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
@@ -93,7 +147,7 @@ def test_a_table_that_is_made_without_rows_is_told():
 
 def test_figures_that_are_made_in_a_moment_are_those_of_the_pages(capsys):
     assert figures.main(["--only", "Table 1"]) == 0
-    assert "1 tables and sentences" in capsys.readouterr().out
+    assert "1 tables, sentences and charts" in capsys.readouterr().out
     with pytest.raises(SystemExit):
         figures.main(["--only", "nothing"])
     assert "no table is called 'nothing'" in capsys.readouterr().err

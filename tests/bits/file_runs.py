@@ -20,7 +20,7 @@ STUDY = """
 fmu = "{fmu}"
 
 [[manoeuvres]]
-manoeuvre = "step_steer"
+manoeuvre = "step_steer_given_throttle"
 stop_time = 1.5
 
 [sampling]
@@ -90,7 +90,7 @@ def studies(fmus: Path, scratch: Path) -> Entries:
 def comparison(fmus: Path, scratch: Path) -> Entries:
     """An FMU against a log of another set of parameters, with a fit."""
     fmu = doors.fmu_file("hatchback", "fmi2", fmus)
-    table = doors.drive(fmu, "step_steer", scratch / "drive", "--set", "front.spring.stiffness=27000")
+    table = doors.drive(fmu, "step_steer_given_throttle", scratch / "drive", "--set", "front.spring.stiffness=27000")
     with table.open(newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
     names = ("time", "steering", "throttle", "brake", "chassis.ay", "chassis.wz", "chassis.roll", "speed")

@@ -20,7 +20,7 @@ STARTS: dict[str, dict[str, float]] = {
     "launch_and_brake": {},
     "slalom": {"initial.speed": 15.0},
     "steady_cornering": {"initial.speed": 8.0},
-    "step_steer": {"initial.speed": 22.22},
+    "step_steer_given_throttle": {"initial.speed": 22.22},
 }
 """What a kind of FMU is started with where the inputs of a manoeuvre are replayed."""
 TUNED = {"front.spring.stiffness": 21000.0, "rear.tyre.grip": 0.8, "brakes.balance": 0.55, "road.friction": 0.7}
@@ -67,7 +67,7 @@ def _kind_runs(
         yield manoeuvre, run(manoeuvre, {})
     for fidelity in (1, 2, 3):
         yield f"kerb_drop_{fidelity}", run("kerb_drop", {"fidelity": fidelity})
-    yield "step_steer_tuned", run("step_steer", TUNED)
+    yield "step_steer_given_throttle_tuned", run("step_steer_given_throttle", TUNED)
     for road in ("rough", "split", "washboard"):
         yield road, run("launch_and_brake", {"initial.speed": 12.0, "road.file": f"{road}.road"})
     if kind != "python":

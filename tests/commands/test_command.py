@@ -20,8 +20,6 @@ from ali3 import processes
 from ali3.command import main
 from ali3.commands import COMMANDS, Command
 from ali3.decimal_number import number
-from ali3.old_commands import BEFORE
-from ali3.old_options import add_old_names
 from ali3.options import SHARED, Parser, assignment, count, name_and_text
 
 ROOT = Path(ali3.__file__).parents[1]
@@ -181,54 +179,6 @@ def test_an_option_of_two_commands_is_one_option() -> None:
     assert sum(len(set(map(id, options_of(c.name).values()))) - 1 for c in COMMANDS) <= MOST_OPTIONS
 
 
-@pytest.mark.parametrize("before", BEFORE)
-def test_a_command_of_before_names_the_new_line(before: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([before, "x y", "--set", "a=1"]) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert said.err.startswith(f"error: The command '{before}' is now: ali3 ")
-    assert said.err.count("\n") == 1
-    words = shlex.split(said.err.partition(" is now: ali3 ")[2])
-    assert words[0] in PARSERS
-    assert words[-3:] == ["x y", "--set", "a=1"]
-
-
-@pytest.mark.parametrize(
-    ("line", "now"),
-    [
-        ("soak car.fmu --seconds 10 --seed 2", "check --soak car.fmu --stop-time 10 --seed 2"),
-        ("recording r replay", "simulator --recording r --replay"),
-        (
-            "recording r manoeuvre m.csv --begin 1 --fmu a.fmu",
-            "simulator --recording r --save-manoeuvre m.csv --from 1 a.fmu",
-        ),
-        ("page a.fmu --beside r.csv --paused", "view --live a.fmu r.csv --paused"),
-        ("parameters a.fmu --out a.ssv", "check --show-parameters a.fmu --save-parameters a.ssv"),
-        ("drive a.fmu -m slalom --driver wheelbase=2.6", "run a.fmu -m slalom --driver wheelbase=2.6"),
-        ("kerb --fidelity 1", "run --kerb --fidelity 1"),
-        ("kinematics hatchback --points 5", "car --kinematics hatchback --points 5"),
-        ("world plane --out w", "road --world plane --out w"),
-        ("kernel", "build --kernel"),
-    ],
-)
-def test_the_new_line_is_one_that_works(line: str, now: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(line.split()) == 2
-    assert capsys.readouterr().err == f"error: The command '{line.split()[0]}' is now: ali3 {now}\n"
-    assert parses(now.split(), capsys) == ""
-
-
-def test_an_option_of_before_ends_the_command_with_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
-    parser = argparse.ArgumentParser(prog="ali3 x")
-    add_old_names(parser, {"--workers": "--jobs", "--list": "--dry-run"})
-    for given in (["--workers", "3"], ["--list"], ["--workers=3"]):
-        with pytest.raises(SystemExit) as end:
-            parser.parse_args(given)
-        assert end.value.code == 2
-        said = capsys.readouterr().err
-        assert re.fullmatch(r"error: --(workers|list) is now --(jobs|dry-run); ali3 x --help describes it\.\n", said)
-    assert "--workers" not in parser.format_help()
-
-
 def test_every_line_of_the_documents_is_a_command(capsys: pytest.CaptureFixture[str]) -> None:
     lines = [(file, line) for file, text in documents() for line in typed_lines(text)]
     assert len(lines) > 50
@@ -240,7 +190,6 @@ def test_commands_that_documents_and_sentences_name_exist() -> None:
     texts = dict(documents())
     suffixes = (".py", ".js", ".toml")
     texts |= {str(f): f.read_text("utf-8") for c in CODE for f in (ROOT / c).rglob("*") if f.suffix in suffixes}
-    texts = {name: text for name, text in texts.items() if not name.endswith("ali3/old_commands.py")}
     spans = [(f, span) for f, text in texts.items() for span in re.findall(r"[`'\"]ali3 ([^`'\"]+)[`'\"]", text)]
     named = [(f, span.split()) for f, span in spans if "{" not in span]
     assert len(named) > 60

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from ali3.errors import TableError
 from ali3.tables import TextTable, cells_of, is_number
 
 
-def table(folder: Path, text: str | bytes, **options: bool) -> TextTable:
+def table(folder: Path, text: str | bytes, **options: Any) -> TextTable:
     file = folder / "t.csv"
     file.write_bytes(text.encode() if isinstance(text, str) else text)
     return TextTable(file, TableError, **options)
@@ -39,6 +40,31 @@ def test_a_cell_may_hold_the_mark_and_a_name_keeps_its_brackets(tmp_path: Path) 
     assert not found.units
     assert table(tmp_path, 'a,"b;c"\n1,2\n').names == ["a", "b;c"]
     assert table(tmp_path, "a\n1\n", units=True).units == {}
+
+
+@pytest.mark.parametrize(
+    ("above", "known", "names"),
+    [
+        ("# time [s],u [m/s]\n", ("time",), ["time", "u"]),
+        ("#made by A, B\n# time [s], u [m/s]\n# ----\n", ("time",), ["time", "u"]),
+        ("# TIME [s]; u [m/s]\n", ("time",), ["TIME", "u"]),
+        ("# a b\n", (), ["a", "b"]),
+    ],
+)
+@pytest.mark.parametrize("headed", [True, None])
+def test_the_heading_may_be_a_comment(
+    tmp_path: Path, above: str, known: tuple[str, ...], names: list[str], headed: bool | None
+) -> None:
+    found = table(tmp_path, above + "0,1\n1,2\n", units=True, headed=headed, known=known)
+    assert found.names == names
+    assert found.values().tolist() == [[0.0, 1.0], [1.0, 2.0]]
+
+
+def test_a_comment_of_other_words_is_no_heading_and_numbers_are_none(tmp_path: Path) -> None:
+    text = "# by Smith, Monza\n0,1\n1,2\n"
+    assert table(tmp_path, text, headed=None, known=("x", "y")).names == []
+    with pytest.raises(TableError, match="line 2: '0' is a number; above the first values there must be a heading"):
+        table(tmp_path, text, known=("time",))
 
 
 def test_every_so_many_lines_and_one_that_is_cut(tmp_path: Path) -> None:

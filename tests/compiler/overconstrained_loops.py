@@ -147,3 +147,75 @@ def _sensors(m: Model, body: Body, point: Array) -> None:
     for component in "xyz"[: m.dimension]:
         m.sense_position(component, body, point, component)
     m.sense_energy("energy")
+
+
+def scissor_lift(
+    pen: Pen = exact, stages: int = 1, guide: str = "line", turn: float = 0.0, scale: float = 1.0
+) -> Model:
+    """Planar: crossed bars lift a plate that a guide holds upright, as the bars do already."""
+    c, s = np.cos(turn), np.sin(turn)
+    R = np.array([[c, -s], [s, c]])
+    m = Model("scissor lift", dimension=2, gravity=tuple(9.81 * scale * R @ (0.0, -1.0)))
+
+    def at(x: float, y: float) -> Array:
+        return scale * R @ pen(np.array([x, y]))
+
+    def along(x: float, y: float) -> Array:
+        return R @ pen(np.array([x, y]))
+
+    below: tuple[Body, Body] = (m.ground, m.ground)
+    for k in range(stages):
+        middle = scale * R @ np.array([0.8, 0.6 * k + 0.3])
+        up, down = (m.body(f"{name} {k}", mass=1.0, com=middle, inertia=0.2 * scale**2) for name in ("up", "down"))
+        m.revolute(f"middle {k}", up, down, point=at(0.8, 0.6 * k + 0.3))
+        m.revolute(f"left {k}", below[1], up, point=at(0.0, 0.6 * k))
+        if k == 0:
+            m.point_on_line("slide", (down, at(1.6, 0.0)), (m.ground, at(1.6, 0.0)), axis=along(1.0, 0.0))
+        else:
+            m.revolute(f"right {k}", below[0], down, point=at(1.6, 0.6 * k))
+        below = up, down
+    height = 0.6 * stages
+    centre = scale * R @ np.array([0.8, height])
+    plate = m.body("plate", mass=5.0, com=centre, inertia=scale**2)
+    m.revolute("head", plate, down, point=at(0.0, height))
+    m.point_on_line("top", (up, at(1.6, height)), (plate, at(1.6, height)), axis=along(1.0, 0.0))
+    if guide == "line":
+        m.point_on_line("guide", (plate, at(0.0, height)), (m.ground, at(0.0, 0.0)), axis=along(0.0, 1.0))
+    else:
+        m.prismatic("guide", plate, m.ground, axis=along(0.0, 1.0), point=at(0.8, height))
+    _sensors(m, plate, centre)
+    return m
+
+
+def scott_russell(pen: Pen = exact, blocks: bool = False, turn: float = 0.0, scale: float = 1.0) -> Model:
+    """Planar: a rod of 1 m between two lines, its middle on a crank of 0.5 m that is not needed."""
+    c, s = np.cos(turn), np.sin(turn)
+    R = np.array([[c, -s], [s, c]])
+    m = Model("Scott Russell", dimension=2, gravity=tuple(9.81 * scale * R @ (0.0, -1.0)))
+    ends = {"A": (np.array([np.cos(0.7), 0.0]), (1.0, 0.0)), "C": (np.array([0.0, np.sin(0.7)]), (0.0, 1.0))}
+    middle = 0.5 * (ends["A"][0] + ends["C"][0])
+    crank = m.body("crank", mass=1.0, com=0.5 * scale * R @ middle, inertia=0.02 * scale**2)
+    rod = m.body("rod", mass=2.0, com=scale * R @ middle, inertia=0.17 * scale**2)
+    m.revolute("O", m.ground, crank, point=scale * R @ pen(np.zeros(2)))
+    m.revolute("B", crank, rod, point=scale * R @ pen(middle))
+    for name, (point, direction) in ends.items():
+        p, axis = scale * R @ pen(point), R @ pen(np.array(direction))
+        if blocks:
+            block = m.body(f"block {name}", mass=0.3, com=scale * R @ point, inertia=0.01 * scale**2)
+            m.prismatic(f"slide {name}", block, m.ground, axis=axis, point=scale * R @ pen(point))
+            m.revolute(f"pin {name}", block, rod, point=p)
+        else:
+            m.point_on_line(name, (rod, p), (m.ground, scale * R @ pen(np.zeros(2))), axis=axis)
+    _sensors(m, rod, scale * R @ ends["C"][0])
+    return m
+
+
+def three_short_cranks(pen: Pen = exact, length: float = 1e-4) -> Model:
+    """Planar: three parallel cranks that are short against the plate on them."""
+    m = Model("three short cranks", dimension=2)
+    plate = m.body("plate", mass=3.0, com=(1.0, 0.4), inertia=0.8)
+    for k, foot in enumerate(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.2]])):
+        crank = m.body(f"crank {k}", mass=0.5, com=foot, inertia=0.02)
+        m.revolute(f"foot {k}", m.ground, crank, point=pen(foot))
+        m.revolute(f"head {k}", crank, plate, point=pen(foot + np.array([0.0, length])))
+    return m

@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import PPoly
 from scipy.special import ellipk
 
-from mbs import Model, ModelError, compile, simulate
+from mbs import Model, ModelError, Simulation, compile, simulate
 from mbs.scenes import slider_crank
 
 SIZES = [1e-9, 1e-7, 1e-6, 1.0, 1e3, 1e5]
@@ -154,3 +154,31 @@ def _four_bar_at(far: float) -> Model:
         m.revolute(str(k), first, second, point=np.add(at, point))
     m.sense_position("y", b, np.add(at, [0.5, 0.5]), "y")
     return m
+
+
+@pytest.mark.parametrize("size", [1e-6, 1e-3, 1.0, 1e2, 1e4, 1e6])
+def test_given_rates_are_kept_at_any_size(size):
+    """Four bars in a row, whose rates add up, and the crank of a four-bar: a rate weighs as the inertia it moves."""
+    chain, before, rates = Model("chain", dimension=2), None, {}
+    for k in range(4):
+        bar = chain.body(f"bar {k}", mass=1.0, com=((k + 0.5) * size, 0.0), inertia=size**2 / 12.0)
+        chain.revolute(f"pin {k}", before or chain.ground, bar, point=(k * size, 0.0))
+        angle = chain.relative_angle(f"angle {k}", before or chain.ground, bar)
+        rates[f"rate {k}"] = k + 1.0
+        chain.initial_rate(angle, k + 1.0)
+        chain.sense_coordinate(f"rate {k}", angle, order=1)
+        before = bar
+    now = Simulation(compile(chain)).sensors
+    assert {name: now[name] for name in rates} == pytest.approx(rates, rel=1e-9)
+
+    loop, corners = Model("four-bar", dimension=2), size * np.array([[0.0, 0.0], [0.0, 1.0], [2.0, 1.5], [2.0, 0.0]])
+    bars = [
+        loop.body(f"bar {k}", mass=1.0, com=0.5 * (corners[k] + corners[k + 1]), inertia=size**2 / 12.0)
+        for k in range(3)
+    ]
+    for k, pair in enumerate(zip([loop.ground, *bars], [*bars, loop.ground], strict=True)):
+        loop.revolute(f"pin {k}", *pair, point=corners[k])
+    angle = loop.relative_angle("crank", loop.ground, bars[0])
+    loop.initial_rate(angle, 5.0)
+    loop.sense_coordinate("rate", angle, order=1)
+    assert Simulation(compile(loop)).sensors["rate"] == pytest.approx(5.0, rel=1e-9)

@@ -165,7 +165,15 @@ def test_grid_points_in_systems_upon_systems_and_in_all_forms_of_fields(tmp_path
         ("GRID,1,5,0.,0.,0.\nCORD2R,5,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.", "coordinate system 5 refers to itself"),
         ("GRID,1,5,0.,0.,0.\nCORD2R,5,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.", "points of coordinate system 5 lie on a line"),
         ("GRID,1,,0.,0.,0.\nGRID,1,,0.,0.,1.", "grid point 1 is given twice"),
-        ("GRID,1,,0.,zero,0.", "could not convert string to float: 'zero'"),
+        ("GRID,1,,0.,zero,0.", r"^frame\.bdf, line 1: field 5 of this GRID is 'zero', no number\.$"),
+        ("$\nGRID*\t1\t0.\t1.\t", r"^frame\.bdf, line 2: field 3 of this GRID is '0\.', no whole number\.$"),
+        ("$\nGRID\t1\t\t0.000000\t1.\t2.", r"line 2: '0\.000000' fills its field or is longer, and a tab follows"),
+        ("$\nGRID\t1\t\t  0.00000001\t1.\t2.", r"line 2: '0\.00000001' fills its field or is longer"),
+        (
+            "GRID,1,,0.,0.,0.\n=(3)",
+            r"^frame\.bdf, line 2: =\(3\) repeats a replication, and the line before it is none",
+        ),
+        ("GRID,1,,0.,a,0.\n=,*(1),=,=,*(1.),==", r"line 2: field 5 adds '1\.' to 'a', which are not both numbers"),
         ("INCLUDE 'frame.bdf'", "is included within itself"),
         ("INCLUDE 'none.bdf'", "No such file"),
         ("GRDSET,,,,,,3\nGRID,1,,0.,0.,0.", "Grid point 1 has displacements in a system of its own"),
@@ -176,6 +184,25 @@ def test_bulk_data_that_cannot_be_used_are_refused(tmp_path: Path, deck: str, wo
     (tmp_path / "frame.op4").write_text("")
     with pytest.raises(ModelError, match=words):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
+
+
+def test_grid_points_behind_tabs_and_replicated_ones(tmp_path: Path) -> None:
+    """A tab leads to the next field, of 8 or 16 columns; other cards and lines before the bulk may differ."""
+    (tmp_path / "deck.bdf").write_text(
+        "TITLE\t= TABS AND 12345678\t=\nBEGIN BULK\nCQUAD4\t12345678\t1\t1\n=\t*1\t=\t==\n=(2)\n"
+        "GRID\t1\t\t1.5\t2.\t-3.\t0\nGRID*\t2\t\t0.123456789\t1.\t*\n*\t2.\nGRID    3       \t  4.\t5.\t6.\n"
+        "GRID,4,,0.,1.,2.\n=,*(1),=,*(.5),==\n=(3)\n"
+        "GRID    10              1.0     1.0     1.0\n=       *2      =       =       *-1.+0  ==\n=2\n"
+        "GRID,20,,=,7.,==\nENDDATA\n"
+    )
+    wanted = {1: (1.5, 2.0, -3.0), 2: (0.123456789, 1.0, 2.0), 3: (4.0, 5.0, 6.0)}
+    wanted |= {4 + k: (0.5 * k, 1.0, 2.0) for k in range(5)}
+    wanted |= {10 + 2 * k: (1.0, 1.0 - k, 1.0) for k in range(4)} | {20: (1.0, 7.0, 1.0)}
+    found = grid_points(tmp_path / "deck.bdf")
+    assert list(found) == sorted(wanted)
+    for number, (place, own) in found.items():
+        assert own == 0
+        np.testing.assert_allclose(place, wanted[number], atol=1e-12)
 
 
 def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:

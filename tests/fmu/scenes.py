@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 import mbs
 from mbs.elements import ContactPoints, CoordinateFriction, EndStops, PlaneRoad, PortRoad
 from mbs.model.records import Ahead
@@ -263,4 +265,27 @@ def hanging() -> mbs.Model:
     m.parameter("stiffness", 100.0, 0.0, 200.0, "N/m", "Of the spring", targets=[(spring, "stiffness", 1.0)])
     m.sense_position("y", bob, component="y")
     m.start_in_equilibrium = True
+    return m
+
+
+def carried_off() -> mbs.Model:
+    """A cart that moves by a table, which ends where a force pulls it."""
+    m = mbs.Model("carried_off", gravity=(0.0, 0.0, 0.0))
+    m.point_mass("beside", mass=1.0, position=(0.0, 5.0, 0.0))
+    travel = m.travel("wheel travel RL")
+    points = np.linspace(-0.2, 0.2, 9)
+    m.tabled_body(
+        "cart",
+        base=m.ground,
+        parameters=travel,
+        axes=[points],
+        places=np.column_stack([points, 0.0 * points, 0.0 * points]),
+        rotations=np.broadcast_to(np.eye(3), (len(points), 3, 3)),
+        mass=2.0,
+        com=(0.0, 0.0, 0.0),
+        inertia=(1.0, 1.0, 1.0),
+    )
+    force = m.input("force", min=-100.0, max=100.0, unit="N")
+    m.torque_on("pull", travel, input=force)
+    m.sense_coordinate("travel", travel)
     return m

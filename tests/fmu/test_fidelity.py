@@ -246,16 +246,6 @@ def test_names_of_fidelities_stand_in_the_description(tmp_path: Path) -> None:
     assert (v.type, v.start, v.min, v.max) == ("Integer", "1", "0", "1")
 
 
-def test_the_former_name_of_the_function_still_works(tmp_path: Path) -> None:
-    file = tmp_path / "former.py"
-    file.write_text(
-        "from mbs.scenes import pendulum\n"
-        "def build(fidelity=0): return pendulum.build()\n"
-        "def variants(): return {0: build, 1: build}\n"
-    )
-    assert list(load_fidelities(f"{file}:build")[1]) == [0, 1]
-
-
 def test_a_scene_without_fidelities_has_one() -> None:
     name, systems, default = load_fidelities("pendulum")
     assert (name, len(systems), default) == ("pendulum", 1, 0)

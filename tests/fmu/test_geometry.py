@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 import mbs
+from ali3.scene.scene import scene_errors
+from ali3.scene.scene_columns import all_columns
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.geometry.geometry import geometry, lost_frames
@@ -23,8 +25,6 @@ from mbs.shapes.pose_outputs import pose_outputs
 from mbs.system.drawing import POSE
 from mbs.vehicle import load
 from viewer.poses import FramePoses
-from viewer.scene import scene_errors
-from viewer.scene_columns import all_columns
 
 CARS = ("prototype", "hatchback")
 VIOLENT = {

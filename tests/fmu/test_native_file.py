@@ -17,6 +17,8 @@ from lxml import etree
 
 import mbs
 from fmu_src.description.description import declared_types
+from fmu_src.description.probe import Dependencies
+from fmu_src.native.package import NativeContents
 from fmu_src.native.reference import reference_runs
 from fmu_src.variables.variables import Variable
 from mbs.compiler.ports import following
@@ -165,3 +167,15 @@ def test_a_scene_whose_default_experiment_does_not_run_is_refused_with_what_sets
         mbs.SimulationError, match=r"10 s in steps of 0\.01 s as `m\.stop_time` and `m\.step` .* step from"
     ):
         reference_runs(mbs.compile(cart_pole.build()))
+
+
+def test_the_system_that_follows_may_be_the_first() -> None:
+    """Systems are counted from 0, and only -1 is none."""
+    systems = mbs.compile(cart_pole.build()), mbs.compile(prototype_car.build())
+
+    def contents(fidelity: int, *followers: int) -> NativeContents:
+        return NativeContents("model", "", "1", systems, (), Dependencies({}, {}, {}), fidelity, followers)
+
+    assert contents(1, -1, 0).follower is systems[0]
+    assert contents(0, 1, -1).follower is systems[1]
+    assert contents(0, -1, 0).follower is None

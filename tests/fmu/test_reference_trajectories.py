@@ -45,7 +45,7 @@ SIGNALS = {
 BOUNDS = {
     "launch_and_brake": (1.6e-4, 0.015),
     "kerb_drop": (2.5e-4, 0.1),
-    "step_steer": (2e-6, 0.006),
+    "step_steer_given_throttle": (2e-6, 0.006),
     "slalom": (1e-5, 0.0015),
     "drop": (3e-3, 0.14),
     "steady_cornering": (2e-6, 1.5e-4),
@@ -59,7 +59,7 @@ HATCHBACK = BOUNDS | {"steady_cornering": (3e-6, 1.5e-3), "drop": (9e-3, 0.35), 
 # whose inputs change.
 LEFT = {
     "launch_and_brake": (3e-4, 0.013),
-    "step_steer": (2.2e-5, 0.006),
+    "step_steer_given_throttle": (2.2e-5, 0.006),
     "slalom": (8e-6, 0.0015),
     "steady_cornering": (7e-6, 1.5e-4),
     "double_lane_change_replay": (4e-6, 0.001),

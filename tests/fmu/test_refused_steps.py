@@ -68,6 +68,22 @@ def test_what_clears_it(reach: Path, host: HostMaker, change: str) -> None:
     assert driven.slave.getStatus(DO_STEP_STATUS) in (OK, DISCARD)
 
 
+@pytest.mark.parametrize("kind", ["native", "python"])
+def test_what_has_left_its_table_is_named_with_its_range(
+    build: Callable[..., Path], kind: str, host: HostMaker
+) -> None:
+    driven = host(build("carried_off", kind)).start()
+    assert driven.set("force", -50.0) == OK
+    count = next(k for k in range(100) if driven.step(k * H, H) != OK)
+    travel = -12.5 * (count * H) ** 2  # 50 N on 2 kg
+    assert -0.29 < travel < -0.25
+    words = driven.messages[-1]
+    assert "a coordinate has left the table of what it moves. 'wheel travel RL' is -0.2" in words
+    said = float(words.partition("'wheel travel RL' is ")[2].partition(";")[0])
+    assert said == pytest.approx(travel, abs=2e-3)
+    assert "its table goes from -0.2 to 0.2" in words
+
+
 def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -> None:
     driven = Host3(build("reach", "fmi3")).start()
     slave = driven.slave

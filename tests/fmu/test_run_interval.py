@@ -27,7 +27,7 @@ def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: 
             "--fidelity",
             "0",
             "-m",
-            "step_steer",
+            "step_steer_given_throttle",
             "--stop-time",
             "1.5",
             "--step",
@@ -70,7 +70,7 @@ def test_stresses_are_read_at_rows_and_where_somebody_looks(kerb_fmus: Path, loo
             return read_values
 
         fmu.reader = counted  # type: ignore[method-assign]
-        manoeuvre = read_manoeuvre("step_steer")
+        manoeuvre = read_manoeuvre("step_steer_given_throttle")
         manoeuvre = replace(manoeuvre, start={**manoeuvre.start, "fidelity": 0})
 
         def until(time, senses):  # type: ignore[no-untyped-def]

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import mbs
+from mbs.flexible import Beam, Frame, Interface, Material, craig_bampton
+from mbs.flexible.recovery import fibre_stresses
+from mbs.flexible.section import tube
 
 WHEELS = ("FL", "FR", "RL", "RR")
 
@@ -50,6 +53,20 @@ def tuned() -> mbs.Model:
     return m
 
 
+def turntable() -> mbs.Model:
+    """A disc that a torque turns against a damper; its heading is wrapped."""
+    m = mbs.Model("turntable", dimension=2, gravity=(0.0, 0.0))
+    disc = m.body("chassis", mass=2.0, com=(0.0, 0.0), inertia=1.0)
+    m.revolute("axle", m.ground, disc, point=(0.0, 0.0))
+    angle = m.relative_angle("turned", m.ground, disc)
+    damper = m.torsional_spring_damper("damper", angle, stiffness=0.0, damping=1.0)
+    m.torque("motor", disc, inputs=m.input("pull", min=-50.0, max=50.0, unit="N.m"))
+    m.parameter("damping", 1.0, 0.1, 10.0, "N.m.s/rad", targets=[(damper, "damping", 1.0)])
+    m.sense_angle("chassis.yaw", disc, "yaw")
+    m.sense_rotation("chassis.wz", disc, order=1)
+    return m
+
+
 def switched() -> mbs.Model:
     """An input that is a whole number beside one that is not, and what the model sees of them."""
     m = mbs.Model("switched", dimension=2, gravity=(0.0, 0.0))
@@ -59,4 +76,20 @@ def switched() -> mbs.Model:
     m.force("pull", bob, inputs=(pull, None))
     m.sense_input("gear_used", gear)
     m.sense_position("bob.x", bob, component="x")
+    return m
+
+
+def bar() -> mbs.Model:
+    """A steel tube that is held at one end and pulled at the other: its stress is the pull over its area."""
+    steel, section = Material(E=210e9, nu=0.3, rho=7850.0), tube(outer_diameter=0.1, wall=0.01)
+    frame = Frame([[x, 0.0, 0.0] for x in (0.0, 0.5, 1.0)], [Beam(k, k + 1, section, steel) for k in (0, 1)])
+    ends = [Interface(2, rotations=True)]
+    reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=ends, dynamic_modes=0)
+    m = mbs.Model("bar", gravity=(0.0, 0.0, 0.0))
+    held = m.flexible_body("bar", reduced)
+    m.weld("root", m.ground, held.interface(0))
+    pull = m.input("pull", min=-1e6, max=1e6, unit="N")
+    m.force("pull", held, (1.0, 0.0, 0.0), inputs=(pull, None, None))
+    fibre = reduced.recovery(fibre_stresses(frame, 1, 0.0))[0]
+    m.sense_coordinate("bar.stress", held.combination(fibre), unit="Pa")
     return m

@@ -166,8 +166,7 @@ def test_runs_that_no_memory_holds_are_refused(fmus: dict[str, Path], turn: Path
     assert "take a step of at least" in done.stderr
     done = drive(fmus["sledge"], "--stop-time", "inf", "--out", tmp_path / "out")
     assert done.stderr == "error: The stop time is inf s; it must be positive and finite.\n"
-    turn.with_suffix(".ini").write_text("[run]\nstop_time = 1e12\n")
-    done = drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
+    done = drive(fmus["sledge"], "-m", turn, "--stop-time", 1e12, "--out", tmp_path / "out")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "1e+12 s in steps of" in done.stderr
     assert not (tmp_path / "out").exists()

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ali3.scene.base64_numbers import encoded
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.co_simulation import run
@@ -25,7 +26,6 @@ from hosts.driving.result import Result
 from hosts.driving.run_with_bar import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.view.view_sources import _with_marks
-from viewer.base64_numbers import encoded
 
 TIME = np.arange(0.0, 15.01, 0.01)
 PLANE = {"kind": "plane", "point": [1.0, 0.0, 0.5], "normal": [-0.1, 0.2, 1.0]}

@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 
 from ali3 import html
+from ali3.scene.recording import Recording
+from ali3.scene.scene import scene_errors
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from fmu_src.description.documentation import documentation
@@ -28,8 +30,6 @@ from tests.quick import quick
 from tests.viewer.hand_scenes import floats
 from tests.viewer.simulator_program import Program
 from viewer.page_file import write_page
-from viewer.recording import Recording
-from viewer.scene import scene_errors
 
 pytestmark = pytest.mark.drawn
 

@@ -25,10 +25,8 @@ from hosts.recordings.load_manoeuvre import load_manoeuvre
 GOOD = '"time","steering","throttle"\n0,0,0\n1,0,0\n1,0.5,1\n2,0.5,0\n'
 
 
-def written(folder: Path, text: str, settings: str = "") -> str:
+def written(folder: Path, text: str) -> str:
     (folder / "m.csv").write_text(text, encoding="utf-8")
-    if settings:
-        (folder / "m.ini").write_text(settings)
     return str(folder / "m.csv")
 
 
@@ -86,13 +84,6 @@ def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path
     assert load_manoeuvre("double_lane_change").late_begin() is None
 
 
-def test_files_of_earlier_versions_are_read(tmp_path: Path) -> None:
-    text = "# start: initial.speed=15, initial.yaw=0.1\n" + GOOD
-    manoeuvre = load_manoeuvre(written(tmp_path, text, "[run]\nstop_time = 7\n[start]\ninitial.yaw = 0.2\n"))
-    assert manoeuvre.start == {"initial.speed": 15.0, "initial.yaw": 0.2}
-    assert manoeuvre.stop_time == 7.0
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -138,24 +129,6 @@ def test_binary_tables_are_refused(tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_bytes(bytes(range(128, 256)))
     with pytest.raises(HostError, match="is no text in UTF-8"):
         load_manoeuvre(str(tmp_path / "m.csv"))
-
-
-@pytest.mark.parametrize(
-    ("settings", "message"),
-    [
-        ("[begin]\nx = 1\n", r"section \[begin\]"),
-        ("[start]\nx = fast\n", "'fast' is not a number"),
-        ("x\n", "not understood"),
-        ("[run]\nstop_tme = 7\n", r"m\.ini: \[run\] has 'stop_tme'; known is stop_time"),
-        ("[run]\nstop_time = -3\n", r"stop_time is -3 s; it must be positive"),
-        ("[run]\nstop_time = 1_0\n", r"m\.ini: stop_time: '1_0' is not a number"),
-        ("[DEFAULT]\nstop_time = 7\n", r"section \[DEFAULT\]"),
-        ("[run]\nstop_time = 7\nstop_time = 8\n", r"not understood: .*already exists"),
-    ],
-)
-def test_bad_settings_of_earlier_versions_are_refused(tmp_path: Path, settings: str, message: str) -> None:
-    with pytest.raises(HostError, match=message):
-        load_manoeuvre(written(tmp_path, GOOD, settings))
 
 
 def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
@@ -270,7 +243,6 @@ def word_or_number(text: str) -> str | float:
 def test_one_toml_file_has_all_of_a_manoeuvre_and_is_written_as_it_is_read(tmp_path: Path) -> None:
     (tmp_path / "m.toml").write_text(TOML)
     (tmp_path / "m.state").write_bytes(b"state")
-    (tmp_path / "m.ini").write_text("[run]\nstop_time = 1\n")  # of an earlier version, which it replaces
     manoeuvre = load_manoeuvre(str(tmp_path / "m.toml"))
     assert manoeuvre.stop_time == 7.0
     assert manoeuvre.start == {"initial.speed": 15, "initial.yaw": 0.2, "road.file": "kerb.road", "flag": True}
@@ -321,7 +293,7 @@ def test_bad_toml_files_are_refused(tmp_path: Path, text: str, message: str) -> 
 
 
 def test_of_several_names_the_first_that_there_is_counts(tmp_path):
-    manoeuvre = load_manoeuvre(written(tmp_path, GOOD, "[start]\na | b.c = 2\nd = 1\n"))
+    manoeuvre = load_manoeuvre(written(tmp_path, "# start: a | b.c=2, d=1\n" + GOOD))
     assert with_names_of(manoeuvre, ["b.c", "d"]).start == {"b.c": 2.0, "d": 1.0}
     assert with_names_of(manoeuvre, ["a", "b.c"]).start == {"a": 2.0, "d": 1.0}
     assert with_names_of(manoeuvre, []).start == {"a": 2.0, "d": 1.0}  # to be refused by its name

@@ -1,4 +1,6 @@
-"""axe-core finds nothing in reports, in light and dark, with all that can be opened open."""
+"""Reports in a browser: axe-core finds nothing in light and dark with all that can be opened open, and links end where
+they lead to.
+"""
 
 from __future__ import annotations
 
@@ -46,3 +48,31 @@ def test_axe_finds_nothing_in_reports(tmp_path: Path) -> None:
             page.close()
     assert {key: words for key, words in found.items() if words} == {}
     assert len(found) == 6
+
+
+@pytest.mark.slow
+@pytest.mark.drawn
+def test_links_of_the_catalogue_end_at_their_heading(tmp_path: Path) -> None:
+    """In a window that is opened anew for each, since pictures above the heading are drawn late."""
+    file = tmp_path / "report.html"
+    write_report(file, *synthetic(tmp_path / "none.fmu", tests=12, points=100))
+    follow = """async (name) => {
+      const ended = new Promise((done) => addEventListener('scrollend', done, { once: true }));
+      document.querySelector(`nav a[href='#${name}']`).click();
+      await ended;
+      await new Promise((done) => setTimeout(done, 200)); // pictures that are drawn now would move the heading
+      const { scrollHeight } = document.documentElement;
+      return [document.getElementById(name).getBoundingClientRect().top, scrollY + innerHeight >= scrollHeight - 1];
+    }"""
+    late = "() => [...document.images].filter((image) => !image.complete).length"
+    with headless_chromium() as chromium:
+        for width in (900, 390):
+            for k in (2, 5, 8, 11):
+                page = chromium.new_page(viewport={"width": width, "height": 700})
+                page.goto(file.as_uri())
+                waiting = page.evaluate(late)
+                top, is_end = page.evaluate(follow, f"test_{k}")
+                page.close()
+                assert waiting > 3 * k  # those above it
+                assert is_end or abs(top) < 3.0, (width, k, top)
+                assert not is_end or k == 11

@@ -13,8 +13,11 @@ import pytest
 
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvres import manoeuvre_names
+from hosts.driving.missed_inputs import missed_inputs
 from hosts.driving.result import Result
 from hosts.fmu.fmu import StepRefusedError
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.run.run_summary import summary
 
 H = 0.01
@@ -104,30 +107,63 @@ def test_a_summary_of_rows_says_so() -> None:
 
 
 @pytest.mark.parametrize(
-    ("slopes", "time", "u", "said"),
+    ("slopes", "time", "u", "what", "said"),
     [
-        (True, (0.0, 0.1, 0.1, 0.2), (0.0, 0.0, 1.0, 1.0), None),
-        (True, (0.0, 0.104, 0.104, 0.12, 0.12, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0),
-         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms; --step 0.002 has them all"),
-        (False, (0.0, 0.105, 0.105, 0.113, 0.113, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0),
-         "2 of u, the first at 0.105 s: each comes with the next step of 10 ms; --step 0.001 has them all"),
-        (True, (0.0, 0.1 / 3.0, 0.1 / 3.0, 0.07071, 0.07071, 0.2), (0.0, 0.0, 1.0, 1.0, 0.0, 0.0),
-         "2 of u, the first at 0.0333333333 s: each becomes a line over its step of 10 ms; take times that are "
-         "multiples of 0.01 s"),
-        (True, (0.0, 0.104, 0.104, 0.2), (0.0, 1.0, 1.0, 1.0), None),
-        (True, (0.0, 0.104, 0.2), (0.0, 1.0, 0.0), None),
+        (True, (0.0, 0.1, 0.1, 0.2), (0.0, 0.0, 1.0, 1.0), None, ""),
+        (True, (0.0, 0.104, 0.104, 0.12, 0.12, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0), "jumps",
+         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.6, 30 % of "
+         "its range, at 0.104 s; --step 0.002 has it to within 1 %"),
+        (False, (0.0, 0.105, 0.105, 0.113, 0.113, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0), "jumps",
+         "2 of u, the first at 0.105 s: each comes with the next step of 10 ms, and u is off by up to 1, 50 % of its "
+         "range, at 0.105 s; --step 0.001 has it to within 1 %"),
+        (True, (0.0, 0.1 / 3.0, 0.1 / 3.0, 0.07071, 0.07071, 0.2), (0.0, 0.0, 1.0, 1.0, 0.0, 0.0), "jumps",
+         "2 of u, the first at 0.0333333333 s: each becomes a line over its step of 10 ms, and u is off by up to "
+         "0.929, 92.9 % of its range, at 0.07071 s; take times that are multiples of 0.01 s"),
+        (True, (0.0, 0.104, 0.104, 0.2), (0.0, 1.0, 1.0, 1.0), "corners",
+         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0231, "
+         "2.31 % of its range, at 0.104 s; --step 0.005 has it to within 1 %"),
+        (True, (0.0, 0.104, 0.2), (0.0, 1.0, 0.0), "corners",
+         "1 of u, the first at 0.104 s: each becomes a line over its step of 10 ms, and u is off by up to 0.0481, "
+         "4.81 % of its range, at 0.104 s; --step 0.002 has it to within 1 %"),
+        (True, (0.0, 0.1, 0.101, 0.105, 0.105, 0.2), (0.0, 0.0, 1.0, 1.0, 5.0, 5.0), "corners and jumps",
+         "2 of u, the first at 0.101 s: each becomes a line over its step of 10 ms, and u is off by up to 2.5, 50 % of "
+         "its range, at 0.105 s; --step 0.001 has it to within 1 %"),
+        (False, (0.0, 0.104, 0.105, 0.2), (0.0, 0.0, 1.0, 1.0), "corners",
+         "1 of u, the first at 0.105 s: each comes with the next step of 10 ms, and u is off by up to 1, 100 % of its "
+         "range, at 0.105 s; --step 0.005 has it to within 1 %"),
+        (True, (0.0, 0.104, 0.2), (0.0, 1.0, 1.8), None, ""),
     ],
 )  # fmt: skip
-def test_a_jump_inside_a_step_is_told(slopes: bool, time: tuple[float], u: tuple[float], said: str | None) -> None:
-    rows = dict(summary(driven(time, u, 1, slopes), H))
-    assert rows.get("jumps inside a communication step") == said
-    if said is not None and "--step" in said:  # what helps does help: the integral is then that of the table
+def test_what_is_inside_a_step_is_told(
+    slopes: bool, time: tuple[float], u: tuple[float], what: str | None, said: str
+) -> None:
+    rows = {k: v for k, v in summary(driven(time, u, 1, slopes), H) if k.endswith("inside a communication step")}
+    assert rows == ({f"{what} inside a communication step": said} if what else {})
+    if "--step" in said:  # what helps does help: the integral is then that of the table, and nothing is told
         step = float(said.split("--step ")[1].split(" ")[0])
         manoeuvre = Manoeuvre("m", np.array(time), {"u": np.array(u)}, time[-1])
-        y = [run(Integrator(slopes), manoeuvre, h)["y"][-1] for h in (H, step)]  # type: ignore[arg-type]
-        area = np.trapezoid(u, time)
-        assert abs(y[0] - area) > 5e-4
-        assert y[1] == pytest.approx(area, abs=1e-12)
+        coarse, fine = (run(Integrator(slopes), manoeuvre, h) for h in (H, step))  # type: ignore[arg-type]
+        area = float(np.trapezoid(u, time))
+        assert abs(fine["y"][-1] - area) < 0.6 * abs(coarse["y"][-1] - area)
+        assert not fine.missed
+
+
+@pytest.mark.parametrize("name", manoeuvre_names())
+def test_a_manoeuvre_of_the_package_has_nothing_inside_steps_of_2_ms(name: str) -> None:
+    asked = load_manoeuvre(name)
+    for straight in (list(asked.inputs), []):
+        assert missed_inputs(asked, 0.002, straight, ()) is None
+    if name == "slalom":  # the same with corners that matter
+        assert missed_inputs(asked, 0.3, list(asked.inputs), ()) is not None
+
+
+@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("before", [False, True])
+def test_many_values_of_a_table_are_those_one_by_one(held: bool, before: bool) -> None:
+    table = Manoeuvre("m", np.array([0.1, 0.2, 0.2, 0.5]), {"u": np.array([1.0, 2.0, 4.0, -3.0])}, 1.0)
+    times = np.array([0.0, 0.1, 0.13, 0.2, 0.2 + 1e-12, 0.31, 0.5, 0.9])
+    one_by_one = [table.at(t, ("u",) if held else (), before)["u"] for t in times.tolist()]
+    assert table.column("u", times, held, before) == pytest.approx(one_by_one, abs=1e-9)
 
 
 @pytest.mark.parametrize("held", [frozenset(), frozenset({"u"})])

@@ -13,6 +13,7 @@ from fmpy import platform
 from PIL import Image
 
 import mbs
+from ali3.scene.scene_columns import pose_columns
 from fmu_src.build.build import build_fmu
 from hosts.run.command import main as run
 from hosts.view.command import main as view
@@ -22,7 +23,6 @@ from tests.hosts.test_view import shown
 from tests.quick import quick
 from viewer.browser import BrowserError, find_chromium
 from viewer.poses import FramePoses
-from viewer.scene_columns import pose_columns
 
 CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")

@@ -25,12 +25,9 @@ def test_the_python_side_is_what_the_headers_say():
     assert read_headers.header() == there, "run: python mbs/kernel/read_headers.py"
 
 
-def test_the_page_of_the_system_file_is_what_the_headers_say():
-    text = read_headers.PAGE.read_text(encoding="utf-8")
-    assert read_headers.page(text) == text, "run: python mbs/kernel/read_headers.py"
-    assert len(re.findall(r"^\| \d+ \| [A-Z_]+ \|", text, re.MULTILINE)) == len(SensorType)
-    with pytest.raises(ValueError, match=r"system_file\.md has no marks"):
-        read_headers.page("# The System file\n")
+def test_the_table_of_sensors_has_a_row_for_each_type():
+    rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", read_headers.sensor_table(), re.MULTILINE)
+    assert [(int(number), name) for number, name in rows] == [(t.value, t.name) for t in SensorType]
 
 
 def test_numbers_known_from_the_documents():

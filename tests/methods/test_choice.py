@@ -73,3 +73,27 @@ def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_do
     assert left[0.0] < left[0.5] < left[0.9] < 0.1
     assert kept[-1] > 0.5 * kept[0]
     assert np.all(np.isfinite(kept))
+
+
+@pytest.mark.parametrize("rho", [0.2, 0.5, 1.0])
+def test_generalised_alpha_steps_as_its_recursion_says(rho):
+    """A mass on a spring, k = 40 N/m, against the recursion of Chung and Hulbert, whose acceleration has a memory."""
+    m = Model("oscillator", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.5, 0.0))
+    m.torsional_spring_damper("spring", mass.point(None).components[0], stiffness=40.0, free_angle=1.0)
+    m.sense_position("x", mass, (1.5, 0.0), "x")
+    h, k = 0.05, 40.0
+    s = Simulation(compile(m), settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho))
+    am, af = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+    gamma = 0.5 + af - am
+    beta = 0.25 * (gamma + 0.5) ** 2
+    q, v, qdd = 0.5, 0.0, -k * 0.5
+    a = qdd
+    for _ in range(20):
+        known = q + h * v + h * h * (0.5 - beta) * a + h * h * beta * (af * qdd - am * a) / (1.0 - am)
+        new = known / (1.0 + h * h * beta * (1.0 - af) / (1.0 - am) * k)
+        next_a = ((1.0 - af) * -k * new + af * qdd - am * a) / (1.0 - am)
+        v += h * ((1.0 - gamma) * a + gamma * next_a)
+        q, a, qdd = new, next_a, -k * new
+        s.step(h)
+        assert s.sensors["x"] - 1.0 == pytest.approx(q, abs=1e-9)

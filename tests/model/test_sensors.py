@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, ModelError, Simulation, compile
-from mbs.model.renamed_sensors import RENAMED
 
 EXACT = 1e-9
 
@@ -192,15 +189,6 @@ def test_in_the_plane_a_body_turns_about_z_only():
         m.sense_rotation("s", body, "x", order=1)
     with pytest.raises(ModelError, match="a body has yaw only"):
         m.sense_angle("s", body, "roll")
-
-
-@pytest.mark.parametrize(("old", "new"), RENAMED.items())
-def test_old_names_answer_with_a_call_that_is_there(old: str, new: str):
-    m = Model("old")
-    with pytest.raises(AttributeError, match=re.escape(f"has no '{old}'; it is now {new}.")):
-        getattr(m, old)
-    assert hasattr(Model, new.split("(")[0])
-    assert not hasattr(m, "sense_nothing")
 
 
 def test_units_follow_the_order():

@@ -40,7 +40,7 @@ GOOD = {
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_every_kind_stands_in_the_scene(kind, tmp_path):
-    from viewer.scene import check_scene
+    from ali3.scene.scene import check_scene
 
     m, arm = model()
     given = GOOD[kind] if kind != "mesh" else {"file": stl(tmp_path / "part.stl"), "scale": 0.001}

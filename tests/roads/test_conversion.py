@@ -67,6 +67,8 @@ def test_a_table_without_coordinates(tmp_path):
         ("x,0,1,5\n0,1,2,3\n1,1,2,3\n", "coordinates y are not regular: 1 should be 2.5"),
         ("x,0\n0,1\n1,1\n", "at least 2 x 2"),
         ("1\n2\n", "at least 2 x 2"),
+        ("# x/y,0,1\n0,1,2\n1,1,2\n", "line 1 is a comment with a number for each column but the first.*# away"),
+        ("# x,y,z\n0,1,2\n1,1,2\n", "line 1 names the columns x, y, z: this is a list of points"),
     ],
 )
 def test_a_bad_table_is_refused(tmp_path, text, sentence):
@@ -74,6 +76,12 @@ def test_a_bad_table_is_refused(tmp_path, text, sentence):
     with pytest.raises(RoadFileError, match=sentence) as refused:
         read_road(tmp_path / "a.csv", spacing=(1.0, 1.0))
     assert "a.csv" in str(refused.value)
+
+
+def test_a_comment_of_coordinates_is_read_when_it_is_none(tmp_path):
+    """The remedy that the refusal of such a comment gives."""
+    (tmp_path / "a.csv").write_text("x/y,0,1\n0,1,2\n1,3,4\n")
+    assert read_road(tmp_path / "a.csv").heights.tolist() == [[1.0, 2.0], [3.0, 4.0]]
 
 
 def test_arrays(tmp_path):

@@ -67,6 +67,40 @@ def test_heights_are_those_of_a_second_reader(name: str, tmp_path: Path) -> None
     assert np.sqrt(np.mean(off**2)) == pytest.approx(road.rms, rel=0.35)
 
 
+@pytest.mark.parametrize("spacing", [0.1, 0.3, 0.7])
+def test_no_place_is_farther_off_than_is_told(spacing: float) -> None:
+    """A dense comparison by another reader's way along the road; beside it the heights of the border go on."""
+    crg = pytest.importorskip("pyopencrg")
+    road = read_road(DATA / "handmade_curved_banked_sloped.crg", spacing=(spacing, spacing))
+    made = crg.read(str(DATA / "handmade_curved_banked_sloped.crg"), apply_mods=True)
+    u, v = (a.ravel() for a in np.meshgrid(np.linspace(made.u[0], made.u[-1], 1501), np.linspace(-1.5, 1.5, 301)))
+    off = np.abs(grid_heights(road, road.heights, np.stack(made.uv_to_xy(u, v), -1)) - made.uv_to_z(u, v))
+    assert 0.9 * road.largest < off.max() < road.largest * (1.0 + 1e-3) + 1e-6
+
+
+def test_a_long_road_is_known_near_itself_and_goes_on_beside(tmp_path: Path) -> None:
+    crg = pytest.importorskip("pyopencrg")
+    turn = 0.8 * np.sin(np.linspace(0.0, 3.0, 300))
+    made = crg.CrgRoad(
+        np.random.default_rng(2).normal(0.0, 0.01, (301, 5)), 1.0, np.linspace(-2.0, 2.0, 5), heading=turn
+    )
+    made.mods = {}
+    made.save(tmp_path / "a.crg", "KDBI")
+    road = read_road(tmp_path / "a.crg", spacing=(0.5, 0.5))
+    asked = []
+    x, y = (o + d * np.arange(n) for o, d, n in zip(road.origin, road.spacing, np.shape(road.heights), strict=True))
+    for places in zip(x[::7], y[:: max(len(y) // len(x[::7]), 1)], strict=False):
+        u, v = made.xy_to_uv(*(np.array([p]) for p in places))
+        asked.append((abs(v[0]), made.uv_to_z(np.clip(u, 0.0, 300.0), np.clip(v, -2.0, 2.0))[0], places))
+    heights = grid_heights(road, road.heights, np.array([p for *_, p in asked]))
+    near = np.array([v for v, *_ in asked]) < 8.0
+    exact = np.array([z for _, z, _ in asked])
+    assert near.any()
+    assert not near.all()
+    assert np.abs(heights - exact)[near].max() < 1e-9
+    assert np.abs(heights).max() < 0.05
+
+
 def test_a_finer_grid_is_nearer() -> None:
     """By the first power of the spacing, for the surface of a file has edges."""
     off = [read_road(DATA / "handmade_curved_banked_sloped.crg", spacing=(h, h)) for h in (0.2, 0.1, 0.05)]

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.base64_numbers import decoded
+from ali3.scene.scene import scene_errors
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads import write_road
 from mbs.roads.scene_part import drawn_roads, scene_part
 from mbs.worlds.command import main
 from tests.elements.harness import contacts
-from viewer.base64_numbers import decoded
-from viewer.scene import scene_errors
 
 SCENE = {"format": "ALi3 scene", "version": 1, "name": "roads", "extent": 1.0, "frames": {}, "shapes": []}
 

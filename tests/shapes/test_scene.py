@@ -12,11 +12,11 @@ from scipy.spatial.transform import Rotation
 
 import mbs
 import mbs.scenes
+from ali3.scene.recording import Recording
+from ali3.scene.scene import check_scene
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.scenes import double_four_bar, flyball, pendulum, puma, spinning_beam, squeezer
-from viewer.recording import Recording
-from viewer.scene import check_scene
 
 SCENES = [found.name for found in pkgutil.iter_modules(mbs.scenes.__path__)]
 

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 import mbs
+import viewer.drawer
+from ali3.scene.errors import ViewerError
 from mbs.results import poses as poses_module
 from mbs.scenes import bicycle, double_four_bar, pendulum
 from tests.shapes.test_scene import rod_with_a_sensor_of_its_name
-from viewer.errors import ViewerError
+from viewer.browser import BrowserError
 
 
 @pytest.fixture(scope="module")
@@ -62,14 +64,11 @@ def test_a_page_is_written(run, tmp_path):
 
 
 def test_no_browser_is_a_sentence(run, monkeypatch):
-    import viewer.open_browser
-    from viewer.browser import BrowserError
-
-    monkeypatch.setattr(viewer.open_browser, "open_in_browser", lambda path: False)
+    monkeypatch.setattr(viewer.drawer, "open_in_browser", lambda path: False)
     with pytest.raises(BrowserError, match=r"the page is .*animation\.html"):
         mbs.animate(run).show()
     seen = []
-    monkeypatch.setattr(viewer.open_browser, "open_in_browser", lambda path: seen.append(path) or True)
+    monkeypatch.setattr(viewer.drawer, "open_in_browser", lambda path: seen.append(path) or True)
     assert mbs.animate(run).show() == seen[0]
     assert seen[0].is_file()
 
@@ -83,9 +82,7 @@ def test_in_a_notebook_a_run_shows_itself(run, monkeypatch):
     def failing(*_):
         raise ViewerError("There is no <page>.")
 
-    import viewer.notebook
-
-    monkeypatch.setattr(viewer.notebook, "html_of", failing)
+    monkeypatch.setattr(viewer.drawer, "html_of", failing)
     assert "There is no &lt;page&gt;." in run._repr_html_()
 
 
@@ -168,9 +165,9 @@ def rolling_brick() -> mbs.Model:
 
 
 def test_roads_behind_one_at_ports_keep_their_numbers():
+    from ali3.scene.scene import check_scene
     from fmu_src.geometry.roads import with_parameters
     from mbs.elements import ContactPoints, KerbRoad, PlaneRoad, PortRoad
-    from viewer.scene import check_scene
 
     m = mbs.Model("brick")
     brick = m.body("brick", mass=1.0, com=(0, 0, 2.0), inertia=(0.1, 0.1, 0.1))

@@ -67,6 +67,15 @@ def test_a_flexible_chassis_finds_it_too() -> None:
     assert np.max(np.abs(simulation.state.qdd)) < 1e-6
 
 
+@pytest.mark.parametrize("x", [2e6, 9e7])
+def test_the_built_in_road_goes_on_as_far_as_a_car_can_start(cars: dict[float, System], x: float) -> None:
+    near, far = (Simulation(cars[12360.0], pose=Pose(x=at)) for at in (0.0, x))
+    for simulation in (near, far):
+        simulation.step(0.005, 40)
+    for name in ("chassis.z", "wheel_FL.Fz", "wheel_RR.Fz"):
+        assert far.sensors[name] == pytest.approx(near.sensors[name], rel=1e-6), name
+
+
 def test_unchanged_parameters_keep_the_same_bits(cars: dict[float, System]) -> None:
     """Also where parameters change that do not move the equilibrium: a drive, the friction of the road, a kerb."""
     system = cars[12360.0]

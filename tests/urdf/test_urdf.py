@@ -153,7 +153,10 @@ def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
             "several joints are named 'j'; names must differ",
         ),
         (2 * LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", ""), "several links are named 'b'"),
-        (LINK.format("b", 1.0) + JOINT.format("j", "floating", "a", "b", ""), "are read; floating=True frees the root"),
+        (
+            LINK.format("b", 1.0) + JOINT.format("j", "floating", "a", "b", ""),
+            "the joint 'j' is floating; floating=True takes it so",
+        ),
         (
             "<xacro:hand/>" + LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", ""),
             "the macro 'xacro:hand'",
@@ -232,3 +235,156 @@ def test_names_that_are_none_and_a_missing_library(tmp_path: Path, monkeypatch: 
     monkeypatch.setitem(sys.modules, "yourdfpy", None)
     with pytest.raises(ModelError, match=r'pip install "ali3\[urdf\]"'):
         read_urdf(file)
+
+
+def free_motion(file: Path, link: str, t_end: float = 0.3) -> np.ndarray:
+    """Where the centre of mass of a link is after a motion under its weight, m."""
+    robot = read_urdf(file)
+    body = robot.bodies[link]
+    for axis in "xyz":
+        robot.model.sense_position(axis, body, body.com, axis)
+    run = mbs.simulate(mbs.compile(robot.model), t_end, 5e-4, progress=False)
+    return np.array([run[axis][-1] for axis in "xyz"])
+
+
+BAR = (
+    '<link name="arm"><inertial><origin xyz="0.3 0.05 -0.1"/><mass value="2"/>'
+    '<inertia ixx="0.004" ixy="0.001" ixz="0" iyy="0.05" iyz="0" izz="0.0485"/></inertial></link>'
+)
+UPPER = (
+    '<link name="up"><inertial><origin xyz="0.2 0 0"/><mass value="1"/>'
+    '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial></link>'
+)
+
+
+def hinge(name: str, parent: str, child: str, axis: str, xyz: str = "0 0 0") -> str:
+    return (
+        f'<joint name="{name}" type="revolute"><parent link="{parent}"/><child link="{child}"/><origin xyz="{xyz}"/>'
+        f'<axis xyz="{axis}"/><limit lower="-9" upper="9" effort="100" velocity="9"/></joint>'
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "hinges", "wanted"),
+    [
+        (
+            '<link name="l1"/><link name="l2"/>'
+            + hinge("a", "base", "l1", "0 0 1", "0 0 1")
+            + hinge("b", "l1", "l2", "0 1 0")
+            + hinge("c", "l2", "arm", "1 0 0"),
+            "ball",
+            3,
+            (0.09013711, 0.00343786, 0.6928136),
+        ),
+        (
+            '<link name="l1"/>' + hinge("a", "base", "l1", "0 0 1", "0 0 1") + hinge("b", "l1", "arm", "0 1 0"),
+            "universal",
+            2,
+            (0.09338376, 0.02956929, 0.69519657),
+        ),
+        (
+            UPPER
+            + hinge("s", "base", "up", "0 1 0", "0 0 1")
+            + '<link name="l1"/><link name="l2"/>'
+            + hinge("a", "up", "l1", "0 0 1", "0.4 0 0")
+            + hinge("b", "l1", "l2", "0 1 0")
+            + hinge("c", "l2", "arm", "1 0 0"),
+            "ball",
+            3,
+            (0.49278827, 0.02003754, 0.52058144),
+        ),
+    ],
+)
+def test_hinges_that_meet_with_links_without_mass_are_one_joint(
+    text: str, kind: str, hinges: int, wanted: tuple[float, ...], tmp_path: Path
+) -> None:
+    """Where MuJoCo 4.0.0 has the arm (Runge-Kutta, 0.1 ms, 1e-9 kg in place of no mass)."""
+    file = tmp_path / "crossed.urdf"
+    file.write_text(f'<robot name="crossed"><link name="base"/>{BAR}{text}</robot>', encoding="utf-8")
+    with pytest.warns(UrdfWarning, match=f"which are one {kind} joint"):
+        robot = read_urdf(file)
+    assert [len(j.name.split()) for j in robot.model.joints if j.type in ("spherical", "universal")] == [hinges]
+    with pytest.warns(UrdfWarning):
+        assert free_motion(file, "arm") == pytest.approx(wanted, abs=2e-6)
+    with pytest.raises(ModelError, match=r"crossed\.urdf: .*'a' is given a motion"):
+        read_urdf(file, guides={"a": PPoly(np.array([[0.0]]), [0.0, 1.0])})
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (hinge("b", "l1", "arm", "0 0 1", "0.1 0 0"), "the axes of 'a', 'b' do not meet in one point"),
+        (hinge("b", "l1", "arm", "0 0 1"), "the axes of 'a', 'b' depend on each other as drawn"),
+        (hinge("b", "l1", "arm", "0 1 0").replace("revolute", "prismatic"), "'a', 'b' are no two or three hinges"),
+        (hinge("b", "l1", "arm", "0 1 0").replace("</joint>", '<mimic joint="a"/></joint>'), "'b' follows another one"),
+    ],
+)
+def test_other_links_without_mass_are_refused_with_the_reason(text: str, words: str, tmp_path: Path) -> None:
+    file = tmp_path / "crossed.urdf"
+    text = '<link name="base"/><link name="l1"/>' + BAR + hinge("a", "base", "l1", "0 0 1") + text
+    file.write_text(f'<robot name="crossed">{text}</robot>', encoding="utf-8")
+    with pytest.raises(ModelError, match=f"crossed.urdf: the link 'l1'.*{words}.*Give it a small mass"):
+        read_urdf(file)
+
+
+def test_a_rotor_that_is_fixed_and_has_an_inertia_alone_is_carried(tmp_path: Path) -> None:
+    """Two rotors of 1 kg m2 on a link of 1 kg m2: 15 N m give 5 rad/s2, wherever they sit."""
+    extra = LINK.format("rotor", 0.0) + LINK.format("other", 0.0).replace(
+        "<inertial>", '<inertial><origin xyz="9 0 0"/>'
+    )
+    for name in ("rotor", "other"):
+        extra += f'<joint name="to {name}" type="fixed"><parent link="b"/><child link="{name}"/></joint>'
+    text = LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", "") + extra
+    file = tmp_path / "rotor.urdf"
+    file.write_text(f'<robot name="rotor"><link name="a"/>{text}</robot>', encoding="utf-8")
+    robot = read_urdf(file)
+    robot.model.gravity = np.zeros(3)
+    s = mbs.Simulation(mbs.compile(robot.model), inputs={"j.torque": 15.0})
+    s.step(0.001, 100)
+    assert s.sensors["j.rate"] == pytest.approx(15.0 / 3.0 * 0.1, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("principal", "change"),
+    [((0.0, 0.06, 0.06), "0.0002"), ((0.01, 0.05, 0.0606), "0.5"), ((-1e-9, 0.06, 0.06), "0.0002")],
+)
+def test_an_inertia_that_no_mass_has_is_corrected_with_a_word(
+    principal: tuple[float, ...], change: str, tmp_path: Path
+) -> None:
+    """A thin rod swings as m g l says: its largest principal value stays, or nearly."""
+    xx, zz, yy = principal
+    rod = ROD._replace(inertia=(xx, 0.0, 0.0, yy, 0.0, zz))
+    file = write_urdf([rod], tmp_path / "rod.urdf")
+    with pytest.warns(UrdfWarning, match=rf"rod\.urdf: the inertia of the link 'link_1'.* taken: {change} % of"):
+        robot = read_urdf(file)
+    s = mbs.Simulation(mbs.compile(robot.model))
+    s.step(0.0005, 300)
+    angle, rate = s.sensors["joint_1.angle"], s.sensors["joint_1.rate"]
+    energy = 2.0 * 9.81 * 0.3 * np.sin(angle)
+    assert 0.5 * (yy + 2.0 * 0.3**2) * rate**2 == pytest.approx(energy, rel=1e-3 + 0.01 * float(change))
+
+
+def test_an_inertia_far_from_any_is_refused_with_the_nearest(tmp_path: Path) -> None:
+    file = write_urdf([ROD._replace(inertia=(0.01, 0.0, 0.0, 0.06, 0.0, 0.04))], tmp_path / "rod.urdf")
+    with pytest.raises(
+        ModelError, match=r"rod\.urdf: the inertia of the link 'link_1'.*the nearest .* Correct the file"
+    ):
+        read_urdf(file)
+
+
+def test_what_needs_a_free_root_says_so(tmp_path: Path) -> None:
+    """A single link, links that are fixed to each other, and a floating joint on a root without mass."""
+    file = tmp_path / "free.urdf"
+    floating = '<link name="world"/>' + LINK.format("a", 2.0) + JOINT.format("j", "floating", "world", "a", "")
+    fixed = LINK.format("a", 2.0) + LINK.format("b", 1.0) + JOINT.format("j", "fixed", "a", "b", "")
+    for text in (LINK.format("a", 2.0), fixed, floating):
+        file.write_text(f'<robot name="free">{text}</robot>', encoding="utf-8")
+        with pytest.raises(ModelError, match=r"free\.urdf: .*floating=True"):
+            read_urdf(file)
+        robot = read_urdf(file, floating=True)
+        body = robot.bodies["a"]
+        robot.model.sense_position("z", body, body.com, "z")
+        s = mbs.Simulation(mbs.compile(robot.model))
+        start = s.sensors["z"]
+        s.step(0.01, 10)
+        assert s.sensors["z"] - start == pytest.approx(-0.5 * 9.81 * 0.1**2, rel=1e-6)

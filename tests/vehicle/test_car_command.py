@@ -41,8 +41,8 @@ def test_it_prints_what_a_car_is(name, capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["car", "protoype"], "There is no car 'protoype': no file protoype, and the cars of the package are "),
-        (["car", "protoype", "x"], "There is no car 'protoype' to copy; the cars of the package are "),
+        (["car", "protoype"], "There is no car 'protoype': no file protoype; did you mean 'prototype'?"),
+        (["car", "protoype", "x"], "There is no car 'protoype' to copy; did you mean 'prototype'?"),
         (["car", "/nowhere"], "There is no car '/nowhere'"),
     ],
 )

@@ -37,7 +37,7 @@ NOT_SMOOTH = {
     ("commonroad_vanagon", "slalom"): "wheels leave the ground and land",
     ("ferrari_250_lm", "steady_cornering"): "of order one, by 5e-5 of the largest load",
 }
-SMOOTH = ("step_steer", "slalom", "steady_cornering", "double_lane_change_replay")
+SMOOTH = ("step_steer_given_throttle", "slalom", "steady_cornering", "double_lane_change_replay")
 
 
 @cache  # two tests ask for some

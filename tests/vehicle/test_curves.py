@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
 from scipy.interpolate import CubicSpline
 
 from ali3.command import main
@@ -24,7 +25,7 @@ from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
 from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves
-from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
+from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car, truck_content
 
 WHEELS = ("FL", "FR", "RL", "RR")
 CARS = ("saloon", "hatchback", "prototype")
@@ -188,7 +189,7 @@ def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(con
     heading, rows = rows_of(copied / "front.csv")
     cross = rows[(np.abs(rows[:, 0]) < 1e-9) | (np.abs(rows[:, 1]) < 1e-9)]
     written(copied, heading, cross)
-    front = read_curves(copied, "rear.csv", "key")
+    front = read_curves(copied, "rear.csv", "key", 1.0)
     full = before.front.suspension.table
     i, k = (int(np.argmin(np.abs(axis))) for axis in (full.travel, full.second))
     toe, whole = front.columns["toe_angle"], full.columns["toe_angle"]
@@ -226,10 +227,13 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     wide = rows.copy()
     wide[2, toe] = 100.0
     refused(r"column toe_angle reaches 100 rad; it must be within 1\.6 rad", values=wide)
+    far = rows.copy()
+    far[:, heading.index("wheel_centre_y [m]")] *= 1000.0
+    refused(r"column wheel_centre_y changes by .* m from its least .*; it must be less than 0\.7\d+ m", values=far)
     for k, name in enumerate(heading):
         if "centre" in name or k == toe:
             jump = rows.copy()
-            jump[2, k] += 1.0
+            jump[2, k] += 1.0 if k == toe else 0.5
             refused(rf"column {name.split()[0]} changes by .* per m of wheel_travel near .*; at most 10? ", values=jump)
     written(copied, heading, rows)
     with pytest.raises(CarFileError, match=r"nothing\.csv'; there is no such file"):
@@ -268,7 +272,7 @@ def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Pa
     both = np.hstack([rows, exchanged])
     lifted = both[both[:, 0] >= -0.04]  # the right wheel keeps its range
     written(tmp_path, ["wheel_travel_left [m]", *heading[1:2], *sides], lifted)
-    table, hub = read_curves(tmp_path, "rear.csv", "key"), mirrored.hub
+    table, hub = read_curves(tmp_path, "rear.csv", "key", 1.0), mirrored.hub
     short, whole = slice(-len(table.travel), None), slice(None)
     for side, own, second in (
         (Side("rear", "left", 1.0), short, whole),
@@ -296,7 +300,7 @@ def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path: Path) -> None:
             ["wheel_travel [m]", *(f"{n} [{u}]" for n, u in zip(names, units, strict=True))],
             np.column_stack([travel, *columns]),
         )
-        read_curves(tmp_path, "rear.csv", "key")
+        read_curves(tmp_path, "rear.csv", "key", 1.0)
 
     sides = [f"{name}_{side}" for name in needed for side in ("left", "right")]
     table(*sides)
@@ -323,7 +327,7 @@ def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict,
     tracemalloc.start()
     try:
         with pytest.raises(CarFileError, match=r"rear\.csv\) has 6000 rows for 6000 values .* and 599. of rack_travel"):
-            read_curves(copied, "rear.csv", "key")
+            read_curves(copied, "rear.csv", "key", 1.0)
         assert tracemalloc.get_traced_memory()[1] < 16e6  # bytes; 6000 by 6000 numbers are 288e6
     finally:
         tracemalloc.stop()
@@ -345,6 +349,82 @@ def test_a_wheel_beyond_its_table_ends_the_run_with_its_name_and_range(content: 
     car = car_from(short, copied, "x")
     with pytest.raises(RuntimeError, match=r"'wheel travel R[LR]' is .*; its table goes from -0\.03"):
         simulate(compile(car.model()), 2.0, 0.005, pose=Pose(z=0.6))
+
+
+@pytest.fixture(scope="module")
+def truck(folder: Path) -> Car:
+    """With a wheelbase of 3.4 m and wider by 0.7 m."""
+    place = folder / "truck"
+    place.mkdir()
+    return car_from(truck_content(linked("saloon"), place), place, "truck")
+
+
+@pytest.mark.slow
+def test_every_table_of_a_truck_is_read_again(truck: Car, tmp_path: Path) -> None:
+    """Those of the command by `read_curves` too; the wheels stand where the links put them."""
+    (tmp_path / "car.toml").write_text(tomli_w.dumps(truck._data))
+    for file in truck.folder.glob("*.tir"):
+        shutil.copy(file, tmp_path)
+    assert main(["car", str(tmp_path), "--kinematics", "--points", "5", "--out", str(tmp_path / "out")]) == 0
+    with pytest.warns(CarWarning):
+        curved = car_from(curved_content(truck, tmp_path), tmp_path, "x")
+    assert curved.wheelbase == pytest.approx(3.4)
+    for axle, size in (("front", 1.1), ("rear", 1.1)):
+        for kind in ("table", "parallel"):
+            assert len(read_curves(tmp_path / "out", f"{axle}_{kind}.csv", "key", size).travel) > 4
+        parallel = kinematics(truck, points=5).curves[axle, "parallel"]
+        own = getattr(curved, axle).suspension.of(Side(axle, "left", 1.0))
+        middle = int(np.argmin(np.abs(own.second)))
+        for k, c in enumerate("xy"):
+            found = CubicSpline(own.travel, own.centres[:, middle, k])(parallel["wheel_travel_left"])
+            np.testing.assert_allclose(found, parallel[f"wheel_centre_{c}_left"], atol=1e-5)
+        table = read_curves(tmp_path / "out", f"{axle}_parallel.csv", "key", size)
+        assert table.both
+
+
+def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
+    """A swing axle whose wheel goes 0.55 m aside per m of travel: both together have 1.1 m per m."""
+    heading, rows = rows_of(copied / "rear.csv")
+    y, track = heading.index("wheel_centre_y [m]"), [*heading]
+    track[y] = "track_change [m]"
+    travel = rows[:, 0]
+    values = rows.copy()
+    values[:, y] = 1.1 * travel
+    written(copied, track, values)
+    swing = car_from(content["saloon"], copied, "x").rear.suspension
+    contact = rows.copy()
+    heading[y] = "contact_centre_y [m]"
+    contact[:, y] = 0.55 * travel
+    written(copied, heading, contact)
+    other = car_from(content["saloon"], copied, "x").rear.suspension
+    one, two = (s.of(Side("rear", "left", 1.0)).centres for s in (swing, other))
+    np.testing.assert_allclose(one, two, atol=1e-12)
+    values[:, y] = 2.2 * travel
+    written(copied, track, values)
+    with pytest.raises(CarFileError, match=r"track_change changes by 2\.2 m per m of wheel_travel .*; at most 2 m/m"):
+        car_from(content["saloon"], copied, "x")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tabled", ["front", "rear"])
+def test_the_axle_with_links_has_its_curves_where_the_other_has_none(
+    tabled: str, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    whole, other = linked("saloon"), "rear" if tabled == "front" else "front"
+    (tmp_path / "car.toml").write_text(tomli_w.dumps(curved_content(whole, tmp_path, (tabled,))))
+    assert main(["car", str(tmp_path), "--kinematics", "--points", "5", "--out", str(tmp_path / "out")]) == 0
+    notes = [line for line in capsys.readouterr().err.splitlines() if f"{tabled}.suspension.kind is 'curves'" in line]
+    assert len(notes) == 1
+    motions = ["opposite", "parallel", "single", *(["steer"] if other == "front" else []), "table"]
+    made = sorted(file.name for file in (tmp_path / "out").glob("*.csv"))
+    assert made == [f"{other}_{motion}.csv" for motion in motions]
+    half = car_from(curved_content(whole, tmp_path, (tabled,)), tmp_path, "half")
+    found, full = (kinematics(car, points=5) for car in (half, whole))
+    assert not found.drawn(tabled)
+    assert found.drawn(other) == pytest.approx(full.drawn(other), rel=1e-9)
+    gives = compliance(half).values
+    assert [*gives] == [other]
+    assert gives[other] == pytest.approx(compliance(whole, 0).values[other], rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -384,11 +464,11 @@ def test_the_command_writes_the_tables_of_links(
     heading, rows = rows_of(tmp_path / "rear_table.csv")
     assert heading == written_by_hand[0]
     np.testing.assert_allclose(rows, written_by_hand[1], atol=1e-12)  # masses are no part of it
-    parallel = read_curves(tmp_path, "rear_parallel.csv", "key")
+    parallel = read_curves(tmp_path, "rear_parallel.csv", "key", 1.0)
     right = np.abs(parallel.columns["wheel_centre_y_right"] + parallel.columns["wheel_centre_y_left"])
     assert parallel.both
     assert right.max() < 1e-9
     for motion, row in (("opposite", 1), ("single", 1)):
         match = rf"{motion}\.csv\), row {row} has .*; both wheels must travel alike, or give other_wheel_travel"
         with pytest.raises(CarFileError, match=match):
-            read_curves(tmp_path, f"rear_{motion}.csv", "key")
+            read_curves(tmp_path, f"rear_{motion}.csv", "key", 1.0)

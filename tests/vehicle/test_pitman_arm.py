@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 
 import build_fmu
 import mbs
+from ali3.scene.scene import scene_errors
 from hosts.fmu.fmu import Fmu
 from mbs import Simulation, compile
 from mbs.vehicle import load
@@ -22,7 +23,6 @@ from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
 from mbs.vehicle.read_car import CARS
 from viewer.poses import FramePoses
-from viewer.scene import scene_errors
 
 CAR = load("saloon")
 ARM = {

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import mbs
+from ali3.scene.scene import scene_errors
 from mbs.vehicle import car_names, load
 from mbs.vehicle.shapes import car_shapes as shapes_module
 from mbs.vehicle.shapes.body_shell import ARCH, DASHBOARD, BodyShell
@@ -18,7 +19,6 @@ from mbs.vehicle.shapes.occupants import RADIUS, SHIRT, SKIN, TILT, TROUSERS, st
 from mbs.vehicle.shapes.tube_frame import FRAME
 from mbs.vehicle.suspensions import Suspension
 from viewer.poses import FramePoses
-from viewer.scene import scene_errors
 
 
 @cache

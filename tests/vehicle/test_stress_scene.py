@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.scene import scene_errors
 from benchmarks.car.frame_pictures import frame_alone, motion_of
 from mbs import Simulation, Trajectory, compile
 from mbs.model.flexible import FlexibleBody
 from mbs.scenes import kerb_test, prototype_car
 from mbs.shapes.pose_outputs import pose_outputs
 from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turned
-from viewer.scene import scene_errors
 
 NODES = ("TFL", "D3c", "S2R", "B3L")
 STRESS = 1e-6  # of the largest: the scene has 24 bits

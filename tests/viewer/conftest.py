@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from tests.in_browser import bundle_or_skip, headless_chromium
 from viewer import bundle
-from viewer.recording import Recording
 
 _MAKE = """([scene, options]) => {
   window.view?.dispose();

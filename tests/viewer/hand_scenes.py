@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from viewer.recording import Recording
+from ali3.scene.recording import Recording
 
 
 def floats(values: Any) -> str:

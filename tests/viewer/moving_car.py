@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from ali3.scene.recording import Recording
 from tests.viewer.hand_scenes import floats, indices, moving
-from viewer.recording import Recording
 
 SPIN = 300.0  # rad/s
 TOP, HUB = [0.0, 0.3, 0.3], [0.0, -0.1, 0.0]

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from ali3.scene.recording import Recording
 from tests.in_browser import SELDOM, wait_for, wait_until
-from viewer.recording import Recording
 from viewer.simulator_page import simulator_html
 
 ADDRESS = "http://simulator.test"

@@ -141,11 +141,22 @@ def test_displacements_are_drawn_as_many_times_as_asked(drawn):
     assert "\u00d75" in drawn.page.locator("[data-legend=stress]").inner_text()
 
 
-@pytest.mark.parametrize("numbers", [{"q": 1.0, "on": 0.0}, {"q": float("nan"), "on": 1.0}, {"on": 1.0}])
-def test_stress_that_is_not_computed_is_not_coloured_and_said(drawn, numbers):
+@pytest.mark.parametrize(
+    ("numbers", "legend", "sentence"),
+    [
+        ({"q": 1.0, "on": 0.0}, "not computed", "are not computed where the column 'on' is 0."),
+        ({"q": float("nan"), "on": 1.0}, "no numbers", "are not drawn where the column 'q' has no number."),
+        ({"on": 1.0}, "no numbers", "are not drawn where the column 'q' has no number."),
+        ({"q": 1.0, "on": float("nan")}, "no numbers", "are not drawn where the column 'on' has no number."),
+        ({"q": 1.0}, "no numbers", "are not drawn where the column 'on' has no number."),
+    ],
+)
+def test_stress_that_is_not_known_is_not_coloured_and_why_is_said(drawn, numbers, legend, sentence):
     drawn.show(frame_of_two_beams(), at(0, 0, 0, **numbers))
-    assert drawn.page.locator("[data-legend=stress]").inner_text() == "stress: not computed"
-    assert len([m for m in drawn.ask("view.messages") if "not computed" in m or "'q'" in m]) == 1
+    assert drawn.page.locator("[data-legend=stress]").inner_text() == f"stress: {legend}"
+    assert [m for m in drawn.ask("view.messages") if "stresses" in m] == [
+        f"Deformation and stresses of 'body' {sentence}"
+    ]
     r, g, b = colour(drawn, (0, -0.25, 0))
     assert max(r, g, b) - min(r, g, b) < 40  # steel
 

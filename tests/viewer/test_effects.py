@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from tests.viewer.hand_scenes import floats
 from tests.viewer.test_drawing import at, ball, scene
+from tests.viewer.test_player import Opened
+from tests.viewer.test_player import opened as opened
 from tests.viewer.test_worlds_drawn import around, level
 
 pytestmark = pytest.mark.slow
@@ -130,6 +134,24 @@ def test_marks_do_not_appear_in_steady_driving_and_are_not_left_on_grass(drawn):
     assert run(drawn, "TyreMarks", "asphalt", lambda x: 0.01) == 0
     assert run(drawn, "TyreMarks", "grass", lambda x: -1.0) == 0
     assert run(drawn, "TyreMarks", "asphalt", lambda x: -1.0) > 50
+
+
+def test_marks_of_a_replay_end_at_a_reset(opened: Callable[..., Opened]) -> None:
+    """A wheel slides for 3 m, is put 2 m ahead, which is less than a gap, and slides on."""
+    x = np.linspace(0.0, 3.0, 61)
+    places = np.r_[x, x + 5.0]
+    rows = [tyre(float(place), **{"wheel.slip": -1.0}) for place in places]
+    columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    begun = """() => {
+      const { tracks } = window.player.player.drawnRuns[0].traces.marks;
+      const [ring] = tracks.rings;
+      const rows = Array.from({ length: ring.count }, (_, k) => [...tracks.row(ring, k)]);
+      return rows.filter((row) => row[6] === 0).map((row) => row[0]);
+    }"""
+    for epoch, begins in ((np.repeat([0, 1], 61), [0.0, 5.0]), (None, [0.0])):
+        page = opened(Recording(tyre_scene("concrete"), np.linspace(0.0, 1.0, 122), columns, epoch=epoch))
+        page.seek(1.0)
+        assert page(begun) == pytest.approx(begins)
 
 
 def test_marks_stay_on_the_earth_when_the_focus_goes_far(drawn):

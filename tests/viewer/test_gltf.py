@@ -12,15 +12,15 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from ali3.errors import FileError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
 from tests.viewer import hand_scenes, moving_car
 from tests.viewer.gltf_files import TO_EARTH, accessor, content, run_node, world
 from tests.viewer.hand_scenes import floats, indices
-from viewer.errors import ViewerError
 from viewer.gltf import write_gltf
 from viewer.gltf.flexible import stress_colors
 from viewer.gltf.materials import linear
 from viewer.gltf.roads import road_solid, surfaces_of
-from viewer.recording import Recording
 from viewer.solids import box
 
 T = np.linspace(0.0, 2.0, 201)
@@ -101,6 +101,38 @@ def test_another_reader_finds_the_poses_of_the_recording(corner, name):
     position, rotation = moving_car.pose(name, times)
     assert np.abs(found[:, :3, 3] - position).max() < 1e-5
     assert np.abs(found[:, :3, :3] - rotation.as_matrix()).max() < 1e-5 if name != "wheel" else 1e-4
+
+
+def test_places_far_from_the_origin_are_relative_to_one_that_is_told(tmp_path):
+    """At UTM coordinates single precision is 0.5 m; every node and every mesh on the ground is moved alike."""
+    far, times = np.array([500_123.456, 5_400_123.4, 112.3]), T[::8]
+    made, near = moving_car.recording(T), tmp_path / "near.glb"
+    write_gltf(near, made, rate=240.0)
+    for name in ("chassis", "carrier"):
+        for axis, by in zip("xyz", far, strict=True):
+            made.columns[f"{name}.{axis}"] = made.columns[f"{name}.{axis}"] + by
+    written = write_gltf(tmp_path / "far.glb", made, rate=240.0)
+    held = content(written.path)[0]
+    root = held["nodes"][held["scenes"][0]["nodes"][0]]
+    assert root["extras"] == held["scenes"][0]["extras"]
+    origin = np.array(root["extras"]["origin"])
+    assert np.abs(origin - far).max() < 20.0
+    assert f"relative to x = {origin[0]:.0f} m, y = {origin[1]:.0f} m, z = {origin[2]:.0f} m" in " ".join(written.notes)
+    for name in ("chassis", "carrier", "arm", "wheel"):
+        place = world(written.path, times, name)[:, :3, 3] + origin
+        assert np.abs(place - far - moving_car.pose(name, times)[0]).max() < 1e-3
+    begin = world(written.path, times, "spring")[:, :3, 3] + origin - far
+    assert np.abs(begin - world(near, times, "spring")[:, :3, 3]).max() < 1e-3
+    bands = [ground_points(path, "path") for path in (near, written.path)]
+    assert np.abs(bands[1] + origin - far - bands[0]).max() < 1e-3
+    assert written.position_error < 1.0
+    assert "extras" not in content(near)[0]["scenes"][0]
+
+
+def ground_points(path, name):
+    made = content(path)[0]
+    (mesh,) = (node["mesh"] for node in made["nodes"] if node["name"] == name)
+    return accessor(path, made["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"])
 
 
 def test_a_wheel_that_turns_fast_turns_the_right_way_between_the_times(corner):

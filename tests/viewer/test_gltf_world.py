@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import trimesh
 
+from ali3.scene.recording import Recording
 from tests.viewer.gltf_files import TO_EARTH, run_node
 from tests.viewer.hand_scenes import moving
 from tests.viewer.hand_world import LANES, height, scenery, terrain
 from viewer.gltf import write_gltf
-from viewer.recording import Recording
 
 T = np.linspace(0.0, 4.0, 81)
 RADIUS, SPEED = 0.3, 10.0
@@ -108,6 +108,18 @@ def test_paths_lie_where_the_run_has_been(written):
     assert (body.face_normals[:, 2] > 0.99).all()
     (wheel,) = parts(written.path, "path wheel")
     assert wheel.vertices[:, 1].mean() == pytest.approx(-1.75, abs=1e-6)
+
+
+def test_paths_end_at_a_reset(tmp_path):
+    """Half-way the body is put 40 m aside."""
+    recording = run(roads=[], scenery=[])
+    recording.columns["body.y"] = np.where(T > 2.0, 38.0, -2.0)
+    recording.epoch = np.where(T > 2.0, 1.0, 0.0)
+    path = write_gltf(tmp_path / "reset.glb", recording).path
+    for name in ("path", "path wheel"):
+        (band,) = parts(path, name)
+        assert np.ptp(band.triangles[..., 1], axis=1).max() < 1.0
+        assert band.vertices[:, 1].min() < -1.5 < 38.0 < band.vertices[:, 1].max()
 
 
 def test_what_is_left_out_is_said(written, tmp_path):

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from viewer.page_file import write_page
-from viewer.recording import Recording
 
 STEP, STEPS = 0.002, 600
 

@@ -10,7 +10,7 @@ import pygltflib
 import pytest
 
 from ali3.errors import FileError
-from viewer.mesh_file import SUFFIXES, MeshError, read_mesh
+from ali3.scene.mesh_file import SUFFIXES, MeshError, read_mesh
 
 SIZE = np.array([0.2, 0.3, 0.5])
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * SIZE + [1.0, 2.0, 3.0]

@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 
 from ali3.errors import FileError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
 from tests.viewer.hand_scenes import crank
 from viewer import html_document
-from viewer.errors import ViewerError
 from viewer.notebook import html_of
 from viewer.page_data import page_data
 from viewer.page_file import page_html, write_page
-from viewer.recording import Recording
 
 TIMES = np.linspace(0.0, 1.0, 11)
 HOSTILE = "</script><script>alert(1)</script><!-- & \" ' \u2028 ]]>"

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from tests.viewer.hand_scenes import floats, moving
 from tests.viewer.test_player import Opened
 from tests.viewer.test_player import opened as opened
-from viewer.recording import Recording
 
 pytestmark = pytest.mark.slow
 
@@ -91,6 +91,37 @@ def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> Non
     picture = seen.picture()
     rows = [row for row in range(y - 12, y + 13) if picture[row, x, 0] > 150 and picture[row, x, 2] < 130]
     assert abs(np.mean(rows) - y) <= 1.0  # its middle
+
+
+def test_nothing_is_drawn_from_one_epoch_to_the_next(opened: Callable[..., Opened]) -> None:
+    """Along the circle for 2 s, then a reset to 3 m beside its beginning: no line where nobody drove."""
+    t, after = T, T > 2.0
+    made = run("reset")
+    made.epoch = after.astype(float)
+    since = np.where(after, t - 2.0, t)
+    angle = SPEED * since / BEND
+    aside = np.where(after, -3.0, 0.0)
+    made.columns |= {"body.x": BEND * np.sin(angle), "body.y": BEND * (1.0 - np.cos(angle)) + aside}
+    made.columns |= {"body.qw": np.cos(0.5 * angle), "body.qz": np.sin(0.5 * angle)}
+    page = opened(made, camera="top")
+    page.seek(2.0)
+    assert yellow(page, way(1.87))
+    held = [page("() => window.player.view.origin")]
+    page.seek(2.007)  # it stands until the reset, which is at 2.01 s
+    held.append(page("() => window.player.view.origin"))
+    assert np.allclose(*held, atol=1e-9)
+    page.seek(2.5)
+    assert yellow(page, np.add(way(0.35), [0.0, -3.0, 0.0]).tolist())
+    triangles = """() => window.player.player.drawnRuns[0].traces.paths.map(({ geometry, start }) => {
+      const { position } = geometry.attributes;
+      const corner = (k) => [0, 1, 2].map((axis) => position.array[3 * geometry.index.array[k] + axis] + start[axis]);
+      return Array.from({ length: geometry.index.count / 3 }, (_, k) => [0, 1, 2].map((j) => corner(3 * k + j)));
+    })"""
+    for path in page(triangles):
+        corners = np.array(path)
+        longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+        assert longest.max() < 0.3  # a step is 0.1 m; the jump is 18 m
+        assert np.sum(longest > 0.0) == 2 * (len(t) - 2)
 
 
 FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -0.08], "origin": [1e6, 0.0, 0.0]}

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from ali3.scene.recording import Recording
 from tests.in_browser import wait_until
 from tests.viewer.hand_scenes import crank
 from viewer.browser import find_chromium, launch_arguments
 from viewer.notebook import html_of
 from viewer.page_file import write_page
-from viewer.recording import Recording
 
 SIZE = (640, 360)
 TIMES = np.linspace(0.0, 3.0, 301)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from hosts.view.command import main as view
@@ -23,7 +24,6 @@ from tests.viewer.bars import check_bar
 from tests.viewer.hand_scenes import crank
 from tests.viewer.simulator_program import REPORT, Program
 from viewer.page_file import write_page
-from viewer.recording import Recording
 
 ROOT = Path(__file__).parents[2]
 CONTROLS = "button, select, input, summary, a[href]"

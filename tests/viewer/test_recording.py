@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import MOST_TIMES, Recording
+from ali3.scene.scene_columns import all_columns
 from tests.viewer.hand_scenes import crank, everything
-from viewer.errors import ViewerError
-from viewer.recording import MOST_TIMES, Recording
-from viewer.scene_columns import all_columns
 
 TIMES = np.linspace(0.0, 2.0, 21)
 
@@ -160,17 +160,35 @@ def test_thinning_says_how_far_the_motion_between_is_from_the_record() -> None:
     assert far == pytest.approx((0.5 + 0.25) * rate**2 * step**2 / 8.0, rel=0.15)
 
 
-def test_a_jump_is_kept_and_is_no_difference_from_the_record() -> None:
-    before, after = crank(np.linspace(0.0, 5.0, 10_001)), crank(np.linspace(5.0, 10.0, 10_001))
+@pytest.mark.parametrize("reset", [False, True])
+def test_a_jump_is_kept_and_is_no_difference_from_the_record(reset: bool) -> None:
+    """A time that stands twice, or another epoch from one time to the next."""
+    before, after = crank(np.linspace(0.0, 5.0, 10_001)), crank(np.linspace(5.0 + 1e-3 * reset, 10.0, 10_001))
     columns = {n: np.concatenate([x, after.columns[n] + 3.0]) for n, x in before.columns.items()}
-    joined = Recording(before.scene, np.concatenate([before.t, after.t]), columns)
-    shown = joined.thinned(202)
+    t, epoch = np.concatenate([before.t, after.t]), np.repeat([4, 5], 10_001)
+    shown = Recording(before.scene, t, columns, epoch=epoch if reset else None).thinned(202)
     assert len(shown.t) <= 202
-    (step,) = np.flatnonzero(np.diff(shown.t) == 0.0)
+    (step,) = np.flatnonzero(np.diff(shown.epoch if reset else -np.sign(np.diff(shown.t, prepend=-1.0))) > 0.0)
     assert shown.t[step] == 5.0
     for name, values in columns.items():
         assert shown.columns[name][step : step + 2].tolist() == values[10_000:10_002].tolist()
     assert "place" not in "".join(shown.notes)
+
+
+def test_of_many_resets_the_last_pose_stands_until_the_next() -> None:
+    """More than thinning keeps: nothing is said to be drawn from one epoch to another, but that it stands still."""
+    t = np.linspace(0.0, 10.0, 20_001)
+    made = crank(t, 0.1)
+    made.columns["slider.x"] = made.columns["slider.x"] + 50.0 * (np.arange(len(t)) % 2)
+    made.epoch = np.arange(len(t)) // 1.0
+    shown = made.thinned(101)
+    assert len(shown.t) == len(shown.epoch) == 101
+    assert "the place of 'slider' by up to 50 m" in shown.notes[0]
+
+
+def test_epochs_that_are_none() -> None:
+    with pytest.raises(ViewerError, match=r"'epoch' has the shape \(20,\); there are 21 times"):
+        Recording(None, TIMES, {}, epoch=np.ones(20))
 
 
 def test_a_turn_that_thinning_loses_is_said() -> None:

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from benchmarks.car import manoeuvres
 from tests.in_browser import picture_of_simulator, wait_until
 from tests.viewer.hand_world import scenery, terrain
 from tests.viewer.simulator_program import Program
 from viewer.page_file import write_page
-from viewer.recording import Recording
 
 INSTANT = 4.0
 """s: the car turns into the second lane."""

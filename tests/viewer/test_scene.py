@@ -12,11 +12,11 @@ from typing import Any
 import jsonschema
 import pytest
 
+from ali3.scene.errors import SceneError
+from ali3.scene.scene import check_scene, read_scene, scene_errors
+from ali3.scene.scene_values import NAME, UNIT
 from tests.viewer.hand_scenes import everything, floats, octets
-from viewer.errors import SceneError
-from viewer.scene import check_scene, read_scene, scene_errors
 from viewer.scene_schema import SCHEMA_FILE, json_schema, schema_text
-from viewer.scene_values import NAME, UNIT
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())
 

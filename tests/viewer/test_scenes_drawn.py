@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from benchmarks.pictures.animations import ANIMATIONS
 from viewer.poses import FramePoses
-from viewer.recording import Recording
 
 # They have the car of the lane change.
 SCENES = [name for name in ANIMATIONS if name not in ("drop", "proving_ground")]

@@ -10,10 +10,10 @@ from unittest.mock import ANY
 import numpy as np
 import pytest
 
+from ali3.scene.recording import Recording
 from benchmarks.car import manoeuvres
 from tests.in_browser import picture_of_simulator, wait_drawn, wait_until, wait_words
 from tests.viewer.simulator_program import BEHIND, REFUSED, REPORT, RUNNING, Program
-from viewer.recording import Recording
 
 PLACES = [{"name": "start", "x": 0.0, "y": -60.0, "yaw": 0.0}, {"name": "hill_20", "x": 120.0, "y": 80.0, "yaw": 0.0}]
 WORLD = {"name": "here", "places": PLACES, "bounds": [-200.0, -200.0, 200.0, 200.0]}

@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 
 from ali3.errors import FileError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
 from tests.viewer import hand_scenes
 from viewer import browser, bundle, video
 from viewer.browser import BrowserError
-from viewer.errors import ViewerError
-from viewer.recording import Recording
 from viewer.video import FilmError, write_mp4
 
 SIZE = (320, 180)

@@ -1,5 +1,6 @@
 """Recordings as glTF 2.0 animations, which Blender, three.js, Windows and macOS show."""
 
-from viewer.gltf.write import WrittenGltf, write_gltf
+from ali3.scene.written import WrittenGltf
+from viewer.gltf.write import write_gltf
 
 __all__ = ["WrittenGltf", "write_gltf"]

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.scene.base64_numbers import decoded
 from viewer import solids
-from viewer.base64_numbers import decoded
 from viewer.composed import SHAPES, composed
 from viewer.gltf.materials import Look, look
 from viewer.gltf.motion import Motion, between

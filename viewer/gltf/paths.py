@@ -6,21 +6,24 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viewer.gltf.materials import LOOKS, Look, linear
 from viewer.gltf.scenery import ribbon
 from viewer.poses import FramePoses, Vectors
-from viewer.solids import Solid
+from viewer.solids import Solid, joined
 
 PATHS = LOOKS["paths"]
 _MOST = 4000  # points
 _LIFT = 0.05  # m: tyres are not as round as they are taken to be, but pressed in
 
 
-def path_solids(scene: Mapping[str, Any], poses: FramePoses, up: Vectors) -> list[tuple[str, Solid, Look]]:
+def path_solids(
+    scene: Mapping[str, Any], poses: FramePoses, up: Vectors, epoch: NDArray[np.float64]
+) -> list[tuple[str, Solid, Look]]:
     """Bands where a run has been; none where what is followed stays where it is.
 
-    `poses`: of its frames, over the run; `up`: unit, shape (3,).
+    `poses`: of its frames, over the run; `up`: unit, shape (3,); `epoch`: shape (n,); no band goes from one to another.
     """
     focus = scene.get("focus")
     if not focus or scene.get("planar"):
@@ -40,13 +43,14 @@ def path_solids(scene: Mapping[str, Any], poses: FramePoses, up: Vectors) -> lis
         return []
     names = ["path", *(f"path {wheel['frame']}" for wheel in wheels)]
     colours = [linear(PATHS["body"]), *([linear(PATHS["wheel"])] * len(wheels))]
+    motions = [part for part in (shown & (epoch == one) for one in np.unique(epoch)) if part.any()]
     made = []
     for k, (name, points, colour) in enumerate(zip(names, [middle, *feet], colours, strict=True)):
         share, opacity = (PATHS[key][min(k, 1)] for key in ("shares", "opacities"))
-        kept = _apart(points[shown], 0.02 * scene["extent"])
-        if len(kept) > 1:
-            band = ribbon(kept, share * scene["extent"], up, _LIFT)
-            made.append((name, band, Look("path", (*colour, opacity), 0.0, 1.0, double=True)))
+        ways = [_apart(points[part], 0.02 * scene["extent"]) for part in motions]
+        bands = [ribbon(way, share * scene["extent"], up, _LIFT) for way in ways if len(way) > 1]
+        if bands:
+            made.append((name, joined(bands), Look("path", (*colour, opacity), 0.0, 1.0, double=True)))
     return made
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viewer.base64_numbers import decoded, octets
+from ali3.scene.base64_numbers import decoded, octets
 from viewer.gltf.materials import LOOKS, Look
 from viewer.poses import Vectors
 from viewer.solids import Solid

@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ali3.extras import missing_module
 from ali3.files import check_writable, whole_file
-from viewer.errors import ViewerError
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
+from ali3.scene.written import WrittenGltf
 from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
@@ -23,7 +26,6 @@ from viewer.gltf.roads import road_solid, surfaces_of
 from viewer.gltf.scenery import scenery_solids
 from viewer.gltf.terrain import earth_axes, surface_look, terrain_solids
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
-from viewer.recording import Recording
 
 if TYPE_CHECKING:
     from viewer.gltf.document import Document
@@ -31,27 +33,12 @@ if TYPE_CHECKING:
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
 _LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
+_NEAR = 1000.0  # m from the origin: single precision is then within 0.03 mm
 _AROUND = 60.0  # m: what of a world is drawn beside the way
 _FAR = 2e-3  # of the size of the scene: what a reader would see
 _ROAD = Look("road", (0.08, 0.08, 0.085, 1.0), 0.0, 0.9)
 _WHITE = Look("stress", (1.0, 1.0, 1.0, 1.0), 0.1, 0.6)
 _FRAME = Look("steel", (0.27, 0.31, 0.34, 1.0), 0.85, 0.42)
-
-
-class WrittenGltf(NamedTuple):
-    """A glTF file that was written."""
-
-    path: Path
-    size: int
-    """Bytes."""
-    times: int
-    """Of the recording that were kept."""
-    position_error: float
-    """Largest distance of a drawn point between the kept times from where it was recorded, mm."""
-    angle_error: float
-    """The same for the orientation, degrees."""
-    notes: list[str]
-    """Sentences: what is not drawn, or drawn in another way."""
 
 
 def write_gltf(
@@ -65,11 +52,12 @@ def write_gltf(
 ) -> WrittenGltf:
     """Write the motion of a recording as a glTF 2.0 file with shapes, materials and one animation.
 
-    Lengths are in metres and y is up, as glTF has it. The node of a frame has its name and moves with it; time 0 is the
-    first of the recording. Motion is linear between the times, rotations go along great arcs. Flexible parts move by
-    morph targets and have the colours of their stress at the time when it is largest, because glTF has no colours over
-    time. Roads, scenery and the whole path are there as far as they are near the way. Arrows, plots, ghosts, marks and
-    cameras are not in the file.
+    Lengths are in metres and y is up, as glTF has it. The node of a frame has its name and moves with it; time 0 is
+    the first of the recording. Farther than 1 km from the origin places are relative to one near the motion, which a
+    note tells and the extras of the scene and of its first node have as ``origin``: earth axes, m. Motion is linear
+    between the times, rotations go along great arcs. Flexible parts move by morph targets and have the colours of
+    their stress at the time when it is largest, because glTF has no colours over time. Roads, scenery and the whole
+    path are there as far as they are near the way. Arrows, plots, ghosts, marks and cameras are not in the file.
 
     Parameters
     ----------
@@ -150,6 +138,7 @@ class _Writer:
         span = float(t[-1])
         looked = kept_times(t, max(2.0 * rate, min(8.0 * rate, _LOOKED_AT / span)) if span > 0.0 else rate)
         self._t: Vectors = t[looked]
+        self._epoch = recording.epoch[looked]
         self._speed = speed
         self._columns: Mapping[str, NDArray[Any]] = {name: values[looked] for name, values in recording.columns.items()}
         self.parts = Parts(FramePoses(scene, self._columns, len(self._t)), scene)
@@ -165,6 +154,17 @@ class _Writer:
         self._root = self.document.node(f"scene {recording.name}" if taken else recording.name, None)
         self.document.place(self._root, "rotation", turn)
         self._begin = float(recording.t[0])
+        self._origin = self._middle()
+        if self._origin.any():
+            self.document.tell_origin(self._root, self._origin)
+
+    def _middle(self) -> Vectors:
+        """What is taken from all places in earth axes, m: whole metres, and 0 near the origin."""
+        places = [self.parts.poses.of(name).position for name in self._scene["frames"]] or [np.zeros((1, 3))]
+        every = np.vstack(places)
+        if np.abs(every).max() < _NEAR:
+            return np.zeros(3)
+        return np.asarray(np.round(0.5 * (every.min(axis=0) + every.max(axis=0))))
 
     def add_shapes(self, deformation: float) -> None:
         for shape in self._scene["shapes"]:
@@ -197,7 +197,7 @@ class _Writer:
         self.parts.fixed += [(GROUND, kind, meshes) for kind, meshes in kinds.items()]
         if left_out:
             self.parts.notes.append(f"{left_out} things of the scenery are left out; the others stand by the way.")
-        paths = path_solids(self._scene, self.parts.poses, self._up)
+        paths = path_solids(self._scene, self.parts.poses, self._up, self._epoch)
         self.parts.fixed += [(GROUND, name, [(band, look)]) for name, band, look in paths]
 
     def _add_terrain(self, road: Mapping[str, Any], axes: Vectors, near: Vectors, far: Vectors) -> None:
@@ -214,10 +214,13 @@ class _Writer:
         for name in [*(frame for frame, _, _ in self.parts.fixed), *(part["frame"] for part, _ in self.flexible)]:
             self._frame(name)
         for name, motion, meshes in self.parts.free:
+            motion.position = motion.position - self._origin
             node = self.document.node(name, self._root, self.document.mesh(name, meshes))
             motion.reach = _corners([solid.positions for solid, _ in meshes])
             self._count(self._animate(node, motion))
         for frame, name, meshes in self.parts.fixed:
+            if frame == GROUND:
+                meshes = [(replace(solid, positions=solid.positions - self._origin), look) for solid, look in meshes]
             self.document.node(name, self._frame(frame), self.document.mesh(name, meshes))
         for part, deformation in self.flexible:
             self._write_flexible(part, deformation)
@@ -225,6 +228,12 @@ class _Writer:
     def notes(self) -> list[str]:
         """What there is to say of the file."""
         made = list(self.parts.notes)
+        if self._origin.any():
+            x, y, z = self._origin
+            made.append(
+                f"Places are relative to x = {x:.0f} m, y = {y:.0f} m, z = {z:.0f} m, for numbers of a glTF file have "
+                "seven digits; the extras of the scene and of its first node have them as origin."
+            )
         if self._begin != 0.0:
             made.append(f"Time 0 of the file is {self._begin:g} s of the recording.")
         if self._speed != 1.0:
@@ -254,6 +263,8 @@ class _Writer:
             parent = self._frame(frame["parent"])
             before = self._frame_errors[frame["parent"]]
             self._relative(motion, frame)
+        if name != GROUND and frame.get("parent", GROUND) == GROUND:
+            motion.position = motion.position - self._origin
         reach = [s.positions for frame_name, _, meshes in self.parts.fixed if frame_name == name for s, _ in meshes]
         reach += [np.array(part["nodes"], dtype=float) for part, _ in self.flexible if part["frame"] == name]
         motion.reach = _corners(reach) if reach else motion.reach
@@ -280,7 +291,8 @@ class _Writer:
         """Give a node its motion; what does not change is written once. Its largest errors, m and rad."""
         track = thinned(motion, self._t, self._rate)
         self._write_track(node, track)
-        return largest_errors(motion, track, self._t)
+        written = replace(track, position=np.float32(track.position).astype(float))
+        return largest_errors(motion, written, self._t)
 
     def _write_track(self, node: int, track: Track) -> None:
         for path, values in (("translation", track.position), ("rotation", track.quaternion), ("scale", track.scale)):

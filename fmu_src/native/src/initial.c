@@ -20,6 +20,17 @@ const char *slave_worst_row(slave *s, char *text, size_t size) {
   return text;
 }
 
+void slave_beyond_table(slave *s, char *text, size_t size) {
+  const slave_table *t = &slave_the_table;
+  const size_t first = t->first_coordinate[s->fidelity.number], n = t->first_coordinate[s->fidelity.number + 1] - first;
+  int32_t column;
+  double x[3];
+  text[0] = 0;
+  if (ali3_beyond_table(s->fidelity.kernel, &column, x) == ALI3_BEYOND_TABLE && (size_t)column < n)
+    snprintf(text, size, " '%.128s' is %.4g; its table goes from %.4g to %.4g.", t->coordinate[first + (size_t)column],
+             x[0], x[1], x[2]);
+}
+
 /* " 'initial.x' is 1e+300 m." or nothing. */
 static const char *farthest(const slave *s, char *text, size_t size) {
   const slave_table *t = &slave_the_table;

@@ -62,6 +62,8 @@ typedef struct {
   const size_t *first_row; /* n_systems + 1 */
   const char *const *element; /* names of the force elements of all Systems */
   const size_t *first_element; /* n_systems + 1 */
+  const char *const *coordinate; /* names of the coordinates of all Systems that tables are over; of others "" */
+  const size_t *first_coordinate; /* n_systems + 1 */
   size_t n_systems; /* to choose from by the fidelity */
   const int32_t *follower; /* n_systems: the one with ports that computes what each leaves out; -1: none */
   const slave_text *text; /* variables that are text; numbered by themselves */
@@ -247,6 +249,8 @@ static inline void slave_stale(slave *s) {
 /* initial.c */
 bool slave_initialise(slave *s);
 const char *slave_worst_row(slave *s, char *text, size_t size);
+/* " 'wheel travel FL' is ..." or nothing. */
+void slave_beyond_table(slave *s, char *text, size_t size);
 
 /* values.c: n numbers of variables and as many values */
 slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *value);

@@ -146,7 +146,7 @@ static slave_status try_step(slave *s, double time, double step) {
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
     if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
-    if (status == ALI3_BEYOND_TABLE) worst[0] = 0;
+    if (status == ALI3_BEYOND_TABLE) slave_beyond_table(s, worst, sizeof worst);
     if (status == ALI3_BAD_NORMAL) slave_bad_normal(s, worst, sizeof worst);
     if (status == ALI3_WHEEL_IN_ROAD) {
       char words[SLAVE_TEXT / 2 - 16];

@@ -27,7 +27,9 @@ _SHARED = "#767676"
 _MARKS = 9
 """Markers on a line that is one of several of its car."""
 # Inches; the height is that of the axes.
-_WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 5.6, 2.9, 0.85, 0.15, 0.32, 0.55, 0.21
+_WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 5.625, 2.9, 0.85, 0.15, 0.32, 0.55, 0.21
+_PIXELS = 96
+"""Of CSS, an inch."""
 _FEW = 40
 """Points that may be measured ones: each is marked."""
 _SETTINGS: Mapping[Any, Any] = {**STYLE, "svg.fonttype": "path", "svg.hashsalt": "report", "axes.titlesize": 10.5}
@@ -41,6 +43,8 @@ class Picture:
     svg: bytes
     words: str
     """For who cannot see it."""
+    size: tuple[int, int]
+    """Width and height, CSS pixels, exact."""
 
     @property
     def source(self) -> str:
@@ -72,7 +76,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
     columns = 1 if max(map(len, names), default=0) > 30 else 2
     rows = -(-len(names) // columns) if len(names) > 1 else 0
     below = _BELOW + _LEGEND_ROW * rows
-    height = _ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below
+    height = round(_PIXELS * (_ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below)) / _PIXELS
     figure = Figure(figsize=(_WIDTH, height))
     # Fixed margins: a layout that is computed takes longer than the drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
@@ -88,7 +92,8 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
         text.set_parse_math(False)
     content = io.BytesIO()
     figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
-    return Picture(title, content.getvalue(), f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
+    said = f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}."
+    return Picture(title, content.getvalue(), said, (round(_PIXELS * _WIDTH), round(_PIXELS * height)))
 
 
 def draw_plot(axes: Axes, title: str, plots_by_car: Mapping[str, Sequence[Plot]]) -> None:

@@ -91,7 +91,10 @@ def _standard(standard: Standard) -> HtmlElement:
 
 
 def _figure(picture: Picture) -> HtmlElement:
-    return element("figure", element("img", src=picture.source, alt=picture.words, loading="lazy"), class_="plot")
+    # With its size a page that has not drawn it yet keeps its place: a link to what stands below ends there.
+    width, height = map(str, picture.size)
+    drawn = element("img", src=picture.source, alt=picture.words, width=width, height=height, loading="lazy")
+    return element("figure", drawn, class_="plot")
 
 
 def _settings(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:

@@ -13,7 +13,6 @@ from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.overview import head, overview
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import section
-from hosts.catalogue.report.summary import write_summary
 
 _NOTHING: Mapping[str, Mapping[str, float]] = {}
 
@@ -26,7 +25,7 @@ def write_report(
     settings: Mapping[str, Mapping[str, float]] = _NOTHING,
     command: Sequence[str] = (),
 ) -> None:
-    """Write one HTML file that needs no other, each plot as an SVG file of the folder ``plots`` beside it, and a slide.
+    """Write one HTML file that needs no other, each plot as an SVG file of the folder ``plots`` beside it.
 
     Parameters
     ----------
@@ -67,7 +66,6 @@ def write_report(
         *(section(t, by_car[t.name], settings.get(t.name, {}), command, drawn[t.name]) for t in tests),
     ]
     write_text(file, document(title, body))
-    write_summary(file.with_name("summary"), title, tests, labels, by_car)
     folder = make_folder(file.parent / "plots")
     for name, pictures in drawn.items():
         for picture in pictures:

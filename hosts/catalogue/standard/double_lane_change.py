@@ -156,7 +156,9 @@ def tries(car: TestedCar, layout: _Layout, speed: float, passed: Passage | None)
         made.append(drive(car, layout, speed, driver))
         if made[-1].clean:
             return made[-1]
-    return max(made, key=lambda p: (p.is_through, -math.inf if math.isnan(p.least_clearance) else p.least_clearance))
+    return max(
+        made, key=lambda p: (not p.not_driven, -math.inf if math.isnan(p.least_clearance) else p.least_clearance)
+    )
 
 
 def steering_of(driver: str, course: Course, constants: Mapping[str, float], speed: float) -> Pilot:

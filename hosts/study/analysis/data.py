@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.units import known_unit
 from hosts.common.display_units import shown_in
-from hosts.common.units import known_unit
 from hosts.study.limits import limit_ends
 
 if TYPE_CHECKING:

@@ -104,8 +104,6 @@ def indices_of(data: StudyData, response: Response) -> Indices | str:
     if len(names) == 1:
         return f"No indices: {names[0]} alone is varied and makes all of the variance."
     if data.method == "saltelli":
-        if data.about["sampling"].get("second_order"):
-            return "No indices: runs for a second order, as this study has them, are no longer read; make it without."
         return saltelli_indices(names, data.points(response), response.values)
     x = data.x[response.rows]
     if data.method == "grid":

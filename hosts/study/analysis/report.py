@@ -13,10 +13,9 @@ from ali3.files import make_folder, whole_file, write_text
 from ali3.html_elements import element
 from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
-from hosts.study.analysis.measure_section import indices_of, measure_section
+from hosts.study.analysis.measure_section import measure_section
 from hosts.study.analysis.page import document, paragraph
 from hosts.study.analysis.pictures import Pictures
-from hosts.study.analysis.slide import main_response, write_study_slide
 from hosts.study.analysis.study_section import (
     MOST_RESPONSES,
     Commands,
@@ -76,8 +75,6 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
         for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
             body += measure_section(data, response, k, pictures, commands, numbers)
-    main = main_response(data)
-    write_study_slide(data, None if main is None else indices_of(data, main), folder)
     file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
     write_text(file, document(f"Study {data.about['study']}", body))
     with whole_file(rows) as made:

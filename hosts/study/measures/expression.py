@@ -1,32 +1,36 @@
-"""Expressions such as ``max(abs(chassis.ay), after=2.0)``."""
+"""Expressions such as ``max(abs(chassis.ay), after=2.0)``, evaluated by simpleeval."""
 
 from __future__ import annotations
 
 import ast
 import hashlib
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import simpleeval
 
 from ali3.near_names import MOST, did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
-from hosts.study.measures.grammar import Node, check_form, number_of, signal_name, windows
-from hosts.study.measures.reductions import REDUCTIONS, Array
-from hosts.study.measures.units import unit_of
+from hosts.study.measures.quantity import ANY, NONE, Quantity
+from hosts.study.measures.reductions import REDUCTIONS, NotYieldedError
 
 TIME = "time"
-# Times of a run add up with rounding errors.
-_SAME_TIME = 1e-9
-
-
-class _NotYieldedError(Exception):
-    """Why a run does not yield a measure, as a sentence."""
+_FUNCTIONS: Mapping[str, Callable[..., Quantity]] = {"abs": operator.abs, **REDUCTIONS}
+_OPERATORS: Mapping[type[ast.AST], Callable[..., Quantity]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+}
 
 
 @dataclass(frozen=True)
@@ -42,19 +46,30 @@ class Expression:
 
         Raises `HostError` with what cannot be read.
         """
-        tree = _parse(text)
-        check_form(tree, text)
+        tree, signals = _parse(text)
+        always = np.zeros(1)
+        try:
+            found = _evaluated(text, {name: Quantity(name, always, ANY, always) for name in signals})
+        except NotYieldedError:  # the form is right
+            found = None
+        if found is not None and found.time is not None:
+            raise HostError(
+                f"The measure '{text}' is a signal over time, not a number; reduce it, such as by max({found.text}), "
+                f"rms({found.text}) or final({found.text})."
+            )
+        if not signals:
+            raise HostError(f"The measure '{text}' reads no signal; it is the same for every run.")
         return Expression(name or ast.unparse(tree), text.strip())
 
     @property
     def signals(self) -> frozenset[str]:
         """What it reads of a run."""
-        return frozenset(_signals(_parse(self.text))) - {TIME}
+        return _parse(self.text)[1] - {TIME}
 
     @property
     def digest(self) -> str:
         """Hash of the text."""
-        return hashlib.sha256(ast.unparse(_parse(self.text)).encode()).hexdigest()
+        return hashlib.sha256(ast.unparse(_parse(self.text)[0]).encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
         """Its one column; see `StudyMeasure.columns`."""
@@ -63,41 +78,86 @@ class Expression:
                 raise HostError(
                     f"The measure '{self.text}' needs '{signal}', which is no input or output{near(signal, units)}"
                 )
-        tree = _parse(self.text)
-        begins = [time for what, time in windows(tree) if what != "before"]
-        if stop_time is not None and begins and max(begins) > stop_time + _SAME_TIME:
-            raise HostError(f"The measure '{self.text}' needs {max(begins):g} s; the runs end at {stop_time:g} s.")
-        return {self.name: unit_of(tree, {**units, TIME: "s"}, self.text)}
+        time = np.array([0.0, np.finfo(float).max if stop_time is None else stop_time])
+        signals = {n: Quantity(n, np.ones(2), units.get(n, "s") or NONE, time) for n in (*self.signals, TIME)}
+        try:
+            return {self.name: _evaluated(self.text, signals).unit}
+        except NotYieldedError as error:
+            raise HostError(f"The measure '{self.text}' cannot be had of any run. {error}") from None
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
         """Its value; see `StudyMeasure.evaluate`."""
         value, note, unit = math.nan, "", ""
         try:
-            unit = unit_of(_parse(self.text), {**result.units, TIME: "s"}, self.text)
-            value = self._value(result)
-        except (_NotYieldedError, HostError) as error:
+            if result.failed_steps:
+                raise NotYieldedError(f"The FMU refused the step at {result.time[-1]:g} s.")
+            found = _evaluated(self.text, self._signals_of(result))
+            value, unit = float(found.values), found.unit
+            if not math.isfinite(value):
+                note = f"'{self.text}' is {value:g}: it divides by zero or is too large for a number."
+                value = math.nan
+        except (NotYieldedError, HostError) as error:
             note = str(error)
         return [Measure(self.name, value, unit, self.text, note=note)]
 
-    def _value(self, result: Result) -> float:
-        if result.failed_steps:
-            raise _NotYieldedError(f"The FMU refused the step at {result.time[-1]:g} s.")
+    def _signals_of(self, result: Result) -> dict[str, Quantity]:
+        found = {TIME: Quantity(TIME, result.time, "s", result.time)}
         for signal in sorted(self.signals):
-            wrong = ~np.isfinite(result[signal])
+            if signal not in result:
+                raise HostError(f"The run has no signal '{signal}'.")
+            values = np.asarray(result.continuous(signal), dtype=float)
+            wrong = ~np.isfinite(values)
             if wrong.any():
                 first = int(wrong.argmax())
-                raise _NotYieldedError(f"'{signal}' is {result[signal][first]:g} at {result.time[first]:g} s.")
+                raise NotYieldedError(f"'{signal}' is {values[first]:g} at {result.time[first]:g} s.")
+            found[signal] = Quantity(signal, values, result.units.get(signal) or NONE, result.time)
+        return found
+
+
+def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
+    """What an expression is of these signals.
+
+    Raises `HostError`: it has what cannot stand there; `NotYieldedError`: the signals do not yield it.
+    """
+    where = f"The measure '{text}'"
+    evaluator = simpleeval.SimpleEval(operators=dict(_OPERATORS), functions=dict(_FUNCTIONS), names=dict(signals))
+    kept = (ast.Name, ast.UnaryOp, ast.BinOp, ast.Call, ast.keyword)
+    evaluator.nodes = {node: evaluator.nodes[node] for node in kept} | {ast.Constant: _number}
+    try:
         with np.errstate(all="ignore"):
-            value = float(_evaluate(_parse(self.text), result))
-        if not math.isfinite(value):
-            raise _NotYieldedError(f"'{self.text}' is {value:g}: it divides by zero or is too large for a number.")
-        return value
+            found = evaluator.eval(text, _parse(text)[0])
+    except HostError as error:
+        raise HostError(f"{where}: {error}") from None
+    except simpleeval.FunctionNotDefined as error:
+        there = ", ".join(_FUNCTIONS)
+        raise HostError(f"{where} has no function '{error.func_name}' to use; there are: {there}.") from None
+    except (simpleeval.InvalidExpression, TypeError):
+        there = f"signals, numbers, + - * / and the functions {', '.join(_FUNCTIONS)}"
+        raise HostError(f"{where} cannot be read: {there} can stand there.") from None
+    except RecursionError:
+        raise HostError(f"{where} is nested too deep; use a function in a file: file.py:function.") from None
+    assert isinstance(found, Quantity)
+    return found
+
+
+def _number(node: ast.Constant) -> Quantity:
+    if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
+        raise HostError(f"'{ast.unparse(node)}' is no number.")
+    try:
+        value = float(node.value)
+    except OverflowError:
+        value = math.inf
+    if not math.isfinite(value):
+        raise HostError("it has a number that is too large.")
+    return Quantity(ast.unparse(node), np.asarray(value))
 
 
 @lru_cache(maxsize=1000)
-def _parse(text: str) -> Node:
+def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
+    """The tree of an expression, in which each signal is one name, and these names."""
     try:
-        return ast.parse(text.strip(), mode="eval").body
+        names = _SignalNames()
+        return names.visit(ast.parse(text.strip(), mode="eval").body), frozenset(names.found)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         words = (error.msg if isinstance(error, SyntaxError) else "") or "it is no expression"
         raise HostError(
@@ -106,48 +166,34 @@ def _parse(text: str) -> Node:
         ) from None
 
 
-def _signals(node: ast.AST) -> set[str]:
-    name = signal_name(node)
-    if name is not None:
-        return {name}
-    children = node.args if isinstance(node, ast.Call) else list(ast.iter_child_nodes(node))
-    return set().union(*(_signals(child) for child in children))
+class _SignalNames(ast.NodeTransformer):
+    """Makes one name of what names a signal: with dots and indices, or a text in quotation marks."""
 
+    def __init__(self) -> None:
+        self.found: set[str] = set()
 
-def _evaluate(node: Node, result: Result) -> Array | float:
-    """An array over time of a signal, a number of anything else."""
-    name = signal_name(node)
-    if name is not None:
-        return np.asarray(result.time if name == TIME and TIME not in result else result[name])
-    if isinstance(node, ast.Call):
-        return _called(node, result)
-    if isinstance(node, ast.UnaryOp):
-        x = _evaluate(node.operand, result)
-        return np.asarray(-x) if isinstance(node.op, ast.USub) else x
-    if isinstance(node, ast.BinOp):
-        a, b = np.asarray(_evaluate(node.left, result)), np.asarray(_evaluate(node.right, result))
-        if isinstance(node.op, (ast.Add, ast.Sub)):
-            return np.asarray(a + b if isinstance(node.op, ast.Add) else a - b)
-        return np.asarray(a * b if isinstance(node.op, ast.Mult) else a / b)
-    return number_of(node)
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        node.args = [self.visit(argument) for argument in node.args]
+        node.keywords = [self.visit(keyword) for keyword in node.keywords]
+        return node
 
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        return self._signal(node.id)
 
-def _called(node: ast.Call, result: Result) -> Array | float:
-    assert isinstance(node.func, ast.Name)
-    x, name, time = np.asarray(_evaluate(node.args[0], result), dtype=float), node.func.id, result.time
-    if name == "abs":
-        return np.asarray(np.abs(x))
-    number = number_of(node.args[1]) if len(node.args) > 1 else math.nan
-    if name == "value" and not time[0] - _SAME_TIME <= number <= time[-1] + _SAME_TIME:
-        raise _NotYieldedError(f"The run ends at {time[-1]:g} s, before the {number:g} s of '{ast.unparse(node)}'.")
-    limits = {str(k.arg): number_of(k.value) for k in node.keywords}
-    wanted = (time >= limits.get("after", -math.inf) - _SAME_TIME) & (
-        time <= limits.get("before", math.inf) + _SAME_TIME
-    )
-    if not wanted.any():
-        raise _NotYieldedError(f"The run from {time[0]:g} to {time[-1]:g} s has no sample for '{ast.unparse(node)}'.")
-    x = np.broadcast_to(x, time.shape)
-    return REDUCTIONS[name].apply(time[wanted], x[wanted], number)
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
+        return self._signal(node.value) if isinstance(node.value, str) else node
+
+    def visit_Attribute(self, node: ast.Attribute | ast.Subscript) -> ast.AST:
+        inner: ast.expr = node
+        while isinstance(inner, (ast.Attribute, ast.Subscript)):
+            inner = inner.value
+        return self._signal(ast.unparse(node).replace(" ", "")) if isinstance(inner, ast.Name) else node
+
+    visit_Subscript = visit_Attribute
+
+    def _signal(self, name: str) -> ast.Name:
+        self.found.add(name)
+        return ast.Name(name, ast.Load())
 
 
 def near(name: str, known: Mapping[str, str]) -> str:

@@ -129,6 +129,12 @@ class Instance(StandingInstance):
         """What is wrong with which part of a road's file, after `ROAD_LOST`; else empty."""
         return bytes(self._library.ali3_road_lost(self._handle)).decode(errors="replace")
 
+    def beyond_table(self) -> tuple[int, float, float, float]:
+        """The coordinate that is farthest beyond its table, its value and both ends of the table; -1 if none is."""
+        column, numbers = c_int32(-1), (c_double * 3)()
+        self._library.ali3_beyond_table(self._handle, byref(column), numbers)
+        return column.value, *numbers
+
     def wheel_in_road(self) -> tuple[int, str]:
         """The element whose wheel has its centre below a grid road, and words on it; -1 and none if there is none."""
         element, text = c_int32(-1), ctypes.create_string_buffer(512)

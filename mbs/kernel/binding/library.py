@@ -25,6 +25,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_set_road": (c_int32, [c_void_p, c_int32, c_char_p, c_char_p, c_size_t]),
     "ali3_road_lost": (c_char_p, [c_void_p]),
     "ali3_grid_heights": (None, [c_int32, c_int32, _DOUBLES, _DOUBLES, c_int64, _DOUBLES, _DOUBLES]),
+    "ali3_beyond_table": (c_int32, [c_void_p, POINTER(c_int32), _DOUBLES]),
     "ali3_wheel_in_road": (c_int32, [c_void_p, POINTER(c_int32), c_char_p, c_size_t]),
     "ali3_reset": (c_int32, [c_void_p]),
     "ali3_default_settings": (SettingsFields, []),

@@ -189,6 +189,10 @@ ALI3_API int ali3_is_road_normal(const double n[3]);
  * stop; ALI3_OK and "" if there is none, else ALI3_WHEEL_IN_ROAD. *element: its number, or -1. */
 ALI3_API ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *text, size_t size);
 
+/* The coordinate that is farthest beyond its table, by more than a spacing: a body is none along a tangent there. ALI3_OK
+ * if there is none, else ALI3_BEYOND_TABLE. *column: its number, or -1; its value and both ends of the table. Both may be
+ * NULL. */
+ALI3_API ali3_status ali3_beyond_table(const ali3_instance *in, int32_t *column, double value_and_ends[3]);
 /* A sentence on a wheel that was driven into a face of a grid road so that its rim was pressed in, else "". */
 ALI3_API ali3_status ali3_rim_text(const ali3_instance *in, char *text, size_t size);
 ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, default inputs, parameters and settings */

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector
+from mbs.common.errors import ModelError
 from mbs.compiler.model_to_system import compiled
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.mechanism import Mechanism
 from mbs.simulation.standing_system import StandingSystem
+from mbs.system.compiled_model import CompiledModel
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -20,6 +22,8 @@ from mbs.vehicle.steering.steered import Steered
 ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
 LEAST_LENGTH = 0.4  # of the free length: a coil spring that is shorter is a block
 ODD_DEFLECTION = 0.005  # m: the same of a tyre's deflection
+FITTED = 1e-6  # m: of the free length with which a car stands as drawn
+WIDER = 5  # times that the range in which it is sought is doubled
 ODD_LEAN = math.radians(0.5)
 
 
@@ -38,6 +42,8 @@ class Rest:
     """By axle, m."""
     lean: float
     """Roll angle, rad, positive with the left side up."""
+    compiled: CompiledModel
+    """Of the car."""
 
     def faults(self, car: CarContent) -> Iterator[str]:
         """A sentence for each axle far from where it is drawn."""
@@ -69,9 +75,12 @@ class Rest:
             )
 
     def _moved(self, car: CarContent, low: float, high: float) -> Iterator[str]:
+        off = [name for name, travel in self.travel.items() if abs(travel) > low]
+        fitting = _fitting(self, car, off) if off else {}
         for name, axle in car.axles.items():
             travel = self.travel[name]
             if low < abs(travel) <= high:
+                fits = f": with {axle.spring.key('free_length')} = {fitting[name]:.6g} it is" if fitting else ""
                 spring = axle.spring
                 values = [f"{spring.key('free_length')} {spring.free_length:g} m"]
                 values += [f"stiffness {spring.stiffness:g} N/m"] if spring.stiffness is not None else []
@@ -79,7 +88,7 @@ class Rest:
                     f"at rest the {name} wheels stand {abs(travel):.3g} m {'higher' if travel > 0.0 else 'lower'} "
                     f"in the chassis than {axle.wheel.key('centre')} is drawn, at a load of {self.load[name]:.0f} N "
                     f"each and {abs(self.spring_force[name]):.0f} N in each spring ({', '.join(values)}); a car is "
-                    "drawn in its equilibrium."
+                    f"drawn in its equilibrium{fits}."
                 )
 
 
@@ -106,18 +115,49 @@ def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> 
     b.m.sense_vector("chassis.roll", AffineVector.constant(UP), [chassis.vector(UP), chassis.vector(LEFT)])
 
 
+def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, float]:
+    """Free lengths of the springs of axles, m, with which the car stands as drawn, found by Brent's method.
+
+    Empty: none were found.
+    """
+    from scipy.optimize import brentq  # takes long, and few cars are warned of
+
+    lengths = {car.axles[name].spring.key("free_length"): car.axles[name].spring.free_length for name in axles}
+    keys = dict(zip(axles, lengths, strict=True))
+
+    def travel(length: float, name: str) -> float:
+        sensors = StandingSystem(rest.compiled, lengths | {keys[name]: length}).sensors
+        return _mean(sensors, "wheel_{}.travel", name)
+
+    try:
+        for name in (*axles, *(axles if len(axles) > 1 else ())):  # one axle moves the other a little
+            begin = lengths[keys[name]]
+            off = travel(begin, name)
+            ends = [begin + 2.0**k * off for k in range(WIDER)]  # too low: shorter
+            end = next((x for x in ends if travel(x, name) * off < 0.0), None)
+            if end is None:
+                return {}
+            lengths[keys[name]] = float(brentq(travel, begin, end, args=(name,), xtol=FITTED))
+    except ModelError:
+        return {}
+    return {name: lengths[keys[name]] for name in axles}
+
+
+def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
+    """Of both wheels of an axle. `name`: of a sensor, with {} in the place of the wheel's."""
+    return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
+
+
 def settled(model: Mechanism, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium. `model`: of the car, with `rest_outputs`.
 
     Raises `ModelError`: its parts refuse a number, or it has no equilibrium.
     """
-    at_rest = StandingSystem(compiled(model)).sensors
-
-    def mean(name: str, axle: str) -> float:
-        return 0.5 * sum(at_rest[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
+    made = compiled(model)
+    at_rest = StandingSystem(made).sensors
 
     def means(name: str) -> dict[str, float]:
-        return {axle: mean(name, axle) for axle in car.axles}
+        return {axle: _mean(at_rest, name, axle) for axle in car.axles}
 
     return Rest(
         means("wheel_{}.travel"),
@@ -126,4 +166,5 @@ def settled(model: Mechanism, car: CarContent) -> Rest:
         means("wheel_{}.deflection"),
         means("spring_{}.length"),
         at_rest["chassis.roll"],
+        made,
     )

@@ -33,9 +33,9 @@ class Kinematics:
 
     car: str
     curves: dict[tuple[str, str], Curve]
-    """By axle and motion; "steer" of the front axle alone."""
+    """By axle, of those with links, and motion; "steer" of the front axle alone."""
     notes: tuple[str, ...]
-    """Sentences: where curves end early, where the range goes into the stops."""
+    """Sentences: where curves end early, where the range goes into the stops, which axle has no links."""
 
     def drawn(self, axle: str) -> dict[str, float]:
         """Values and gradients at the drawing, SI units.
@@ -45,8 +45,10 @@ class Kinematics:
         dict of str to float
             Of the left wheel and the axle, by the quantities' names; toe and camber of a right wheel that is set
             otherwise, as ``right_toe_angle``; those of roll from opposite travel, those of steering from the steer
-            curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock.
+            curve: ratio at straight ahead, angles, Ackermann and turning circle at full lock. Empty: it has no links.
         """
+        if (axle, "parallel") not in self.curves:
+            return {}
         parallel = self.curves[axle, "parallel"].drawn()
         found = {n.removesuffix("_left"): v for n, v in parallel.items() if not n.endswith("_right")}
         for name in ("toe_angle", "camber_angle"):
@@ -71,7 +73,7 @@ def kinematics(
     points: int = POINTS,
     progress: Callable[[float], None] | None = None,
 ) -> Kinematics:
-    """Wheel travel and steer curves of both axles with the chassis held and rigid, in SI units.
+    """Wheel travel and steer curves of the axles with links, the chassis held and rigid, in SI units.
 
     Parameters
     ----------
@@ -85,7 +87,7 @@ def kinematics(
     Raises
     ------
     ModelError
-        The travel does not span 0, or there are too few or too many points.
+        The travel does not span 0, there are too few or too many points, or no axle has links.
     """
     instance_of(Car, car, "The car of kinematics()", "a Car of mbs.vehicle.load()")
     low, high = checked_travel(travel)
@@ -94,7 +96,9 @@ def kinematics(
     both = min(-low, high)
     curves: dict[tuple[str, str], Curve] = {}
     notes: list[str] = []
-    for axle in ("front", "rear"):
+    if not car.linked_axles:
+        car.front.suspension.needs_links()
+    for axle in car.linked_axles:
         linkage = Linkage(car, axle)
         for motion in MOTIONS:
             ends = (-both, both) if motion == "opposite" else (low, high)
@@ -106,7 +110,8 @@ def kinematics(
             _tell(progress, len(curves))
         notes += stop_notes(linkage, curves[axle, "parallel"])
     ends_early = [note for curve in curves.values() for note in curve.notes]
-    return Kinematics(car.name, curves, (*ends_early, *notes))
+    unlinked = [axle.suspension.unlinked for axle in car.axles.values()]
+    return Kinematics(car.name, curves, (*ends_early, *notes, *filter(None, unlinked)))
 
 
 def wheel_by_rack(car: Car) -> WheelByRack:

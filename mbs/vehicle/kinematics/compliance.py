@@ -37,15 +37,15 @@ class Compliance:
     freedoms: int
     """Independent small motions that held wheels and steering leave; 0: nothing gives, and all values are zero."""
     values: dict[str, dict[str, float]]
-    """By axle; names as ``lateral_force.same.steer_angle``: the load, its sense on the right wheel, and the response:
-    steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or per N m. Of the axle
-    ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series."""
+    """By axle, of those with links; names as ``lateral_force.same.steer_angle``: the load, its sense on the right
+    wheel, and the response: steer_angle and inclination_angle, rad per N or per N m, contact_y and centre_x, m per N or
+    per N m. Of the axle ``wheel_rate`` and ``roll_wheel_rate``, N/m, with what gives in series."""
     sentence: str
     """Why nothing gives; empty where something does."""
 
 
 def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compliance:
-    """Compliance of both axles at the drawing, in SI units.
+    """Compliance of the axles with links at the drawing, in SI units.
 
     Parameters
     ----------
@@ -55,15 +55,15 @@ def compliance(car: Car, fidelity: Fidelity | int | str | None = None) -> Compli
     Raises
     ------
     ModelError
-        The car has no frame for the fidelity.
+        The car has no frame for the fidelity, or no axle with links.
     """
     instance_of(Car, car, "The car of compliance()", "a Car of mbs.vehicle.load()")
     chosen = fidelity_of(car, fidelity)
-    for part in (car.front, car.rear):
-        part.suspension.needs_links()
+    if not car.linked_axles:
+        car.front.suspension.needs_links()
     held = HeldCar(car, chosen)
     V, soft = held.flexibility(held.wheel_rows())
-    values = {axle: _responses(held, axle, V, soft) for axle in ("front", "rear")}
+    values = {axle: _responses(held, axle, V, soft) for axle in car.linked_axles}
     free, springs = held.flexibility(np.zeros((0, len(held.q))))
     for axle, found in values.items():
         found |= _rates(held, axle, free, springs)

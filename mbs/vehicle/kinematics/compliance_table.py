@@ -42,7 +42,7 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
         for sense in SENSES:
             for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
                 factor, unit = units[kind]
-                values = [found.values[axle][f"{load}.{sense}.{name}"] * factor for axle in ("front", "rear")]
+                values = _of_axles(found, f"{load}.{sense}.{name}", factor)
                 lines.append(
                     (
                         f"{_WORDS[load]}, {_SENSE[sense]}",
@@ -53,7 +53,7 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
                     )
                 )
     for name, words in (("wheel_rate", "wheel rate with what gives"), ("roll_wheel_rate", "the same in roll")):
-        values = [1e-3 * found.values[axle][name] for axle in ("front", "rear")]
+        values = _of_axles(found, name, 1e-3)
         lines.append(
             (
                 words,
@@ -64,6 +64,11 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
             )
         )
     return lines
+
+
+def _of_axles(found: Compliance, name: str, factor: float) -> list[float]:
+    """A value in front and behind; of an axle without links there is none."""
+    return [factor * found.values.get(axle, {}).get(name, math.nan) for axle in ("front", "rear")]
 
 
 def shown_number(value: float) -> str:

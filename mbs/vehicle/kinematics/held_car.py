@@ -42,7 +42,7 @@ class HeldWheel:
 
 
 def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[str, tuple[Body, Point]]]:
-    """The model, in which nothing holds the chassis yet, and carrier and centre as drawn of each wheel.
+    """The model, in which nothing holds the chassis yet, and carrier and centre as drawn of each wheel on links.
 
     `car`: without faults.
     """
@@ -59,9 +59,9 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
     def fixed(side: Side, point: Point) -> End:
         return b.chassis.body, point
 
-    steered = car.steering.build(b, car.rack_way)
     carriers: dict[str, tuple[Body, Point]] = {}
-    for axle, data, rod in (("front", car.front, steered.tie_rod), ("rear", car.rear, fixed)):
+    for axle, data in car.linked_axles.items():
+        rod = car.steering.build(b, car.rack_way).tie_rod if axle == "front" else fixed
         corners = data.corners(b, axle, rod)
         carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
     return m, b, carriers
@@ -77,14 +77,16 @@ class HeldCar(StandingModel):
     q : ndarray, shape (nq,)
         Coordinates.
     wheels : dict of str to HeldWheel
-        By name, FL, FR, RL and RR.
+        By name, FL, FR, RL and RR, of axles with links.
     """
 
     def __init__(self, car: Car, fidelity: Fidelity) -> None:
         m, b, carriers = held_model(car, fidelity)
         super().__init__(m)
         as_set = {
-            side.wheel: tuple(data.alignment.axes(side)) for axle, data in car.axles.items() for side in sides(axle)
+            side.wheel: tuple(data.alignment.axes(side))
+            for axle, data in car.linked_axles.items()
+            for side in sides(axle)
         }
         self._carriers = {
             name: (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING
 
+from ali3.chart_words import png_metadata
 from ali3.html_elements import document, element, picture, table
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance import Compliance
@@ -29,12 +30,14 @@ def page(found: Kinematics, gives: Compliance) -> str:
             (line if any(line[1:]) else line[:1] for line in (*rows(found), *compliance_rows(gives))),
         ),
     ]
-    for figure in (travel_figure(found, "front"), travel_figure(found, "rear"), steer_figure(found)):
+    figures = [travel_figure(found, axle) for axle, motion in found.curves if motion == "parallel"]
+    figures += [steer_figure(found) for _, motion in found.curves if motion == "steer"]
+    for figure in figures:
         parts.append(picture(_png(figure), figure.get_suptitle()))
     return document(title, parts)
 
 
 def _png(figure: Figure) -> bytes:
     out = io.BytesIO()
-    figure.savefig(out, format="png", dpi=110)
+    figure.savefig(out, format="png", dpi=110, metadata=png_metadata(figure))
     return out.getvalue()

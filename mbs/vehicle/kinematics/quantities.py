@@ -100,7 +100,7 @@ WHEEL_TRAVEL = (
 """Of each wheel on curves of wheel travel."""
 
 AXLE = (
-    _quantity("track_change", "length", "track change", "of the contact centres, from the drawing"),
+    _quantity("track_change", "length", "track change", "of both contact centres together, from the drawing"),
     _quantity("wheelbase_change", "length", "wheelbase change", "of the contact centres, mean of both sides"),
 )
 """Quantities of the axle on every curve."""

@@ -57,7 +57,8 @@ def report(options: argparse.Namespace) -> int:
     for curve in found.curves.values():
         write_curve(curve, folder / curve_file(curve))
     tables = []
-    for axle, rack in (("front", car.steering.full), ("rear", 0.0)):
+    for axle in car.linked_axles:
+        rack = car.steering.full if axle == "front" else 0.0
         if rack and car.steering.motion != RACK:
             kind = f"{car.steering.key('kind')} is '{car.steering.kind}'"
             print(f"note: no {axle}_table.csv, which is over the travel of a rack; {kind}.", file=sys.stderr)

@@ -80,7 +80,7 @@ def read_drive(file: Path, speed: float, inputs: Collection[str]) -> Drive:
     `file`: CSV with the column ``time``, s, and one of each input; linear in between; `speed`: at the start, m/s.
     Raises `FileError`: it is no such table; the message names file and fault.
     """
-    table = TextTable(file)
+    table = TextTable(file, known=("time",))
     if "time" not in table.names or len(table.names) < 2:
         raise table.error(f"{file} has no column 'time' and beside it one of an input, such as 'steering'.")
     unknown = [name for name in table.names if name != "time" and name not in inputs]

@@ -50,9 +50,9 @@ NEEDED = (
 )
 """Of each line there must be one; the first that is there is used."""
 OPTIONAL = ("spring_length", "damper_length", "anti_roll_bar_angle")
-LARGEST = {"m": 3.0, "rad": 1.6}
+LARGEST = 1.6  # rad
 STEEPEST = {"m": 1.0, "rad": 10.0}
-"""Per m of travel; more is no motion of a wheel but a wrong cell."""
+"""Per m of travel; more is no motion of a wheel but a wrong cell. Of both wheels together twice as much."""
 GEARED, LEVERED = 20.0, 10.0  # times as much over the travel of a rack; in springs and bars
 SAME = 1e-9  # m: two places of a table that are one
 FINEST = 200  # parts of a coordinate; a table with more is thinned
@@ -91,16 +91,18 @@ class CurveTable:
         return replace(self, travel=self.second, second=self.travel, columns=columns)
 
 
-def read_curves(folder: Path, name: str, key: str) -> CurveTable:
-    """Read the table of an axle. `key`: key path of the name, for messages.
+def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
+    """Read the table of an axle.
+
+    `key`: key path of the name, for messages; `size`: of the axle, m: no place or length of it changes by more.
 
     Raises `CarFileError`: there is no such file, or it is no such table; the message says what is missing.
     """
     what = f"{key} ({name})"
-    table = TextTable(beside(folder, name, key), CarFileError, what, units=True)
+    table = TextTable(beside(folder, name, key), CarFileError, what, known=(TRAVEL, f"{TRAVEL}_left"), units=True)
     given = dict(zip(table.names, table.values(finite=False).T, strict=True))
     used = [n for n in given if n in COLUMNS or (_base(n) in COLUMNS and _base(n) not in (RACK, OTHER))]
-    columns = {n: _in_si(what, n, table.units.get(n, ""), given[n]) for n in used}
+    columns = {n: _in_si(what, n, table.units.get(n, ""), given[n], size) for n in used}
     travel = _travel(what, given, columns)
     seconds = [n for n in (RACK, OTHER) if n in columns]
     if len(seconds) > 1:
@@ -155,7 +157,7 @@ def _check_sides(what: str, given: Iterable[str], columns: Mapping[str, Array]) 
             )
 
 
-def _in_si(what: str, name: str, unit: str, values: Array) -> Array:
+def _in_si(what: str, name: str, unit: str, values: Array, size: float) -> Array:
     base = _base(name)
     known = [u for u, (si, _) in UNITS.items() if si == COLUMNS[base]]
     if unit not in known:
@@ -164,12 +166,14 @@ def _in_si(what: str, name: str, unit: str, values: Array) -> Array:
             f"{' or '.join(known)}."
         )
     found = values * UNITS[unit][1]
-    far = float(np.max(np.abs(found), initial=0.0))
-    if not far <= LARGEST[COLUMNS[base]]:
-        raise CarFileError(
-            f"{what}, column {name} reaches {far:g} {COLUMNS[base]}; it must be within "
-            f"{LARGEST[COLUMNS[base]]:g} {COLUMNS[base]}."
-        )
+    if COLUMNS[base] == "m":  # whose origin is that of the rig
+        if not (change := float(np.ptp(found))) <= size:
+            raise CarFileError(
+                f"{what}, column {name} changes by {change:g} m from its least to its largest value; it must be less "
+                f"than {size:.3g} m, the way from the middle of the axle on the ground to the wheel centre."
+            )
+    elif not (far := float(np.max(np.abs(found), initial=0.0))) <= LARGEST:
+        raise CarFileError(f"{what}, column {name} reaches {far:g} rad; it must be within {LARGEST:g} rad.")
     return np.asarray(found)
 
 
@@ -221,6 +225,8 @@ def _check_rates(what: str, table: CurveTable) -> None:
             steepest = STEEPEST[unit] * (GEARED if name == RACK else 1.0)
             if _base(column) in OPTIONAL:
                 steepest *= LEVERED
+            if _base(column) == "track_change":
+                steepest *= 2.0
             if rates.max() > steepest:
                 at = points[np.unravel_index(np.argmax(rates), rates.shape)[axis]]
                 raise CarFileError(

@@ -11,7 +11,6 @@ from pydantic import Field, PrivateAttr
 from scipy.interpolate import CubicSpline
 
 from mbs.common.affine import Affine
-from mbs.common.errors import ModelError
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
 from mbs.model.drive_vocabulary import DriveVocabulary
@@ -61,14 +60,15 @@ class Curves(SuspensionSection):
 
     Columns, with units (m, mm, rad or deg) in the headings: `wheel_travel`, positive in bump; of an axle that steers
     `rack_travel`, positive to the left, of one whose wheels move each other `other_wheel_travel`; `wheel_centre_x` and
-    `wheel_centre_y`, or those of the contact centre, or `wheelbase_change` and `track_change` of both wheels;
-    `toe_angle` or `steer_angle`; `camber_angle` or `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier
-    about the wheel's axis, positive with the top forward, or `caster_angle`; if there are any `spring_length`,
-    `damper_length`, `anti_roll_bar_angle`. One row for each pair of travels, or of a rack those where one is 0. They
-    are those of the left wheel, which the right one mirrors, or of both with `_left` and `_right` behind the
-    names. A row of both is one place of the axle: `wheel_travel` is that of both wheels, or, where there is
-    `other_wheel_travel`, that of the left wheel, and `other_wheel_travel` that of the right one. All counts from the
-    row of no travel, the drawing, whose toe and camber stand in `alignment`.
+    `wheel_centre_y`, or those of the contact centre, or `wheelbase_change` and `track_change`, both of the contact
+    centres, the latter of both wheels together, twice that of one; `toe_angle` or `steer_angle`; `camber_angle` or
+    `inclination_angle`; `carrier_pitch_angle`, the turn of the carrier about the wheel's axis, positive with the top
+    forward, or `caster_angle`; if there are any `spring_length`, `damper_length`, `anti_roll_bar_angle`. One row for
+    each pair of travels, or of a rack those where one is 0. They are those of the left wheel, which the right one
+    mirrors, or of both with `_left` and `_right` behind the names. A row of both is one place of the axle:
+    `wheel_travel` is that of both wheels, or, where there is `other_wheel_travel`, that of the left wheel, and
+    `other_wheel_travel` that of the right one. All counts from the row of no travel, the drawing, whose toe and camber
+    stand in `alignment`.
     """
 
     kind: Literal["curves"]
@@ -94,11 +94,13 @@ class Curves(SuspensionSection):
     def open(self, folder: Path, centre: Point) -> None:
         """Read the table."""
         ahead = -1.0 if centre[0] < -LEAST_WHEELBASE else 1.0
-        self._table, self._hub = read_curves(folder, self.file, self.key("file")), Hub(centre, ahead)
+        self._table = read_curves(folder, self.file, self.key("file"), float(np.hypot(centre[1], centre[2])))
+        self._hub = Hub(centre, ahead)
 
-    def needs_links(self) -> None:
+    @property
+    def unlinked(self) -> str:
         """It has none."""
-        raise ModelError(
+        return (
             f"{self.key('kind')} is 'curves': the axle has no links whose curves or compliance could be found; "
             f"{self.file} has its curves."
         )

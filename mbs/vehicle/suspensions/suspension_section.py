@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import ClassVar, Literal
 
+from mbs.common.errors import ModelError
 from mbs.vehicle.quantities import Point
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import Stops
@@ -28,6 +29,13 @@ class SuspensionSection(Section):
 
     def needs_links(self) -> None:
         """Refuse what has no links. Raises `ModelError`: it has none."""
+        if not self.linked:
+            raise ModelError(self.unlinked)
+
+    @property
+    def unlinked(self) -> str:
+        """A sentence where there are no links, else empty."""
+        return ""
 
     @property
     def stop_left_out(self) -> str:

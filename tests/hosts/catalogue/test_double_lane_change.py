@@ -154,3 +154,11 @@ def test_a_car_that_does_not_reach_the_speed_is_told(prototype: TestedCar) -> No
     slow = double_lane_change.drive(prototype, _LAYOUTS[0], 240.0, next(iter(DRIVERS)))
     assert not slow.clean
     assert "the speed was not reached" in slow.why
+
+
+def test_a_value_at_a_place_is_none_where_the_car_did_not_come() -> None:
+    """The front is 2 m ahead of the centre: at 45 m the centre is at 43 m; at 60 m nothing was measured."""
+    driven = passage(60.0, 0.0)
+    assert driven.at("speed", 45.0) == pytest.approx(60.0 / 3.6 - 2.0 * 43.0 / 50.0, abs=0.01)
+    assert math.isnan(driven.at("speed", 60.0))
+    assert math.isnan(replace(driven, after=np.zeros(501, bool)).at("speed", 45.0))

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import hosts.catalogue
+from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.kept import keep
@@ -19,7 +20,6 @@ from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.task import Outcome, Task
 from hosts.common.errors import HostError
-from hosts.common.units import known_unit
 from hosts.measures.limits import read_limits
 from hosts.measures.measure import Limit, Measure
 

@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
 from hosts.compare.alignment import align
 from hosts.compare.comparison import compare
@@ -57,6 +58,30 @@ def test_intervals_hold_under_noise(curve: Curve) -> None:
     assert inside >= 34  # of 40; fewer than 34 has a probability of 0.3 % where it is 95 %
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("memory", [0.0, 0.97])
+def test_intervals_hold_where_a_start_is_measured_with_noise(memory: float) -> None:
+    """A rate, its integral and a speed whose start is off, as a log gives it: no clock runs fast for that."""
+    t, late, held, count = np.arange(0.0, END, 0.01), 0.02, 0, 60
+    rate = motion(t)
+    angle = np.cumsum(rate) * 0.01
+    parts = {"rate": rate, "angle": angle, "speed": 15.0 + 0.5 * np.sin(0.4 * t) + 0.05 * rate**2}
+    for seed in range(count):
+        random, pairs = np.random.default_rng(seed), []
+        for name, values in parts.items():
+            size = 0.03 * float(np.std(values))
+            off = size * random.normal(size=2) * {"rate": (0.0, 0.0), "angle": (1.0, 0.3), "speed": (1.0, 0.0)}[name]
+            noise = lfilter([math.sqrt(1.0 - memory**2)], [1.0, -memory], random.normal(size=len(t) + 500))[500:]
+            measured = np.interp(t - late, t, values) + off[0] + off[1] * t + size * noise
+            curve = Curve(Result([name], {name: "1"}, t, values[:, None], 0.0, END, 0, []), name)
+            pairs.append((Signal(name, name, "1", t[5:-5], measured[5:-5]), curve))
+        found = align(pairs, 0.5)
+        held += abs(found.delay - late) <= found.delay_error
+        assert not found.has_drift
+    print(f"\nmemory {memory:g}: intervals of 95 % hold in {held} of {count} logs")
+    assert held >= 54  # fewer have a probability of 2 % where it is 95 %
+
+
 def test_a_delay_in_common_is_that_of_both(curve: Curve) -> None:
     other = Signal("z", "z", "1", log_of(0.08, 0.0).time, log_of(0.08, 0.0).values)
     assert align([(log_of(0.08, 0.0), curve), (other, curve)], 0.5).delay == pytest.approx(0.08, abs=1e-5)
@@ -90,7 +115,7 @@ def test_of_a_periodic_signal_the_smallest_delay_is_taken_and_the_other_named() 
     assert "-0.4" in found.note or "0.6" in found.note
 
 
-@pytest.mark.parametrize(("drift", "told"), [(0.0, False), (3e-4, True), (-1e-3, True)])
+@pytest.mark.parametrize(("drift", "told"), [(0.0, False), (3e-3, True), (-3e-3, True)])
 def test_a_difference_of_the_model_in_many_signals_is_no_drift(curve: Curve, drift: float, told: bool) -> None:
     """Its drift is none of the clock: only what is explained tells. One that is not told leaves the delay alone."""
     t = np.arange(0.0, 19.5, 0.013)

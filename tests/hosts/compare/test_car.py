@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import functools
 import json
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -124,6 +125,29 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
     assert any(
         "turns as measured: the demand leads by what its follower of 10 Hz is late" in n for n in record["notes"]
     )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("column", "told"),
+    [
+        ("Lenkrad", ["The input 'Lenkrad' (steering) has the opposite sign", "chassis.wz and chassis.ay have"]),
+        ("ay", ["'ay' (chassis.ay) has the opposite sign of the simulation"]),
+    ],
+)
+def test_what_is_turned_is_told_and_not_what_it_moves(
+    car: Path, tmp_path: Path, column: str, told: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    file = log.with_suffix(".toml")
+    aliases, count = re.subn(f' = "{column}"', f' = {{ name = "{column}", factor = -1.0 }}', file.read_text("utf-8"))
+    assert count == 1
+    file.write_text(aliases, encoding="utf-8")
+    status, _ = compared(car, log)
+    assert status == 1
+    lines = [line for line in capsys.readouterr().out.splitlines() if "opposite sign" in line]
+    assert len(lines) == 1
+    assert all(words in lines[0] for words in told)
 
 
 @pytest.mark.slow

@@ -136,6 +136,7 @@ class TestCommand:
         [
             (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, "thousandths"),
             (lambda c: c | {"bob.x": -c["bob.x"]}, "has the opposite sign"),
+            (lambda c: c | {"bob.x": -c["bob.x"]}, "Or the input 'pull' (pull) has the opposite sign"),
             (lambda c: c | {"bob.x": np.degrees(c["bob.x"])}, "it looks like degrees"),
             (lambda c: c | {"bob.x": c["bob.x"] / 9.81}, "it looks like g"),
         ],

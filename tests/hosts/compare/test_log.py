@@ -84,6 +84,42 @@ def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: AliasedFm
     assert [note for note in log.notes if "99 N at 0.2 s" in note and note.startswith("1 sample of 'pull' (pull)")]
 
 
+def test_times_of_a_clock_and_over_midnight(fmu: AliasedFmu, tmp_path: Path) -> None:
+    begin, text = 86399.95, "time,pull,bob.x\n"
+    for k in range(ROWS):
+        t = (begin + 0.01 * k) % 86400.0
+        text += f"{int(t // 3600):02d}:{int(t // 60) % 60:02d}:{t % 60:06.3f},{0.5 * k},{0.001 * k}\n"
+    assert_read(read(fmu, tmp_path, text))
+    short = "".join(f"07:{0.01 * k:06.3f},{0.5 * k},{0.001 * k}\n" for k in range(ROWS))
+    assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + short))
+    with pytest.raises(HostError, match=r"line 4, column 'time': the time '7 h' is not written as 07:00\.000\.$"):
+        read(fmu, tmp_path, "time,pull,bob.x\n" + short.replace("07:00.020", "7 h"))
+
+
+@pytest.mark.parametrize(("time", "unit"), [("{t}", ""), ("{ms}", " [ms]")])
+def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: AliasedFmu, tmp_path: Path, time: str, unit: str) -> None:
+    """Empty lines are counted; a word among numbers is told as what it is."""
+    heading = f"time{unit},pull,bob.x\n"
+    lines = (heading + rows(time + ",{f},{x}")).splitlines()
+    again = [*lines[:4], "", heading.strip(), *lines[4:]]
+    with pytest.raises(HostError, match=r"log\.csv, line 6: the heading stands there again; cut the log there"):
+        read(fmu, tmp_path, "\n".join(again))
+    again[5] = "soon,1,2"
+    with pytest.raises(HostError, match=r"line 6, column 'time': the time 'soon' is no number"):
+        read(fmu, tmp_path, "\n".join(again))
+    again[5] = lines[3].rpartition(",")[0] + ",far"
+    with pytest.raises(HostError, match=r"line 6, column 'bob\.x': 'far' is no number"):
+        read(fmu, tmp_path, "\n".join(again))
+
+
+@pytest.mark.parametrize("form", ["{t} s,{f} N,{x} m", "{t}s;{f}N;{x}m", "{t},{f} N,{x} m"])
+def test_units_behind_numbers_are_told(fmu: AliasedFmu, tmp_path: Path, form: str) -> None:
+    mark = ";" if ";" in form else ","
+    text = mark.join(("time", "pull", "bob.x")) + "\n" + rows(form)
+    with pytest.raises(HostError, match=r"line 2.*: '0\.0 ?[sN]' has its unit behind its number; .* 'name \[[sN]\]'"):
+        read(fmu, tmp_path, text)
+
+
 def test_german_logger(fmu: AliasedFmu, tmp_path: Path) -> None:
     text = rows("{ms};{f};{x}").replace(".", ",")
     text = text.replace("\n", ";\n")  # many loggers end a row with a delimiter
@@ -103,6 +139,14 @@ def test_units_of_the_heading_and_of_the_aliases(fmu: AliasedFmu, tmp_path: Path
 def test_the_line_of_units_may_stand_above_that_of_the_names(fmu: AliasedFmu, tmp_path: Path) -> None:
     log = read(fmu, tmp_path, "ms,kN,m\ntime,pull,bob.x\n" + rows("{ms},{f},{x}"), "[file]\nunits = 1")
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
+
+
+@pytest.mark.parametrize("head", ["# time,pull,bob.x\n# s,kN,m\n", "time,pull,bob.x\n#s,kN,m\n"])
+def test_names_and_units_may_be_comments(fmu: AliasedFmu, tmp_path: Path, head: str) -> None:
+    log = read(fmu, tmp_path, head + rows("{t},{f},{x}"))
+    assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
+    remark = read(fmu, tmp_path, "#by,A.,Smith\ntime,pull,bob.x\n" + rows("{t},{f},{x}"))
+    assert remark.inputs["pull"].values == pytest.approx(0.5 * np.arange(ROWS))
 
 
 def test_factor_and_offset_are_those_of_other_alias_files(fmu: AliasedFmu, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from ali3.charts import save_pictures
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.log import Signal
-from hosts.compare.page import comparison_figure, write_summary
+from hosts.compare.page import comparison_figure
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
 from hosts.compare.words import common_sentence, common_words, table, with_unit
@@ -90,14 +90,6 @@ def test_the_picture_has_no_rating_that_is_none(comparison: Comparison, tmp_path
     save_pictures(figure, tmp_path / "a.b")
     assert sorted(f.name for f in tmp_path.iterdir()) == ["a.b.png", "a.b.svg"]
     plt.close(figure)
-
-
-def test_the_slide(comparison: Comparison, tmp_path: Path) -> None:
-    write_summary(comparison, None, "a drive", tmp_path / "log_summary")
-    text = (tmp_path / "log_summary.svg").read_text(encoding="utf-8")
-    assert "<!-- 0.573 -->" in text
-    assert "<!-- chassis.wz, deg/s -->" in text
-    assert "nan" not in text
 
 
 def test_a_number_without_a_unit_has_none() -> None:

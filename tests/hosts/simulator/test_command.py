@@ -19,6 +19,7 @@ from pathlib import Path
 import pytest
 
 from ali3 import bars
+from ali3.scene.scene import scene_errors
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -34,7 +35,6 @@ from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
 from hosts.simulator.headless import headless_driver, run_headless
 from hosts.simulator.preparation import Asked, prepare
-from viewer.scene import scene_errors
 
 TESTS = Path(__file__).parents[2]
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'

@@ -21,7 +21,6 @@ def frame_of(
     failed: Callable[[pd.DataFrame], Any] | None = None,
     manoeuvres: Sequence[str] = ("slalom",),
     log: Sequence[str] = (),
-    second_order: bool = False,
 ) -> pd.DataFrame:
     """A frame; with several manoeuvres the measures have a row for each."""
     points = len(next(iter(x.values())))
@@ -42,7 +41,7 @@ def frame_of(
         frame.loc[rows, list(measures)] = np.nan
     frame.attrs = {
         "study": "trial", "units": dict(units), "parameters": {name: {"log": name in log} for name in x},
-        "sampling": {"method": method, "second_order": second_order}, "seed": 7, "guid": "{1234}", "model": "Car",
+        "sampling": {"method": method}, "seed": 7, "guid": "{1234}", "model": "Car",
         "fmu": "Car.fmu", "versions": {"ali3": "0.1"}, "runs": count, "points": points, "measures": list(measures),
         "manoeuvres": list(manoeuvres), "limits": {}, "tests": [],
     }  # fmt: skip

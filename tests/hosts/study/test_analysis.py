@@ -7,12 +7,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from hosts.study.analysis.data import study_data
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import classes, main_effect
-from hosts.study.analysis.measure_section import indices_of
 from hosts.study.drawn_points import Saltelli
-from tests.hosts.study.frames import frame_of
 
 pytest.importorskip("SALib")
 NAMES = ("a", "b", "c")
@@ -54,12 +51,6 @@ def test_intervals_hold_the_truth_for_most_seeds(blocks: int) -> None:
         held.append([np.abs(found.first - FIRST) < found.first_conf, np.abs(found.total - TOTAL) < found.total_conf])
     assert np.mean(held) > 0.93
     assert np.mean(held, axis=0).min() > 0.75
-
-
-def test_an_older_study_of_the_second_order_says_why_it_has_no_indices() -> None:
-    x = np.random.default_rng(1).random((2, 600))
-    data = study_data(frame_of({"a": x[0], "b": x[1]}, {"y": x[0]}, {}, method="saltelli", second_order=True))
-    assert "runs for a second order, as this study has them" in str(indices_of(data, data.responses[0]))
 
 
 def test_rows_in_any_order_and_blocks_with_a_missing_run() -> None:

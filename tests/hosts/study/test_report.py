@@ -18,12 +18,9 @@ from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.indices import Indices
 from hosts.study.analysis.measure_section import indices_of
 from hosts.study.analysis.report import report_of
-from hosts.study.analysis.slide import limit_rows, main_response, write_study_slide
 from hosts.study.analysis.study_section import measures_section
 from hosts.study.analysis.summary_plots import plot_distribution, plot_indices, rank_correlations
 from hosts.study.analysis.tables import extremes, reasons, said, statistics
-from hosts.study.limits import shares
-from hosts.study.work import ALL
 from tests.hosts.study.frames import frame_of
 
 pytestmark = pytest.mark.drawn
@@ -63,8 +60,6 @@ def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
     assert {f.stem for f in files[1].glob("*.svg")} == {f.stem for f in files[1].glob("*.png")}
     for picture in files[1].glob("*.png"):
         assert len(np.unique(image.imread(picture)[..., :3].reshape(-1, 3), axis=0)) > 20
-    assert b"</svg>" in (tmp_path / "summary.svg").read_bytes()
-    assert image.imread(tmp_path / "summary.png").shape[:2] == (825, 1466)
     table = pd.read_csv(tmp_path / "analysis" / "effects.csv").set_index("parameter")
     # Class means of the stiffness differ by 9/10 of its range that is left; those of the surface by 2.
     assert table.loc["stiffness", "main_effect_span"] == pytest.approx(0.9 * 3.2, abs=0.8)
@@ -131,15 +126,6 @@ def test_units_are_those_of_the_field() -> None:
     assert data.responses[0].limits == pytest.approx((-np.inf, 18.0))
 
 
-def test_the_slide_shows_the_measure_with_a_limit() -> None:
-    x = np.linspace(1.0, 2.0, 20)
-    made = frame_of({"mass": x}, {"peak": x, "flat": np.ones(20), "roll": -x}, UNITS)
-    assert getattr(main_response(study_data(made)), "measure", "") == "peak"
-    made.attrs["limits"] = {name: {"min": 0.0, "max": None, "unit": "1"} for name in ("flat", "roll")}
-    assert getattr(main_response(study_data(made)), "measure", "") == "roll"
-    assert main_response(study_data(frame_of({"mass": x}, {"flat": np.ones(20)}, UNITS))) is None
-
-
 @pytest.mark.parametrize(
     ("method", "count", "title"),
     [
@@ -166,11 +152,6 @@ def test_one_parameter_has_no_indices_and_a_grid_no_percentiles(tmp_path: Path) 
     data = study_data(frame_of({"mass": [1.0, 2.0]}, {"peak": np.array([3.0, 4.0])}, UNITS, method="grid"))
     indices = indices_of(data, data.responses[0])
     assert indices == "No indices: mass alone is varied and makes all of the variance."
-    write_study_slide(data, indices, tmp_path)
-    text = (tmp_path / "summary.svg").read_text(encoding="utf-8")
-    assert "lowest" in text
-    assert "Distribution" not in text
-    assert "Sobol" not in text
 
 
 @pytest.mark.parametrize("method", ["grid", "latin_hypercube"])
@@ -183,17 +164,6 @@ def test_the_table_of_measures_has_percentiles_of_random_samples_alone(method: s
     assert [name in text for name in ("5 %", "95 %", "mean", "std")] == 4 * [method != "grid"]
     assert ("There are no percentiles: 20 runs of a grid, no random sample." in text) == (method == "grid")
     assert all(name in text for name in ("lowest", "median", "highest"))
-
-
-def test_the_slide_begins_with_all_limits_together() -> None:
-    """Of many rows the last ones are not shown."""
-    names = [f"m{k}" for k in range(20)]
-    x = np.linspace(0.0, 1.0, 20)
-    made = frame_of({"mass": x}, dict.fromkeys(names, x), dict.fromkeys(names, "m"))
-    made.attrs["limits"] = {name: {"min": None, "max": 0.5, "unit": "m"} for name in names}
-    rows = limit_rows(shares(made), study_data(made))
-    assert [row[0] for row in rows] == [ALL, *names]
-    assert rows[0][2] == "10 of 20 variants"
 
 
 def test_indices_that_are_noise_are_hollow_points() -> None:

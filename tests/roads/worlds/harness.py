@@ -75,7 +75,7 @@ def drawn(road, x, y):
 
     Returns (low, high).
     """
-    from viewer.base64_numbers import decoded
+    from ali3.scene.base64_numbers import decoded
 
     low, high = np.full(len(x), np.nan), np.full(len(x), np.nan)
     for patch in road["patches"]:

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import mbs
+from ali3.scene.base64_numbers import octets
+from ali3.scene.scene import scene_errors
 from mbs.roads import RoadFile
 from mbs.worlds.make_world import read_world
 from mbs.worlds.patches import BOUND
@@ -16,8 +18,6 @@ from mbs.worlds.terrain import Terrain
 from tests.quick import quick
 from tests.roads.worlds.harness import drawn, opened
 from tests.roads.worlds.test_proving_ground import FILE
-from viewer.base64_numbers import octets
-from viewer.scene import scene_errors
 
 PARTS = {
     "all": (-115.0, -260.0, 705.0, 240.0),

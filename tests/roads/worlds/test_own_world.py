@@ -133,7 +133,14 @@ def refused(tmp_path, text, course=COURSE):
         ("x,y\n1,2\n3\n", "line 3: 1 values where the heading has 2"),
         ("x,y\n1,2\n3,four\n", "line 3, column 'y': 'four' is not a number"),
         ("x,y\n1,2\n3,nan\n", "'nan' is not a finite number"),
-        ("x,height\n1,2\n", "column 'height'; known are x, y, z, width, bank"),
+        ("x,height\n1,2\n", "column 'height'; known are x, y, z, width, or right and left"),
+        ("# x,y,elevation\n1,2,3\n", "column 'elevation'; known are x, y, z, width, or right and left"),
+        ("x [km],y [km]\n1,2\n", "column 'x \\[km\\]'; known are"),
+        ("1,2,3,4,5\n", "has 5 columns without names, which are x, y, z, width .* heading above them. Known are x"),
+        ("x,y,w_tr_right_m\n1,2,3\n", "must have the widths right and left, both"),
+        ("x,y,left,right,width\n1,2,3,3,6\n", "both and no width beside them"),
+        ("x,y,left,right\n-40,0,6,-1\n40,0,6,6\n", "the width right of point 1 is -1 m; it must be 0 or more"),
+        ("x,y,left,right\n-9,0,3,3\n0,5,3,90\n9,0,3,90\n", "turns back before point 2; widths must change slowly"),
         ("x,z\n1,2\n", "must have a column x and a column y"),
         ("x,y,y\n1,2,2\n", "has the column 'y' twice"),
         ("x,y\n11.5756,48.1372\n11.5757,48.1373\n11.5758,48.1373\n", "in metres, not in degrees"),
@@ -219,6 +226,51 @@ def test_columns_of_a_course_without_names(tmp_path):
         "y": [2.0, 5.0],
         "z": [3.0, 6.0],
     }
+
+
+@pytest.mark.parametrize("heading", ["# x_m,y_m,w_tr_right_m,w_tr_left_m", "X [m],Y [m],Width Right,Width Left"])
+def test_widths_to_both_edges_move_the_line_between_them(tmp_path, heading):
+    """A circle against the clock: left is inside; both edges are circles about its centre."""
+    a = np.radians(np.arange(0.0, 360.0, 3.0))
+    rows = np.stack([30.0 * np.cos(a), 30.0 * np.sin(a), 5.0 + 0.0 * a, 2.0 + 0.0 * a], axis=1)
+    text = heading + "\n" + "".join(f"{x:.6f},{y:.6f},{r},{left}\n" for x, y, r, left in rows)
+    (tmp_path / "w.toml").write_text(WORLD + LAP + "closed = true\n", encoding="utf-8")
+    (tmp_path / "course.csv").write_text(text, encoding="utf-8")
+    terrain = Terrain(read_world(tmp_path / "w.toml"), tmp_path)
+    (layer,) = terrain.layers
+    assert np.hypot(*layer.line.points.T) == pytest.approx(31.5, abs=1e-3)
+    x = np.array([27.8, 28.2, 34.8, 35.2])
+    _, classes, _ = terrain.on_grid(x, np.zeros(1))
+    assert [terrain.names[k] for k in classes[:, 0]] == ["grass", "asphalt", "asphalt", "grass"]
+
+
+def test_the_bank_of_a_line_that_moves_keeps_its_height(tmp_path):
+    course = "x,y,z,right,left,bank\n" + "".join(f"{x},0,2,5,1,0.1\n" for x in range(-45, 46, 5))
+    (tmp_path / "w.toml").write_text(WORLD + LAP + "smoothing = 1.0\n", encoding="utf-8")
+    (tmp_path / "course.csv").write_text(course, encoding="utf-8")
+    terrain = Terrain(read_world(tmp_path / "w.toml"), tmp_path)
+    y = np.array([0.0, -2.0, -4.5])
+    assert terrain.at(np.zeros(3), y) == pytest.approx(2.0 - 0.1 * y, abs=1e-6)
+
+
+def test_a_course_that_climbs_like_no_road_is_told_before_it_is_made_and_when_it_is_kept(tmp_path, own_cache, capsys):
+    def course(height):
+        return "".join(f"{x},0,{height * np.sin(x / 4.0):.4f}\n" for x in range(-40, 41, 2))
+
+    (tmp_path / "w.toml").write_text(WORLD + LAP + "smoothing = 1.0\n", encoding="utf-8")
+    (tmp_path / "course.csv").write_text(course(2.0), encoding="utf-8")
+    for words in ("made: ", "kept from before: "):
+        assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
+        said = capsys.readouterr()
+        assert words in said.out
+        told = re.search(r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", said.err)
+        assert told
+        assert 45 <= int(told[1]) <= 50
+    first = said.err.splitlines()
+    assert len(first) == 1
+    (tmp_path / "course.csv").write_text(course(0.5), encoding="utf-8")
+    assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
+    assert "warning" not in capsys.readouterr().err
 
 
 def test_heights_widths_and_banks_of_a_course_file(tmp_path):

@@ -41,6 +41,7 @@ test("where nothing is computed nothing is claimed", () => {
   const body = new Bending({ ...BODY, computed: "on" });
   assert.equal(body.update((name) => ({ p: 1, q: 1, on: 0 })[name], 1), null);
   close(body.displaced[1], [1, 0, 0]);
+  for (const on of [NaN, undefined]) assert.equal(body.update((name) => ({ p: 1, q: 1, on })[name], 1), "on");
 });
 
 test("arrays of another length are refused", () => {

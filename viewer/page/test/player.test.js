@@ -38,16 +38,20 @@ test("a run is looked up at any time, quaternions as one", () => {
   const columns = {};
   const angle = [0, 3];
   const put = (name, data) => (columns[name] = { unit: "", data });
-  put("x", [0, 4]);
+  put("x", [0, 4, 90]);
   put("w", angle.map((a) => Math.cos(a / 2)));
   put("a", [0, 0]);
   put("b", [0, 0]);
   put("c", angle.map((a) => Math.sin(a / 2)));
-  const sampler = new Sampler({ scene: { frames }, t: [0, 2], columns });
+  const sampler = new Sampler({ scene: { frames }, t: [0, 2, 2.5], epoch: [0, 0, 1], columns });
   sampler.at(1);
   assert.equal(sampler.lookup("x"), 2);
   near(2 * Math.atan2(sampler.lookup("c"), sampler.lookup("w")), 1.5);
   assert.equal(sampler.lookup("nothing"), undefined);
+  sampler.at(2.4); // up to a reset it stands where it was last
+  assert.equal(sampler.lookup("x"), 4);
+  sampler.at(2.5);
+  assert.equal(sampler.lookup("x"), 90);
 });
 
 test("the clock plays, loops, stops at the end and says when it is behind", () => {
@@ -92,7 +96,7 @@ test("a page becomes runs", async () => {
   const run = {
     name: "run",
     scene: 0,
-    time: block(["time"], "f8", new Float64Array([0, 1])),
+    time: block(["time", "epoch"], "f8", new Float64Array([0, 1, 5, 6])),
     blocks: [block(["b", "a"], "f4", new Float32Array([1, 2, 3, 4]))],
     order: ["a", "b"],
     units: { a: "m" },
@@ -102,6 +106,7 @@ test("a page becomes runs", async () => {
   const { runs } = await decoded({ format: "ALi3 page", version: 1, scenes: [{ frames: {} }], runs: [run], options: {} });
   assert.deepEqual(Array.from(runs[0].columns.a.data), [3, 4]);
   assert.equal(runs[0].columns.a.unit, "m");
+  assert.deepEqual([runs[0].t, runs[0].epoch].map((numbers) => Array.from(numbers)), [[0, 1], [5, 6]]); // prettier-ignore
   assert.deepEqual(Object.keys(runs[0].columns), ["a", "b"]);
   await assert.rejects(decoded({ format: "other" }), /another format/);
 });

@@ -110,7 +110,8 @@ static int kerb_clearance(const double *p, const double point[3], ali3_clearance
     out[0].distance = corner;
     by_a = a / corner, by_b = b / corner;
   } else if (a > 0.0 && b > 0.0) {
-    out[0].distance = corner - a - b;
+    const double less = fmin(a, b); /* corner - a - b, of which nothing cancels where the edge is far away */
+    out[0].distance = less * less / (corner + fmax(a, b)) - less;
     by_a = a / corner - 1.0, by_b = b / corner - 1.0;
   }
   out[0].gradient[0] = -side * by_b;

@@ -22,7 +22,7 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
     in->report.failures++;
     return ALI3_WHEEL_IN_ROAD;
   }
-  if (in->system->n_tabled > 0 && ali3_tabled_left(in)) {
+  if (ali3_beyond_table(in, NULL, NULL) != ALI3_OK) {
     in->report.last_status = ALI3_BEYOND_TABLE;
     in->report.failures++;
     return ALI3_BEYOND_TABLE;

@@ -201,14 +201,28 @@ void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kineti
   }
 }
 
-bool ali3_tabled_left(const ali3_instance *in) {
+ali3_status ali3_beyond_table(const ali3_instance *in, int32_t *column, double value_and_ends[3]) {
+  ali3_status status = ALI3_OK;
+  double farthest = 1.0; /* spacing */
+  if (in == NULL) return ALI3_BAD_ARGUMENT;
+  if (column != NULL) *column = -1;
   for (int32_t i = 0; i < in->system->n_tabled; i++) {
     const ali3_tabled *c = in->system->tabled + i;
     for (int which = 0; which < 2 && c->count[which] > 1; which++) {
-      const double place = (in->now.q[c->param[which]] - c->axis[2 * which]) / c->axis[2 * which + 1];
-      if (!(place >= -1.0 && place <= c->count[which] - 2.0)) return true;
+      const double q = in->now.q[c->param[which]], first = c->axis[2 * which], spacing = c->axis[2 * which + 1];
+      const double last = c->count[which] - 3.0, place = (q - first) / spacing;
+      const double beyond = -place > place - last ? -place : place - last;
+      if (beyond <= farthest) continue;
+      farthest = beyond;
+      status = ALI3_BEYOND_TABLE;
+      if (column != NULL) *column = c->param[which];
+      if (value_and_ends != NULL) {
+        value_and_ends[0] = q;
+        value_and_ends[1] = first;
+        value_and_ends[2] = first + spacing * last;
+      }
     }
   }
-  return false;
+  return status;
 }
 #endif

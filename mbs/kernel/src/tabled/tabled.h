@@ -95,8 +95,6 @@ struct ali3_tabled_parameter_work {
   real own[12], turned[12]; /* sum of T J dT'/dp along Y, along the axes of the earth */
 };
 
-/* Whether a coordinate of in->now is beyond its table by more than a spacing: along a tangent a body is none there. */
-bool ali3_tabled_left(const ali3_instance *in);
 void ali3_tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
                        real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
 void ali3_tabled_prepare(const ali3_instance *in, const real *q);

@@ -6,13 +6,14 @@ import { cross, scale, subtract, unit } from "../scene/math.js";
 
 /**
  * Both edges of a ribbon, relative to its first point, and the ways to them from its middle.
- * @param {number[][]} points earth @param {number} half of its width, m @param {number[]} up unit vector
+ * @param {number[][]} points earth @param {ArrayLike<number>} epochs of each @param {number} half of its width, m @param {number[]} up unit vector
  * @returns {{edges: Float32Array, asides: Float32Array}} right and left of each point in turn; where nothing moves the
- *   ribbon keeps its direction
+ *   ribbon keeps its direction; another epoch has nothing to do with the one before
  */
-export function ribbonEdges(points, half, up) {
+export function ribbonEdges(points, epochs, half, up) {
   const [edges, asides] = [new Float32Array(6 * points.length), new Float32Array(6 * points.length)];
-  const sides = points.map((_, k) => unit(cross(up, subtract(points[Math.min(k + 1, points.length - 1)], points[Math.max(k - 1, 0)]))));
+  const beside = (k, other) => (epochs[other] === epochs[k] ? points[other] : points[k]);
+  const sides = points.map((_, k) => unit(cross(up, subtract(beside(k, k + 1), beside(k, k - 1)))));
   let side = sides.find((found) => found !== null) ?? [0, 1, 0];
   points.forEach((point, k) => {
     side = sides[k] ?? side;
@@ -26,22 +27,32 @@ export function ribbonEdges(points, half, up) {
   return { edges, asides };
 }
 
+/**
+ * Two triangles from each point of a ribbon to the next; without a size where another epoch begins.
+ * @param {ArrayLike<number>} epochs of the points @returns {number[]} indices of edges
+ */
+export function ribbonTriangles(epochs) {
+  const corners = [0, 2, 1, 1, 2, 3];
+  return Array.from({ length: epochs.length - 1 }, (_, k) => corners.map((corner) => 2 * k + (epochs[k] === epochs[k + 1] ? corner : 0))).flat();
+}
+
 /** A path that is known before it is driven, drawn up to an instant. */
 export class Path {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{times: ArrayLike<number>, points: number[][]}} way not decreasing times, and earth positions
+   * @param {{times: ArrayLike<number>, epochs: ArrayLike<number>, points: number[][]}} way not decreasing times, epochs between which
+   *   there is nothing, and earth positions
    * @param {{colour: string, width: number, opacity: number, least?: number, under?: number}} look width: m; least: pixels that it is
    *   wide, however far it is; without it, it becomes fainter there; under: how many paths are drawn over it
    */
-  constructor(view, { times, points }, { colour, width, opacity, least, under = 0 }) {
+  constructor(view, { times, epochs, points }, { colour, width, opacity, least, under = 0 }) {
     this.times = times;
     this.start = points[0];
     this.geometry = new THREE.BufferGeometry();
-    const { edges, asides } = ribbonEdges(points, width / 2, view.up);
+    const { edges, asides } = ribbonEdges(points, epochs, width / 2, view.up);
     this.geometry.setAttribute("position", new THREE.BufferAttribute(edges, 3));
     this.geometry.setAttribute("aside", new THREE.BufferAttribute(asides, 3));
-    this.geometry.setIndex(points.slice(1).flatMap((_, k) => [2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3]));
+    this.geometry.setIndex(ribbonTriangles(epochs));
     const viewport = { value: new THREE.Vector2(1, 1) };
     const look = { color: colour, opacity, toneMapped: false };
     const material = laid(`path-${view.up}-${least}`, MARKS, look, (shader) => widen(shader, viewport, { up: view.up, least, fainter: least === undefined }));

@@ -2,7 +2,7 @@
 import { bytesOf, gunzipped } from "../bytes.js";
 
 /**
- * @typedef {{scene: Data | null, t: Float64Array, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
+ * @typedef {{scene: Data | null, t: Float64Array, epoch: ArrayLike<number>, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
  *   name: string, notes: string[], missing: {name: string, why: string}[]}} Run
  */
 
@@ -40,13 +40,13 @@ export async function decoded(page) {
   }
   const runs = await Promise.all(
     page.runs.map(async (run) => {
-      const t = (await columnsOf(run.time)).get("time");
+      const times = await columnsOf(run.time);
       const found = new Map();
       for (const block of run.blocks) for (const [name, data] of await columnsOf(block)) found.set(name, data);
       const columns = Object.create(null);
       for (const name of run.order) columns[name] = { unit: run.units[name] ?? "", data: found.get(name) };
       const scene = run.scene === null ? null : page.scenes[run.scene];
-      return { scene, t, columns, name: run.name, notes: run.notes, missing: run.missing };
+      return { scene, t: times.get("time"), epoch: times.get("epoch"), columns, name: run.name, notes: run.notes, missing: run.missing };
     }),
   );
   return { runs, options: page.options };

@@ -56,7 +56,7 @@ export class Sampler {
   #share = 0;
   #turned = new Map();
 
-  /** @param {{scene: Data | null, t: ArrayLike<number>, columns: import("./decode.js").Run["columns"]}} run */
+  /** @param {{scene: Data | null, t: ArrayLike<number>, epoch: ArrayLike<number>, columns: import("./decode.js").Run["columns"]}} run */
   constructor(run) {
     this.run = run;
     /** Columns that are parts of a quaternion: [names of the four, which one]. */
@@ -70,7 +70,9 @@ export class Sampler {
 
   /** @param {number} t s */
   at(t) {
-    [this.#k, this.#share] = place(this.run.t, t);
+    const { t: times, epoch } = this.run;
+    [this.#k, this.#share] = place(times, t);
+    if (this.#share > 0 && epoch[this.#k] !== epoch[this.#k + 1]) this.#share = 0; // nothing moves from one epoch to the next
     this.#turned.clear();
   }
 

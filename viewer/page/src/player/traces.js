@@ -52,7 +52,7 @@ export class Traces {
       if (points.length < 2) return;
       const which = k === 0 ? 0 : 1;
       const look = { colour: tint || [BODY, WHEEL][which], width: (1 + under) * SHARES[which] * view.extent, opacity: OPACITIES[which], least: k === 0 ? (1 + under) * LEAST : undefined, under };
-      this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), points }, look));
+      this.paths.push(new Path(view, { times: at.map((i) => run.t[i]), epochs: at.map((i) => run.epoch[i]), points }, look));
     });
   }
 
@@ -63,11 +63,11 @@ export class Traces {
   update(time, index) {
     for (const path of this.paths) path.update(time, this.view.origin);
     if (this.marks === undefined) return;
+    const { t, epoch } = this.run;
     if (index < this.taken) this.taken = -1; // marks of later times go when an earlier one comes
-    for (let i = this.taken + 1; i < index; i++) this.marks.take(this.lookups(i), this.run.t[i], 0);
+    for (let i = this.taken + 1; i < index; i++) this.marks.take(this.lookups(i), t[i], epoch[i]);
     this.taken = index;
-    this.marks.update(this.lookups(index), this.run.t[index], 0);
-    this.dust.update(this.lookups(index), this.run.t[index], 0);
+    for (const part of [this.marks, this.dust]) part.update(this.lookups(index), t[index], epoch[index]);
   }
 
   /** @param {boolean} on the paths; marks and dust are part of the world */

@@ -39,9 +39,10 @@ export class Bending {
    *   the body is left as drawn
    */
   update(lookup, factor) {
-    if (lookup !== null && this.computed !== undefined && !(Math.abs(lookup(this.computed)) > 0)) {
+    const computed = lookup === null || this.computed === undefined ? 1 : lookup(this.computed);
+    if (!(Math.abs(computed) > 0)) {
       this.#displace(this.names.map(() => 0), factor);
-      return null;
+      return computed === 0 ? null : this.computed;
     }
     const amplitudes = this.names.map((name, i) => (lookup === null ? this.start[i] : lookup(name)));
     const absent = this.names.find((_, i) => !Number.isFinite(amplitudes[i]));

@@ -34,10 +34,10 @@ export class Legends {
 
 /**
  * The legend of stress colours.
- * @param {{known: boolean, most: number, unit: string, limit: number | null, limitName: string, factor: number}} state
+ * @param {{known: boolean, computed: boolean, most: number, unit: string, limit: number | null, limitName: string, factor: number}} state
  */
-export function stressLegend({ known, most, unit, limit, limitName, factor }) {
-  if (!known) return ["stress: not computed"];
+export function stressLegend({ known, computed, most, unit, limit, limitName, factor }) {
+  if (!known) return [computed ? "stress: no numbers" : "stress: not computed"];
   const [full, name] = parted(most, unit);
   const ticks = [0, 0.25, 0.5, 0.75, 1].map((level) => el("span", {}, String(Number((level * full).toPrecision(3)))));
   return [

@@ -186,7 +186,8 @@ export class SceneView {
     const stressed = flexible.filter(({ bending: { stress } }) => stress !== null);
     const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
     const known = stressed.some((body) => body.stressed);
-    const state = { known, most: bending.most || 1, unit: name, limit, limitName, factor: bending.factor };
+    const computed = stressed.some(({ absent }) => absent !== null);
+    const state = { known, computed, most: bending.most || 1, unit: name, limit, limitName, factor: bending.factor };
     this.legends.put("stress", stressed.length > 0 && bending.coloured && !this.parts.closed ? state : null, stressLegend);
     const units = [...new Set(arrows.now.map((force) => force.unit))];
     const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));

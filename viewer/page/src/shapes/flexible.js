@@ -50,7 +50,7 @@ export class Flexible {
     this.tubes.move(this.bending.displaced);
     if (this.absent === "") return "";
     const name = this.name;
-    if (this.absent === null) return `Deformation and stresses of '${name}' are not computed in this run.`;
+    if (this.absent === null) return `Deformation and stresses of '${name}' are not computed where the column '${this.bending.computed}' is 0.`;
     return `Deformation and stresses of '${name}' are not drawn where the column '${this.absent}' has no number.`;
   }
 

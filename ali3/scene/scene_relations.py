@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from ali3.columns import some_of
+from ali3.scene.base64_numbers import decoded, octets
+from ali3.scene.scene_parts import GROUND, anchors_of, frames_of
+from ali3.scene.scene_sentences import place
 from ali3.words import value_words
-from viewer.base64_numbers import decoded, octets
-from viewer.scene_parts import GROUND, anchors_of, frames_of
-from viewer.scene_sentences import place
 
 _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 

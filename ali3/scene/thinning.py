@@ -13,17 +13,18 @@ _FAR = 1e-3  # of the size of the scene: what a reader would see
 _TURNED = np.radians(1.0)
 
 
-def chosen_times(t: NDArray[np.float64], most: int) -> NDArray[np.intp]:
+def chosen_times(t: NDArray[np.float64], most: int, epoch: NDArray[np.float64]) -> NDArray[np.intp]:
     """Indices of at most so many times, the nearest to a uniform grid; the first and the last are among them.
 
     Both sides of a step are kept too, unless steps alone would be more than half of the times: between them nothing
     moves, the values jump.
 
-    `t`: in s, not decreasing, shape (n,); a time that stands twice is a step; `most`: 2 or more.
+    `t`: in s, not decreasing, shape (n,); a time that stands twice is a step; `most`: 2 or more; `epoch`: shape (n,);
+    where it changes is a step.
     """
     if len(t) <= most:
         return np.arange(len(t))
-    before = np.flatnonzero(t[1:] == t[:-1])
+    before = np.flatnonzero((t[1:] == t[:-1]) | (epoch[1:] != epoch[:-1]))
     steps = np.union1d(before, before + 1)
     if len(steps) > most // 2:
         steps = steps[:0]
@@ -35,7 +36,11 @@ def chosen_times(t: NDArray[np.float64], most: int) -> NDArray[np.intp]:
 
 
 def largest_gap_of_motion(
-    scene: Mapping[str, Any], t: NDArray[np.float64], columns: Mapping[str, NDArray[np.float64]], kept: NDArray[np.intp]
+    scene: Mapping[str, Any],
+    t: NDArray[np.float64],
+    columns: Mapping[str, NDArray[np.float64]],
+    kept: NDArray[np.intp],
+    epoch: NDArray[np.float64],
 ) -> str:
     """A sentence on how far the motion between the kept times is from the recorded one; empty if nobody would see it.
 
@@ -49,12 +54,14 @@ def largest_gap_of_motion(
         All values.
     kept : array of int
         Indices of the times that are kept.
+    epoch : array of shape (n,)
+        Where it changes between two kept times, the drawing stands still.
     """
     looked = np.unique(np.linspace(0, len(t) - 1, min(len(t), _LOOKED_AT)).astype(np.intp))
     left = np.clip(np.searchsorted(kept, looked, side="right") - 1, 0, len(kept) - 2)
     a, b = kept[left], kept[left + 1]
     step = t[b] - t[a]
-    share = np.divide(t[looked] - t[a], step, out=np.zeros(len(looked)), where=step > 0.0)
+    share = np.divide(t[looked] - t[a], step, out=np.zeros(len(looked)), where=(step > 0.0) & (epoch[a] == epoch[b]))
     far, turned, moves, turns = 0.0, 0.0, "", ""
     for name, frame in scene["frames"].items():
         if "position" in frame:

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from viewer.scene_values import Number, Part, Positive, Text, Vector, Whole
+from ali3.scene.scene_values import Number, Part, Positive, Text, Vector, Whole
 
 Colour = Literal["white", "yellow", "red", "blue", "black"]
 Points = Annotated[list[Vector], Field(min_length=2)]

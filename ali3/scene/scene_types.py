@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from viewer.road_types import AnyRoad
-from viewer.scene_values import (
+from ali3.scene.road_types import AnyRoad
+from ali3.scene.scene_values import (
     Anchor,
     Axes,
     Color,
@@ -27,7 +27,7 @@ from viewer.scene_values import (
     Vector,
     Whole,
 )
-from viewer.scenery_types import AnyScenery
+from ali3.scene.scenery_types import AnyScenery
 
 
 class MovingFrame(Part):

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from viewer.scene_values import Axes, Floats, Name, Number, Octets, Part, Positive, Text, Vector, Whole
+from ali3.scene.scene_values import Axes, Floats, Name, Number, Octets, Part, Positive, Text, Vector, Whole
 
 SurfaceClass = Literal["asphalt", "concrete", "grass", "gravel", "wet", "ice", "paint", "dirt"]
 """What a place of a terrain is made of; wet: asphalt under water; paint: of a kerb or a large mark."""

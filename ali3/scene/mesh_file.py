@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ali3.extras import missing_module
 from ali3.reader_stops import reader_stops
 from ali3.reading import check_file
-from viewer.errors import ViewerError
+from ali3.scene.errors import ViewerError
 
 if TYPE_CHECKING:
     import trimesh

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from viewer.scene_parts import GROUND, frames_of
+from ali3.scene.scene_parts import GROUND, frames_of
 
 
 def columns_of(part: Mapping[str, Any]) -> list[str]:

@@ -1,0 +1,47 @@
+"""What a chart shows, in words that its PNG carries: pictures of documents are held against what draws them."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_KEY = "Description"
+"""Of the keywords that PNG knows for texts."""
+
+
+def png_metadata(figure: Figure) -> dict[str, str | None]:
+    """What `Figure.savefig` takes as metadata of a PNG; the same figure gives the same bytes."""
+    return {"Software": None, _KEY: described(figure)}
+
+
+def described(figure: Figure) -> str:
+    """The title of a figure; then a line for each panel, with its axes and the labels of its curves, and for each text
+    in it; texts of the same height, as of a table, are one.
+    """
+    lines = [figure.get_suptitle()]
+    for axes in figure.axes:
+        lines += _panel(axes)
+    lines += [f"legend: {text.get_text()}" for legend in figure.legends for text in legend.get_texts()]
+    return "\n".join(" ".join(line.split()) for line in lines if line)
+
+
+def description_of(png: Path) -> str:
+    """The words that a PNG carries; empty without them."""
+    from PIL import Image
+
+    with Image.open(png) as picture:
+        return str(picture.info.get(_KEY, ""))
+
+
+def _panel(axes: Axes) -> list[str]:
+    title = " ".join(filter(None, map(axes.get_title, ("left", "center", "right"))))  # type: ignore[arg-type]
+    curves = axes.get_legend_handles_labels()[1]
+    parts = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
+    rows = groupby(axes.texts, lambda text: text.get_position()[1])
+    texts = [": ".join(filter(None, (text.get_text() for text in row))) for _, row in rows]
+    return ["; ".join(f"{name} {words}" for name, words in parts.items() if words), *filter(None, texts)]

@@ -1,0 +1,43 @@
+"""What draws recordings: pages, notebooks, glTF files, films."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any, Protocol, cast
+
+from ali3.scene.errors import ViewerError
+from ali3.scene.recording import Recording
+from ali3.scene.written import WrittenFilm, WrittenGltf, WrittenPage
+
+GROUP = "ali3.drawers"
+"""Of entry points; each names a module with the functions of `Drawer`."""
+
+
+class Drawer(Protocol):
+    """A module that draws; `viewer.drawer` says what its functions do and raise."""
+
+    def check_options(self, options: Mapping[str, Any], /) -> dict[str, Any]: ...
+
+    def html_of(self, recordings: Recording | Sequence[Recording], /, *, options: Mapping[str, Any] = ...) -> str: ...
+
+    def show(self, recordings: Sequence[Recording], options: Mapping[str, Any], /) -> Path: ...
+
+    def write_page(
+        self, path: str | os.PathLike[str], recordings: Sequence[Recording], /, *, options: Mapping[str, Any]
+    ) -> WrittenPage: ...
+
+    def write_gltf(self, path: str | os.PathLike[str], recording: Recording, /, **settings: Any) -> WrittenGltf: ...
+
+    def write_mp4(
+        self, path: str | os.PathLike[str], recordings: Sequence[Recording], /, **settings: Any
+    ) -> WrittenFilm: ...
+
+
+def drawer() -> Drawer:
+    """The drawer that is installed. Raises `ViewerError`: there is none."""
+    for point in entry_points(group=GROUP):
+        return cast(Drawer, point.load())
+    raise ViewerError('Nothing that draws is installed; pip install "ali3[viewer]" in the folder of its source.')

@@ -1,0 +1,262 @@
+"""A run as it is drawn: a scene, times and named columns; checked, and thinned to what a page carries."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ali3.scene.errors import ViewerError
+from ali3.scene.scene import check_scene, plain_scene
+from ali3.scene.scene_columns import drawable, pose_columns
+from ali3.scene.thinning import chosen_times, largest_gap_of_motion
+
+MOST_TIMES = 5001  # 10 s in steps of 2 ms
+_TURN = 2.0 * np.pi
+_NAMED = 4  # columns with the same gaps; the others are counted
+_LARGEST = 1e30  # of a pose; pictures and glTF hold floats of 32 bits
+
+
+class Recording:
+    """A run that can be drawn.
+
+    Parameters
+    ----------
+    scene : mapping, optional
+        In the format of `viewer/scene.schema.json`. Without one there are plots only.
+    t : array of shape (n,)
+        Times, s, not decreasing; a time that stands twice is a step.
+    columns : mapping of str to array of shape (n,)
+        Numbers over time, by name.
+    units : mapping of str to str, optional
+        Of the columns.
+    name : str
+        Of the run; by default that of the scene.
+    epoch : array of shape (n,), optional
+        Whole numbers, another one where the motion begins anew, as at a reset: nothing is drawn from one to the next.
+        By default it is one motion.
+
+    Attributes
+    ----------
+    scene : dict or None
+        None where the columns have none of its poses, which is told in `notes`. Else with what can be drawn: a part
+        whose columns are missing or hold no number is taken out and stands in `missing`.
+    missing : list of dict
+        ``name`` and ``why`` of what is not drawn.
+    notes : list of str
+        Sentences on what the reader of the page should know: gaps, thinning.
+
+    Raises
+    ------
+    SceneError
+        The scene is not of the format.
+    ViewerError
+        Times or columns are not what they must be; one sentence with the name and the value.
+    """
+
+    def __init__(
+        self,
+        scene: Mapping[str, Any] | None,
+        t: ArrayLike,
+        columns: Mapping[str, ArrayLike],
+        units: Mapping[str, str] | None = None,
+        name: str = "",
+        epoch: ArrayLike | None = None,
+    ) -> None:
+        if scene is not None:
+            check_scene(scene)
+        self.name = name or (str(scene["name"]) if scene is not None else "run")
+        self.t = _times(t)
+        self.epoch = np.zeros(len(self.t)) if epoch is None else _column("epoch", epoch, len(self.t))
+        self.columns = {str(key): _column(str(key), values, len(self.t)) for key, values in columns.items()}
+        self.units = {key: str((units or {}).get(key, "")) for key in self.columns}
+        self.scene: dict[str, Any] | None = None
+        self.missing: list[dict[str, str]] = []
+        self.notes: list[str] = []
+        if scene is None:
+            self._note_gaps(self.columns)
+        else:
+            self._take(plain_scene(scene))
+
+    def thinned(self, most: int = MOST_TIMES) -> Recording:
+        """This recording with at most so many times, uniform in time.
+
+        Parameters
+        ----------
+        most : int
+            2 or more.
+
+        Returns
+        -------
+        Recording
+            This one, if it has no more. Its `notes` say how many of how many times there are and, where that matters,
+            by how much a pose between them differs from the one that was recorded.
+
+        Raises
+        ------
+        ViewerError
+            `most` is no whole number from 2 on.
+        """
+        if not isinstance(most, (int, np.integer)) or isinstance(most, bool) or most < 2:
+            raise ViewerError(f"A recording was to be thinned to {most} times; it must be a whole number from 2 on.")
+        count = len(self.t)
+        if count <= most:
+            return self
+        kept = chosen_times(self.t, int(most), self.epoch)
+        made = object.__new__(Recording)
+        made.name, made.scene, made.units, made.missing = self.name, self.scene, self.units, self.missing
+        made.t, made.epoch = self.t[kept], self.epoch[kept]
+        made.columns = {name: values[kept] for name, values in self.columns.items()}
+        span = float(self.t[-1] - self.t[0])
+        note = f"{len(kept)} of {count} times are shown, one every {span / (len(kept) - 1):.2g} s."
+        if self.scene is not None:
+            note += largest_gap_of_motion(self.scene, self.t, self.columns, kept, self.epoch)
+        made.notes = [*self.notes, note]
+        return made
+
+    def between(self, begin: float, end: float) -> Recording:
+        """The part of this recording from one time to another.
+
+        Parameters
+        ----------
+        begin, end : float
+            s.
+
+        Raises
+        ------
+        ViewerError
+            There is no recorded time between them.
+        """
+        kept = (self.t >= begin) & (self.t <= end)
+        if not kept.any():
+            raise ViewerError(
+                f"There is no time from {begin:g} s to {end:g} s in {self.name!r}; it was recorded from "
+                f"{self.t[0]:g} s to {self.t[-1]:g} s."
+            )
+        made = object.__new__(Recording)
+        made.__dict__ |= self.__dict__ | {
+            "t": self.t[kept],
+            "epoch": self.epoch[kept],
+            "columns": {name: values[kept] for name, values in self.columns.items()},
+            "notes": list(self.notes),
+        }
+        return made
+
+    def __repr__(self) -> str:
+        span = f"{len(self.t)} times from {self.t[0]:g} s to {self.t[-1]:g} s"
+        told = "".join(f"\n  {note}" for note in self.notes)
+        told += "".join(f"\n  not drawn: {item['name']}: {item['why']}" for item in self.missing)
+        return f"Recording({self.name!r}, {span}, {len(self.columns)} columns){told}"
+
+    def _take(self, scene: dict[str, Any]) -> None:
+        """Take out of the scene what the columns do not move, and say so."""
+        wanted = pose_columns(scene)
+        if wanted and not any(name in self.columns for name in wanted):
+            self.notes.append(
+                f"{scene['name']} is not drawn: the result has none of its poses, such as the column '{wanted[0]}'; "
+                "its signals can be plotted."
+            )
+            self._note_gaps(self.columns)
+            return
+        for name in wanted:
+            self._cut(name)
+        empty = {name for name in wanted if name in self.columns and not _any_number(self.columns[name])}
+
+        def fault(name: str) -> str | None:
+            if name not in self.columns:
+                return f"the result has no column '{name}'"
+            return f"the column '{name}' holds no number" if name in empty else None
+
+        drawn, why = drawable(scene, fault)
+        self.missing = [dict(item) for item in scene.get("missing", [])]
+        self.missing += [{"name": name, "why": reason} for name, reason in why.items()]
+        frames = {key: self._started(frame) for key, frame in drawn["frames"].items()}
+        self.scene = drawn | {"frames": frames, "missing": self.missing}
+        self._note_gaps(name for name in pose_columns(drawn))
+        for frame in drawn["frames"].values():
+            if "angle" in frame:
+                self._unwrap(frame["angle"])
+
+    def _started(self, frame: dict[str, Any]) -> dict[str, Any]:
+        """A frame with a pose as drawn: where the scene has none, the first that was recorded."""
+        if "start" in frame or "position" not in frame:
+            return frame
+        names = [*frame["position"], *frame["quaternion"]]
+        good = np.logical_and.reduce([np.isfinite(self.columns[name]) for name in names])
+        if not good.any():
+            return frame
+        first = [float(self.columns[name][good.argmax()]) for name in names]
+        return frame | {"start": [first[:3], first[3:]]}
+
+    def _note_gaps(self, names: Any) -> None:
+        gaps: dict[bytes, list[str]] = {}
+        for name in names:
+            if (bad := ~np.isfinite(self.columns[name])).any():
+                gaps.setdefault(bad.tobytes(), []).append(name)
+        for mask, who in gaps.items():
+            bad = np.frombuffer(mask, bool)
+            more = f" and {len(who) - _NAMED} more" if len(who) > _NAMED else ""
+            listed = ", ".join(f"'{name}'" for name in who[:_NAMED]) + more
+            self.notes.append(
+                f"The column{'s' * (len(who) > 1)} {listed} {'have each' if len(who) > 1 else 'has'} {bad.sum()} of "
+                f"{len(self.t)} values that are no numbers, the first at {self.t[bad.argmax()]:g} s; there is nothing "
+                "drawn for them."
+            )
+
+    def _cut(self, name: str) -> None:
+        """Take out numbers of poses that no picture can hold, and say so."""
+        values = self.columns.get(name)
+        if values is None or not (wild := np.abs(values) > _LARGEST).any():
+            return
+        self.columns[name] = np.where(wild, np.nan, values)
+        self.notes.append(f"The column '{name}' has {int(wild.sum())} of {len(wild)} values beyond {_LARGEST:g}.")
+
+    def _unwrap(self, name: str) -> None:
+        """An angle that was given within one turn becomes continuous, so that it can be interpolated and thinned."""
+        angle = self.columns[name]
+        good = np.isfinite(angle)
+        if not good.any():
+            return
+        low, high = float(angle[good].min()), float(angle[good].max())
+        within = (low >= -0.5 * _TURN - 1e-6 and high <= 0.5 * _TURN + 1e-6) or (low >= -1e-6 and high <= _TURN + 1e-6)
+        values = angle[good]
+        if within and np.abs(np.diff(values)).max(initial=0.0) > 0.5 * _TURN:
+            self.columns[name] = angle.copy()
+            self.columns[name][good] = np.unwrap(values)
+            self.notes.append(f"The column '{name}' was given within one turn; it is shown as a continuous angle.")
+
+
+def _times(t: ArrayLike) -> NDArray[np.float64]:
+    try:
+        times = np.asarray(t, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ViewerError("The times of a recording are no numbers.") from None
+    if times.ndim != 1 or len(times) == 0:
+        raise ViewerError(
+            f"The times of a recording have the shape {times.shape}; it must be (n,) with n of 1 or more."
+        )
+    if not np.isfinite(times).all():
+        k = int((~np.isfinite(times)).argmax())
+        raise ViewerError(f"The times of a recording must be numbers; time {k} (from 0 on) is {times[k]}.")
+    back = np.diff(times) < 0.0
+    if back.any():
+        k = int(back.argmax())
+        raise ViewerError(f"The times of a recording go back from {times[k]:g} s to {times[k + 1]:g} s.")
+    return times
+
+
+def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
+    found = np.asarray(values)
+    if found.dtype.kind not in "fiub":
+        raise ViewerError(f"The column {name!r} holds no numbers, but {found.dtype}.")
+    if found.shape != (count,):
+        raise ViewerError(
+            f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},)."
+        )
+    return found.astype(np.float64, copy=False)
+
+
+def _any_number(values: NDArray[np.float64]) -> bool:
+    return bool(np.isfinite(values).any())

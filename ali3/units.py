@@ -1,0 +1,164 @@
+"""Units as data loggers, engineers and programs write them, in SI base units, and numbers with a unit behind them."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from collections import Counter
+from collections.abc import Callable
+
+from ali3.decimal_number import DECIMAL, number, parse_number, short
+from ali3.unit_definition import UnitDefinition
+
+_DEGREE, _INCH, _POUND_FORCE, _G = math.pi / 180.0, 0.0254, 4.4482216152605, 9.80665
+_ANGLE, _RATE, _LENGTH = {"rad": 1}, {"rad": 1, "s": -1}, {"m": 1}
+_SPEED, _ACCELERATION = {"m": 1, "s": -1}, {"m": 1, "s": -2}
+_FORCE, _TORQUE = {"kg": 1, "m": 1, "s": -2}, {"kg": 1, "m": 2, "s": -2}
+_PRESSURE, _POWER, _TIME = {"kg": 1, "m": -1, "s": -2}, {"kg": 1, "m": 2, "s": -3}, {"s": 1}
+
+UNITS: dict[str, tuple[dict[str, int], float, float]] = {
+    "1": ({}, 1.0, 0.0),
+    "%": ({}, 0.01, 0.0),
+    "rad": (_ANGLE, 1.0, 0.0),
+    "mrad": (_ANGLE, 1e-3, 0.0),
+    "deg": (_ANGLE, _DEGREE, 0.0),
+    "rad/s": (_RATE, 1.0, 0.0),
+    "mrad/s": (_RATE, 1e-3, 0.0),
+    "deg/s": (_RATE, _DEGREE, 0.0),
+    "rpm": (_RATE, math.pi / 30.0, 0.0),
+    "rad/s2": ({"rad": 1, "s": -2}, 1.0, 0.0),
+    "deg/s2": ({"rad": 1, "s": -2}, _DEGREE, 0.0),
+    "m": (_LENGTH, 1.0, 0.0),
+    "cm": (_LENGTH, 1e-2, 0.0),
+    "mm": (_LENGTH, 1e-3, 0.0),
+    "km": (_LENGTH, 1e3, 0.0),
+    "in": (_LENGTH, _INCH, 0.0),
+    "ft": (_LENGTH, 12.0 * _INCH, 0.0),
+    "m/s": (_SPEED, 1.0, 0.0),
+    "mm/s": (_SPEED, 1e-3, 0.0),
+    "km/h": (_SPEED, 1.0 / 3.6, 0.0),
+    "mph": (_SPEED, 0.44704, 0.0),
+    "kn": (_SPEED, 1852.0 / 3600.0, 0.0),
+    "m/s2": (_ACCELERATION, 1.0, 0.0),
+    "mm/s2": (_ACCELERATION, 1e-3, 0.0),
+    "g": (_ACCELERATION, _G, 0.0),
+    "mg": (_ACCELERATION, 1e-3 * _G, 0.0),
+    "N": (_FORCE, 1.0, 0.0),
+    "daN": (_FORCE, 10.0, 0.0),
+    "kN": (_FORCE, 1e3, 0.0),
+    "lbf": (_FORCE, _POUND_FORCE, 0.0),
+    "N.m": (_TORQUE, 1.0, 0.0),
+    "kN.m": (_TORQUE, 1e3, 0.0),
+    "lbf.ft": (_TORQUE, 12.0 * _INCH * _POUND_FORCE, 0.0),
+    "Pa": (_PRESSURE, 1.0, 0.0),
+    "hPa": (_PRESSURE, 1e2, 0.0),
+    "kPa": (_PRESSURE, 1e3, 0.0),
+    "MPa": (_PRESSURE, 1e6, 0.0),
+    "bar": (_PRESSURE, 1e5, 0.0),
+    "psi": (_PRESSURE, _POUND_FORCE / _INCH**2, 0.0),
+    "W": (_POWER, 1.0, 0.0),
+    "kW": (_POWER, 1e3, 0.0),
+    "J": (_TORQUE, 1.0, 0.0),
+    "kJ": (_TORQUE, 1e3, 0.0),
+    "kg": ({"kg": 1}, 1.0, 0.0),
+    "s": (_TIME, 1.0, 0.0),
+    "ms": (_TIME, 1e-3, 0.0),
+    "Hz": ({"s": -1}, 1.0, 0.0),
+    "K": ({"K": 1}, 1.0, 0.0),
+    "degC": ({"K": 1}, 1.0, 273.15),
+}
+OTHER_NAMES = {
+    "": "1", "-": "1", "none": "1", "percent": "%", "pct": "%", "°": "deg", "degree": "deg", "degrees": "deg",
+    "°/s": "deg/s", "deg/sec": "deg/s", "degree/s": "deg/s", "°/s2": "deg/s2",
+    "1/min": "rpm", "U/min": "rpm", "r/min": "rpm", "min-1": "rpm",
+    "meter": "m", "metre": "m", "kph": "km/h", "kmh": "km/h", "km/hr": "km/h", "knot": "kn", "knots": "kn",
+    "m/s/s": "m/s2", "m/sec2": "m/s2", "ms-2": "m/s2", "G": "g", "Nm": "N.m", "N*m": "N.m", "N m": "N.m", "kNm": "kN.m",
+    "g's": "g", "mbar": "hPa", "°C": "degC", "C": "degC", "sec": "s", "rad/sec": "rad/s", "kmph": "km/h",
+}  # fmt: skip
+
+
+def known_unit(text: str) -> UnitDefinition | None:
+    """A unit as written, or None where it is not known."""
+    name = plain_unit(text)
+    name = OTHER_NAMES.get(name, name)
+    if name not in UNITS:
+        return _compound(name)
+    exponents, factor, offset = UNITS[name]
+    return UnitDefinition(exponents, factor, offset)
+
+
+def _compound(text: str) -> UnitDefinition | None:
+    """Products and one quotient of known units, such as ``rad.s2/m``, ``deg/g`` or ``m/(s2.rad)``."""
+    above, slash, below = text.partition("/")
+    if slash and "." in below and not re.fullmatch(r"\([^()]*\)", below):
+        return None  # it could be meant either way
+    exponents, factor = Counter[str](), 1.0
+    for part, sign in ((above, 1), (below.strip("()"), -1)):
+        for word in part.split(".") if part else []:
+            found = re.fullmatch(r"(.*?[^\d]|1)(\d?)", word)
+            name = "" if found is None else OTHER_NAMES.get(found[1], found[1])
+            if found is None or name not in UNITS or UNITS[name][2]:
+                return None
+            power = sign * int(found[2] or 1)
+            factor *= UNITS[name][1] ** power
+            exponents.update({base: power * n for base, n in UNITS[name][0].items()})
+    return UnitDefinition({base: n for base, n in exponents.items() if n}, factor)
+
+
+def same_quantity(one: UnitDefinition, other: UnitDefinition) -> bool:
+    """Whether both measure the same; angles count as numbers."""
+    first, second = ({b: n for b, n in unit.exponents.items() if b != "rad"} for unit in (one, other))
+    return first == second
+
+
+def plain_unit(text: str) -> str:
+    """A unit without brackets, powers and products in one way."""
+    word = text.strip()
+    while word[:1] + word[-1:] in ("[]", "()") and len(word) > 1:
+        word = word[1:-1].strip()
+    for written, plain in (("²", "2"), ("^", ""), ("**", ""), ("·", "."), ("º", "°")):
+        word = word.replace(written, plain)
+    return word
+
+
+def number_with_unit(text: str, unit: str) -> float:
+    """A number of the command line in a unit.
+
+    `text`: a number in that unit, or one with another unit of the same quantity behind it, such as ``20kN/m`` where
+    the unit is N/m; `unit`: "" where it is not known. Raises `ValueError` with the text and what would be right, as the
+    rest of a sentence after a colon.
+    """
+    word = text.strip()
+    match = re.fullmatch(rf"(?P<number>[+-]?{DECIMAL})\s*(?P<unit>[A-Za-z%°].*)", word, re.ASCII)
+    try:
+        return parse_number(word)
+    except ValueError:
+        if match is None:
+            raise
+    own, given = known_unit(unit), known_unit(match["unit"])
+    if not unit or own is None:
+        raise ValueError(f"{short(word)} is not a number; write it without a unit, such as {match['number']}")
+    if given is None or given.exponents != own.exponents:
+        which = f"in {unit}, or with a unit of the same quantity behind it" if own.exponents else "without a unit"
+        raise ValueError(f"{short(word)} is not a number; write one {which}, such as {match['number']}{_example(unit)}")
+    return given.convert(parse_number(match["number"]), own)
+
+
+def _example(unit: str) -> str:
+    return "" if unit == "1" else unit
+
+
+def quantity(unit: str) -> Callable[[str], float]:
+    """The type of an option whose value is in a unit, for ``add_argument``; see `number_with_unit`."""
+
+    def converted(text: str) -> float:
+        try:
+            return number(text)
+        except argparse.ArgumentTypeError:
+            try:
+                return number_with_unit(text, unit)
+            except ValueError as error:
+                raise argparse.ArgumentTypeError(str(error)) from None
+
+    return converted

@@ -1,0 +1,71 @@
+"""Charts of the pages, each drawn again by what draws it there."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from contextlib import redirect_stdout
+from functools import partial
+from io import StringIO
+from pathlib import Path
+
+from ali3.chart_words import description_of
+from benchmarks.car.frame_pictures import draw_gauges
+from benchmarks.shared.figures import Again
+from hosts.fmu.built_fmu import fmu_of_scene
+from mbs.vehicle import load
+
+
+def charts(_: bool) -> list[Again]:
+    """All charts of `DRAWN`, as they are drawn now."""
+    made = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, draw in DRAWN.items():
+            file = Path(folder, name)
+            with redirect_stdout(StringIO()):
+                draw(file)
+            made.append(Again(f"docs/images/{name}", description_of(file), picture=file.read_bytes()))
+    return made
+
+
+def _prototype() -> Path:
+    return fmu_of_scene("prototype_car", lambda words: None)
+
+
+def _first_command(file: Path) -> None:
+    """The picture of README.md's first command."""
+    from hosts.run.command import main
+
+    out = file.with_suffix("")
+    if main([str(_prototype()), "--manoeuvre", "double_lane_change", "--out", str(out)]):
+        raise RuntimeError("The first command of README.md has refused steps.")
+    (picture,) = out.glob("*.png")
+    picture.rename(file)
+
+
+def _frame(car: str, file: Path) -> None:
+    draw_gauges(load(car), str(file))
+
+
+def _travel(file: Path) -> None:
+    from ali3.charts import save_picture
+    from mbs.vehicle.kinematics.car_kinematics import kinematics
+    from mbs.vehicle.kinematics.plots import travel_figure
+
+    save_picture(travel_figure(kinematics(load("hatchback")), "front"), file)
+
+
+def _map(file: Path) -> None:
+    from mbs.worlds.command import main
+
+    main(["--world", "proving_ground", "--out", str(file.parent), "--picture", str(file)])
+
+
+DRAWN: dict[str, Callable[[Path], None]] = {
+    "double_lane_change.png": _first_command,
+    "frame_gauges.png": partial(_frame, "prototype"),
+    "hatchback_frame.png": partial(_frame, "hatchback"),
+    "kinematics_hatchback.png": _travel,
+    "proving_ground.png": _map,
+}
+"""By name in docs/images, what draws it within seconds."""

@@ -1,0 +1,32 @@
+"""Tables of the pages that are made from the sources when the site is built, in place of a mark."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from sphinx.application import Sphinx
+from sphinx.errors import ExtensionError
+
+from mbs.kernel.read_headers import sensor_table
+from mbs.vehicle.reference import tables
+
+MARK = re.compile(r"<!-- made with the site: (.+) -->\n")
+MAKERS: dict[str, Callable[[], str]] = {"car file": tables, "sensors": sensor_table}
+
+
+def with_tables(app: Sphinx, page: str, source: list[str]) -> None:
+    """Put what is made in the place of its mark. Raises `ExtensionError`: nothing makes it."""
+
+    def made(mark: re.Match[str]) -> str:
+        if mark[1] not in MAKERS:
+            raise ExtensionError(f"{page}: nothing makes {mark[1]!r}; there are {', '.join(MAKERS)}.")
+        return MAKERS[mark[1]]() + "\n"
+
+    source[0] = MARK.sub(made, source[0])
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the hook."""
+    app.connect("source-read", with_tables)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

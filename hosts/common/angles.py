@@ -1,0 +1,34 @@
+"""What the difference of two angles is: angles that are whole turns apart are the same."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+# rad between neighbouring samples from which on a change is taken for a whole turn: a heading in a range of one turn
+# jumps by nearly a turn, and an angle that is not wrapped, such as that of a steering wheel, rarely moves so far.
+_JUMP = 1.5 * math.pi
+
+
+def continuous(angle: ArrayLike) -> NDArray[np.float64]:
+    """An angle over time without its jumps by whole turns.
+
+    `angle`: rad, shape (n,); what is not finite stays, and the samples around it are taken as neighbours.
+    """
+    made = np.array(angle, dtype=np.float64)
+    finite = np.isfinite(made)
+    made[finite] = np.unwrap(made[finite], discont=_JUMP)
+    return made
+
+
+def angle_difference(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+    """The first angle less the second over time: without jumps, and within half a turn at its first finite sample.
+
+    `first`, `second`: rad, shape (n,). That one of both has turned once more than the other in the meantime is told:
+    whole turns are left out of the start only.
+    """
+    apart = continuous(np.subtract(first, second))
+    begun = apart[np.isfinite(apart)][:1]
+    return np.asarray(apart - math.tau * np.round(begun / math.tau)) if len(begun) else apart

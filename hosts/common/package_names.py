@@ -1,0 +1,39 @@
+"""Names of what comes with the package, so that a misspelt one is told before anything is built for it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import ali3
+from ali3.near_names import did_you_mean
+from ali3.words import brief
+from hosts.common.errors import HostError
+
+_MBS = Path(ali3.__file__).parents[1] / "mbs"
+
+
+def check_car(given: Path) -> None:
+    """Refuse a word that is neither a file here nor the name of a car; `HostError` with a near name, or all."""
+    names = sorted(file.parent.name for file in (_MBS / "vehicle" / "cars").glob("*/car.toml"))
+    if not _is_there(given) and str(given) not in names:
+        _refuse("car", str(given), names)
+
+
+def check_world(given: str) -> None:
+    """Refuse a word that is neither a file here nor the name of a world or road; `HostError` as `check_car`."""
+    roads = (_MBS / "roads" / "files").glob("*.road")
+    names = sorted(file.stem for file in (*(_MBS / "worlds").glob("*.toml"), *roads))
+    if not _is_there(given) and given.removesuffix(".road") not in names:
+        _refuse("world", given, names)
+
+
+def _refuse(what: str, given: str, names: list[str]) -> None:
+    near = did_you_mean(given, names, f"the {what}s of the package are {', '.join(names)}", 1)
+    raise HostError(f"There is no {what} {brief(given)} and no such file{near}")
+
+
+def _is_there(given: str | Path) -> bool:
+    try:
+        return Path(given).exists()
+    except (OSError, ValueError):  # a name that no file can have
+        return False

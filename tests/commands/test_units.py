@@ -1,0 +1,110 @@
+"""Numbers of the command line with a unit behind them, and options that are misspelt."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+import pytest
+
+from ali3.options import Parser, add_option
+from ali3.units import number_with_unit, quantity
+from hosts.common.errors import HostError
+from hosts.common.package_names import check_car, check_world
+from hosts.fmu.variables import Variable
+from hosts.recordings.load_manoeuvre import check_asked
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("20kN/m", "N/m", 20e3),
+        ("20 N/mm", "N/m", 20e3),
+        ("2.5kN.s/m", "N.s/m", 2500.0),
+        ("10ms", "s", 0.01),
+        ("100mph", "m/s", 44.704),
+        ("-45deg", "rad", -math.pi / 4.0),
+        ("30%", "1", 0.3),
+        ("20degC", "K", 293.15),
+        ("1e3", "N", 1000.0),
+        ("1e3N", "N", 1000.0),
+        ("7", "", 7.0),
+    ],
+)
+def test_a_number_may_have_a_unit_of_its_quantity(text: str, unit: str, value: float) -> None:
+    assert number_with_unit(text, unit) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "words"),
+    [
+        ("20kN", "N/m", "'20kN' is not a number; write one in N/m, or with a unit .* behind it, such as 20N/m"),
+        ("3bananas", "s", "'3bananas' is not a number; write one in s"),
+        ("3m", "1", "'3m' is not a number; write one without a unit, such as 3$"),
+        ("3ms", "", "'3ms' is not a number; write it without a unit, such as 3$"),
+        ("abc", "s", "'abc' is not a number$"),
+        ("1_0", "s", "'1_0' is not a number$"),
+        ("nan", "s", "the value is nan"),
+    ],
+)
+def test_another_unit_is_told_with_how_it_is_written(text: str, unit: str, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        number_with_unit(text, unit)
+
+
+def test_only_the_command_line_takes_units() -> None:
+    stiffness = Variable("k", "", "parameter", "tunable", "Real", "N/m", 1.0, 0.0, 5e4, None, {}, {})
+    assert stiffness.read("20kN/m", "--set", with_unit=True) == 20e3
+    with pytest.raises(HostError, match="a table: 'k': '20kN/m' is not a number"):
+        stiffness.read("20kN/m", "a table")
+    with pytest.raises(HostError, match=r"--set: 'k' is 6e\+04 N/m|'k' is 60000 N/m"):
+        stiffness.read("60kN/m", "--set", with_unit=True)
+    assert quantity("s")("inf") == math.inf
+    with pytest.raises(argparse.ArgumentTypeError, match="write one in s"):
+        quantity("s")("10mm")
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        (["-manoeuvre", "slalom"], "unrecognized arguments: -manoeuvre; did you mean '--manoeuvre'?"),
+        (["--maneuver", "slalom"], "unrecognized arguments: --maneuver slalom; did you mean '--manoeuvre'?"),
+        (["--maneuver=slalom"], "unrecognized arguments: --maneuver=slalom; did you mean '--manoeuvre'?"),
+        (["--colour"], "unrecognized arguments: --colour\n"),
+        (["--step", "10mm"], "argument --step: '10mm' is not a number; write one in s"),
+    ],
+)
+def test_a_misspelt_option_is_told_with_the_near_one(
+    line: list[str], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    parser = Parser(prog="p")
+    for name in ("--manoeuvre", "--step"):
+        add_option(parser, name)
+    with pytest.raises(SystemExit):
+        parser.parse_args(line)
+    assert words in capsys.readouterr().err
+
+
+def test_options_of_one_letter_and_their_values_stay_what_they_are() -> None:
+    parser = Parser(prog="p")
+    for name in ("--manoeuvre", "--step"):
+        add_option(parser, name)
+    parser.add_argument("rest", nargs="*")
+    found = parser.parse_args(["-mslalom", "--step", "10ms", "--", "-manoeuvre"])
+    assert (found.manoeuvre, found.step, found.rest) == ("slalom", 0.01, ["-manoeuvre"])
+
+
+def test_misspelt_cars_worlds_and_manoeuvres_are_told_before_anything_is_made(tmp_path: Path) -> None:
+    for check, word, meant in (
+        (lambda word: check_car(Path(word)), "hatchbak", "hatchback"),
+        (check_world, "proving_grund", "proving_ground"),
+        (check_asked, "slalm", "slalom"),
+    ):
+        with pytest.raises(HostError, match=f"There is no .* '{word}'.*; did you mean '{meant}'"):
+            check(word)
+        check(meant)
+    with pytest.raises(HostError, match="the cars of the package are .*, prototype, saloon"):
+        check_car(Path("xyz"))
+    check_car(tmp_path)
+    check_asked(None)

@@ -1,0 +1,173 @@
+"""A manoeuvre that finds its throttle holds the speed of its start straight on, and says what became of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from fmpy.util import read_csv
+
+from hosts.common.errors import HostError
+from hosts.driving.co_simulation import run
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_file import read_manoeuvre
+from hosts.driving.write_manoeuvre import write_manoeuvre
+from hosts.fmu.fmu import StepRefusedError
+from hosts.run.command import main
+from hosts.run.run_summary import summary
+from hosts.simulator.headless import OfManoeuvre
+from hosts.study.job import Job
+from hosts.study.plan import job_digest
+
+H = 0.01
+PUSH, DRAG, ROLLING, TURN = 4.0, 1e-3, 0.1, 40.0
+
+
+class Slider:
+    """v' = push throttle - rolling - drag v2 - turn steering2, what the loop needs of an FMU; engines lag by 0.2 s."""
+
+    def __init__(self, push: float = PUSH, refused: float = 1e9) -> None:
+        self.path, self.messages, self.follows_slopes = Path("slider.fmu"), list[str](), False
+        self.tunable, self.push, self.refused, self.resets, self.starts = list[str](), push, refused, 0, 0
+        self._names = {"input": ["steering", "throttle"], "output": ["speed"], "parameter": ["initial.speed"]}
+        self.variables = {
+            n: SimpleNamespace(type="Real", variability="continuous", causality=c, unit="m/s")
+            for c, names in self._names.items()
+            for n in names
+        }
+        self._given = {"steering": 0.0, "throttle": 0.0}
+        self._speed, self._force = 0.0, 0.0
+
+    def names(self, causality: str) -> list[str]:
+        return self._names[causality]
+
+    def initialise(self, start: dict[str, Any], start_time: float = 0.0) -> None:
+        assert self.starts == self.resets, "a second start needs a reset"
+        self.starts += 1
+        self._speed, self._force = start.get("initial.speed", 0.0), 0.0
+
+    def reset(self) -> None:
+        self.resets += 1
+
+    def start_values(self, names: Sequence[str]) -> np.ndarray:
+        return np.zeros(len(names))
+
+    def setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        return lambda values: self._given.update(zip(names, values, strict=True))
+
+    def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        return lambda values: None
+
+    def reader(self, names: Sequence[str]) -> Callable[[np.ndarray], None]:
+        return lambda into: into.fill(self._speed)
+
+    def step(self, time: float, step: float) -> None:
+        if time > self.refused:
+            raise StepRefusedError("enough")
+        self._force += step / 0.2 * (self.push * self._given["throttle"] - self._force)
+        lost = ROLLING + DRAG * self._speed**2 + TURN * self._given["steering"] ** 2
+        self._speed += step * (self._force - lost)
+
+
+def asked(speed: float, steering: float = 0.0, stop: float = 6.0) -> Manoeuvre:
+    table = {"steering": np.array([0.0, 0.0, steering, steering])}
+    return Manoeuvre(
+        "m", np.array([0.0, 1.0, 1.1, 6.0]), table, stop, {"initial.speed": speed}, find_throttle=True
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("speed", [3.0, 22.22, 50.0])
+def test_the_throttle_is_that_of_the_resistance(speed: float) -> None:
+    fmu = Slider()
+    result = run(fmu, asked(speed), H)  # type: ignore[arg-type]
+    assert (fmu.starts, fmu.resets) == (2, 1)
+    assert np.ptp(result["throttle"]) == 0.0
+    assert result["throttle"][0] == pytest.approx((ROLLING + DRAG * speed**2) / PUSH, abs=0.003)
+    rows = dict(summary(result, H))
+    assert re.match(rf"0\.\d+, which holds {speed:.4g} m/s straight on; the speed changes by ", rows["throttle"])
+    assert "more than" not in rows["throttle"]
+
+
+@pytest.mark.parametrize(("steering", "told"), [(0.02, False), (0.07, True), (-0.1, True)])
+def test_a_change_above_3_per_cent_is_told_with_a_time_that_helps(steering: float, told: bool) -> None:
+    result = run(Slider(), asked(22.22, steering), H)  # type: ignore[arg-type]
+    change = result["speed"] / 22.22 - 1.0
+    assert (np.abs(change).max() > 0.03) == told == (dict(result.missed).get("throttle") is not None)
+    if told:
+        words = dict(result.missed)["throttle"]
+        assert f"changes by {100.0 * change[-1]:+.2g} %" in words
+        until = float(words.split("--stop-time ")[1].split(" ")[0])
+        again = run(Slider(), asked(22.22, steering, until), H)  # type: ignore[arg-type]
+        assert not again.missed
+        assert run(Slider(), asked(22.22, steering, until + 2 * H), H).missed  # type: ignore[arg-type]
+
+
+def test_what_cannot_be_held_is_refused_with_what_can() -> None:
+    with pytest.raises(HostError, match=r"which is 0 m/s; give one above 0, as --set initial\.speed"):
+        run(Slider(), asked(0.0), H)  # type: ignore[arg-type]
+    with pytest.raises(HostError, match=r"does not hold 80 m/s: after 30 s it is at [67]\d\.\d+ m/s with") as error:
+        run(Slider(), asked(80.0), H)  # type: ignore[arg-type]
+    lower = float(str(error.value).split("initial.speed=")[1].rstrip("."))
+    assert run(Slider(), asked(lower), H)["speed"][-1] == pytest.approx(lower, rel=0.01)  # type: ignore[arg-type]
+    with pytest.raises(HostError, match=r"the FMU refused the step at 1\.\d* s"):
+        run(Slider(refused=1.0), asked(20.0), H)  # type: ignore[arg-type]
+    bare = Slider()
+    del bare.variables["throttle"]
+    with pytest.raises(HostError, match="does not have: throttle"):
+        run(bare, asked(20.0), H)  # type: ignore[arg-type]
+
+
+def test_a_file_says_so(tmp_path: Path) -> None:
+    made = read_manoeuvre("step_steer")
+    assert made.find_throttle
+    assert "throttle" not in made.inputs
+    write_manoeuvre(made, tmp_path / "again.toml")
+    assert read_manoeuvre(str(tmp_path / "again.toml")).find_throttle
+    given = read_manoeuvre("step_steer_given_throttle")
+    assert not given.find_throttle
+    assert all(np.array_equal(given.inputs[n], values) for n, values in made.inputs.items())
+    jobs = [Job("m", m, step=H) for m in (made, replace(made, find_throttle=False))]
+    assert len({job_digest(job) for job in jobs}) == 2
+    for text, words in {
+        "find_throttle = 1": "find_throttle is 1; it must be true or false",
+        "find_throttle = true\n[driver]\nspeed = 1": r"with find_throttle there is no \[driver\]",
+        "find_throttle = true\n[inputs]\ntime = [0]\nthrottle = [1]": "there is no throttle in",
+    }.items():
+        (tmp_path / "m.toml").write_text(f"stop_time = 1.0\n{text}\n")
+        with pytest.raises(HostError, match=words):
+            read_manoeuvre(str(tmp_path / "m.toml"))
+
+
+def test_the_simulator_refuses_what_it_cannot_find() -> None:
+    car: Any = SimpleNamespace(inputs=["steering", "throttle", "brake"])
+    with pytest.raises(HostError, match=r"'step_steer' finds its throttle in a run before"):
+        OfManoeuvre(read_manoeuvre("step_steer"), car)
+    OfManoeuvre(read_manoeuvre("step_steer_given_throttle"), car)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("speed", [15.0, 22.22])
+def test_step_steer_keeps_its_speed_and_its_table_repeats_it(
+    speed: float, prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def drive(*more: str) -> tuple[Any, str]:
+        out = tmp_path / str(len(list(tmp_path.iterdir())))
+        assert main([str(prototype_fmu), *more, "--step", "0.01", "--out", str(out)]) == 0
+        return read_csv(next(out.glob("*.csv"))), capsys.readouterr().out
+
+    found, said = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
+    assert f"which holds {speed:.4g} m/s straight on" in said
+    assert "0.9 of --set has no effect" in said
+    before = found["time"] <= 1.0
+    assert found["speed"][before] == pytest.approx(speed, rel=0.002)
+    assert np.abs(found["speed"] / speed - 1.0).max() < 0.03
+    assert np.abs(found["chassis.ay"]).max() > 0.4 * 4.0
+    table = next((tmp_path / "0").glob("*.csv"))
+    again, _ = drive("-m", str(table))
+    assert all(np.array_equal(found[name], again[name]) for name in found.dtype.names)

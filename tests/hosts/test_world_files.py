@@ -1,0 +1,39 @@
+"""Worlds that hosts have made for them by the command."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from hosts.common.errors import HostError
+from hosts.common.world_files import make_world
+
+WORLD = 'kind = "world"\nname = "{name}"\nbounds = [-20.0, -20.0, 20.0, 20.0]\nspacing = [1.0, 1.0]\n'
+STEEP = '[[courses]]\nname = "hill"\npoints = "hill.csv"\nsmoothing = 1.0\nwidth = 3.0\nblend = 5.0\n'
+
+
+@pytest.mark.slow
+def test_a_description_has_a_name_of_its_own_and_what_the_command_warns_of_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
+    file = tmp_path / "other.toml"
+    rows = "".join(f"{x},0,{0.6 * (x + 15):.3f}\n" for x in range(-15, 16, 3))
+    (tmp_path / "hill.csv").write_text("# x, y, z\n" + rows, encoding="utf-8")
+    for name in ("mini", "maxi", "mini"):
+        file.write_text(WORLD.format(name=name) + STEEP, encoding="utf-8")
+        told: list[str] = []
+        world = make_world(str(file), told.append)
+        assert world.name == name
+        assert world.road is not None
+        assert json.loads(world.road.with_suffix(".json").read_text(encoding="utf-8"))["name"] == name
+        assert [line.partition(" at ")[0] for line in told if "warning" in line] == [
+            "warning: The course 'hill' climbs by 60 %"
+        ]
+    file.write_text('kind = "world"\nname = "mini"\nbounds = [0.0, 0.0, 0.0, 0.0]\n', encoding="utf-8")
+    told = []
+    with pytest.raises(HostError, match="bounds are"):
+        make_world(str(file), told.append)
+    assert not told
