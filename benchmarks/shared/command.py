@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 from ali3.files import write_text
 from ali3.running import run_command
+from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.pages import DOCS, Row, machine, replace
 from benchmarks.shared.tables import print_table, write_json
@@ -150,7 +151,12 @@ def write_blocks(pages: Sequence[str], blocks: Mapping[str, str]) -> None:
     """Put tables between their marks on pages of `docs/`; all else stays."""
     for page in pages:
         file = DOCS / page
-        write_text(file, replace(file.read_text(encoding="utf-8"), blocks))
+        text = file.read_text(encoding="utf-8")
+        for name, content in blocks.items():
+            before, now = (len(rows_of(part)) for part in (between(text, name), content))
+            if now < before:
+                print(f"The table '{name}' has {now} rows now and had {before}: leave --only and --quick out for all.")
+        write_text(file, replace(text, blocks))
         print(f"written: {file}")
 
 

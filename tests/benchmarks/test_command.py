@@ -76,6 +76,10 @@ def test_rows_are_printed_written_drawn_and_put_into_the_page(tmp_path, capsys, 
     assert "| b | 0.2 |" in text
     assert f"numpy {np.__version__}" in text.partition("machine some")[2]
     assert text.startswith("x\n")
+    assert "rows now and had" not in printed
+    assert run("it", "Text.", PARTS, ["some", "--write"]) == 0
+    assert run("it", "Text.", PARTS, ["some", "--only", "a", "--write"]) == 0
+    assert "The table 'steps' has 1 rows now and had 2" in capsys.readouterr().out
 
 
 def test_rows_of_earlier_runs_are_taken_together(tmp_path, capsys):
