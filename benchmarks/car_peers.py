@@ -13,6 +13,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import sys
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, TypeAlias
@@ -20,10 +21,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.running import run_command
 from benchmarks.car import lanes, manoeuvres, rig
-from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.tables import print_table
+from benchmarks.shared.command import Part, run, say_missing, watched
+from benchmarks.shared.pages import Row, table
 from mbs import Trajectory, compile, simulate
 from mbs.scenes import prototype_car
 from mbs.vehicle import Car, load
@@ -33,6 +33,7 @@ Drive: TypeAlias = Callable[[], tuple[tuple[Array, Array], float]]
 """Gives the yaw rate and the speed of a car, and the seconds that a core took for all of them."""
 SCENES = (("slalom", "slalom", 0.005), ("lane change", "double_lane_change_replay", 0.01))
 FIDELITIES = {"links": 0, "tables": 10}
+OURS = {"links": "with links", "tables": "by tables"}
 ROUNDS = 3
 PEERS = {"MuJoCo": ("mujoco",), "Exudyn": ("exudyn",), "CommonRoad": ("numba", "vehiclemodels")}
 """Cars of other programs and the modules that they need."""
@@ -55,30 +56,21 @@ and, at the speed of the start, their cornering stiffness. Its wheels rise uprig
 grows in proportion to slip and load up to a limit. It has no links, no drive and no air.""",
     "CommonRoad": """CommonRoad's car is a BMW 320i of 1093 kg with axles that roll and rise on springs, 29 states and
 tyres by the Magic Formula without relaxation. It coasts; a step is four evaluations (Runge and Kutta's rule).""",
-    "GPU": """Not here: a batch on a GPU. Published are 19 250 steps a second for PhysX's cars on one, 52 us a step: a
-GPU in place of a core, with other tyres and roads.""",
 }
 """What the figures say and do not say."""
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    parser = parser_of("car_peers", __doc__)
-    options = parser.parse_args(arguments)
+def _rows(options: Namespace) -> list[dict[str, Any]]:
     missing = [car for car, needs in PEERS.items() if not all(importlib.util.find_spec(module) for module in needs)]
     for car in missing:
-        needs = " and ".join(PEERS[car])
-        print(f"{needs} not installed: {car}'s car is left out (python -m pip install 'ali3[peers]')")
+        say_missing(f"{car}'s car: {' and '.join(PEERS[car])} not installed (python -m pip install 'ali3[peers]')")
+    there = [car for car in PEERS if car not in missing]
+    return [row for scene in watched(SCENES) for row in measure(*scene, peers=there)]
 
-    def work() -> int:
-        there = [car for car in PEERS if car not in missing]
-        rows = [row for scene in watched(SCENES) for row in measure(*scene, peers=there)]
-        print_table(rows, COLUMNS)
-        print("\n" + "\n".join(words for car, words in WORDS.items() if car not in missing))
-        save_rows(options.json, "car_peers", rows, repeats=ROUNDS, missing_peers=missing)
-        return 0
 
-    return run_command(work)
+def _words(rows: Sequence[Row]) -> str:
+    cars = {"", *(row["car"] for row in rows)}
+    return "\n".join(words for car, words in WORDS.items() if car in cars)
 
 
 def measure(
@@ -100,8 +92,8 @@ def measure(
             for row in lanes.measure(scene, h, partial(lanes.varied_cars, name, fidelity), seconds):
                 take(kind, row["way"], row["us_a_step"])
         for car, ways in measured.items():
-            for way, run in ways.items():
-                moved[car], used = run()
+            for way, drive in ways.items():
+                moved[car], used = drive()
                 take(car, way, 1e6 * used / (lanes.CARS * len(angles)))
     return [
         {
@@ -170,6 +162,29 @@ def _run(name: str, h: float, fidelity: int, seconds: float) -> Trajectory:
     inputs = manoeuvres.inputs_of(manoeuvre, system)
     return simulate(system, seconds, h, inputs, parameters=parameters, pose=pose, estimate_error=False, progress=False)
 
+
+def peer_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """us of a core for a step by car, way and scene."""
+    lines: dict[tuple[str, str], dict[str, Any]] = {}
+    for row in rows:
+        line = lines.setdefault((row["car"], row["way"]), {"car": OURS.get(row["car"], row["car"]), "way": row["way"]})
+        line[lanes.scene_of(row)] = row["us_a_step"]
+    columns = {"car": "", "way": ""} | dict.fromkeys(map(lanes.scene_of, rows), ".1f")
+    return {"car peers": table(list(lines.values()), columns)}
+
+
+PARTS = {
+    "car peers": Part(
+        "cars of other programs beside the prototype",
+        _rows,
+        COLUMNS,
+        pages=("speed.md",),
+        blocks=peer_blocks,
+        words=_words,
+    )
+}
+
+main = partial(run, "car_peers", __doc__, PARTS)
 
 if __name__ == "__main__":
     sys.exit(main())

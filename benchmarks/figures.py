@@ -1,9 +1,9 @@
-"""Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT] [--write]``.
+"""Hold figures of the pages against new ones: ``python -m benchmarks.figures [--only TEXT] [--write] [--variables]``.
 
 Counts and errors of a part of the tables are made again, in a minute or two; times are not compared. Each difference is
 a sentence with the page, the table, the row and both figures, and the exit code is 1. Charts that are drawn in seconds
-are drawn again, and their words compared: titles, axes, curves, summaries. What the whole commands measure is written
-into the pages by `python -m benchmarks.pages`; tables that no other command makes, and these charts, with ``--write``.
+are drawn again, and their words compared: titles, axes, curves, summaries. What the other commands measure they write
+into the pages themselves; tables that no other command makes, and these charts, are written here.
 """
 
 from __future__ import annotations
@@ -24,19 +24,18 @@ from benchmarks.car import (
     frame_tables,
     road_faces,
     sampled_roads,
+    scene_instructions,
     tabled_cars,
     trust,
-    tyre_formulas,
+    variable_tables,
 )
 from benchmarks.car.frame_stiffness import stiffness
-from benchmarks.car.measures import measure, measure_table
-from benchmarks.car.pages import HELD, car_blocks, error_table, instruction_blocks
-from benchmarks.charts_again import charts
-from benchmarks.methods import honesty, naive, pages, stability, stability_margins
+from benchmarks.car.measures import measure, measure_rows, measure_table
+from benchmarks.methods import honesty, naive, stability, stability_margins
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
-from benchmarks.paper.pages import four_bar_blocks, puma_blocks
-from benchmarks.shared.command import watched
+from benchmarks.pictures.charts_again import charts
+from benchmarks.shared.command import watched, write_blocks
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
 from benchmarks.shared.pages import DOCS, table
 from benchmarks.shared.warned import wrong_on_purpose
@@ -50,22 +49,20 @@ from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.kinematics.table import TITLED, rows
 
 SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/stability.md"
-INSTRUCTIONS = DOCS.parent / "benchmarks" / "data" / "instructions.json"
 
 
 def paper_table_1() -> list[Again]:
     """Energy, iterations and position errors of the double four-bar at four of its steps."""
     system = mbs.compile(four_bar_scene.build(2))
     rows = [double_four_bar.measure(system, 2, "ALi3-P", h, 0.0) for h in (0.05, 0.03, 0.01, 0.005)]
-    blocks = four_bar_blocks({"rows": rows, "meta": {"paper_table_1": double_four_bar.PAPER_ROWS}})
-    return [Again(PAPER, blocks["table 1"], "table 1", ("h s",), ("ours ms",))]
+    return [Again(PAPER, double_four_bar.four_bar_blocks(rows)["table 1"], "table 1", ("h s",), ("ours ms",))]
 
 
 def paper_table_2() -> list[Again]:
     """Errors of the PUMA with the default and the two most exact methods."""
     system = mbs.compile(puma_scene.build())
     runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
-    block = puma_blocks({"rows": [puma.measure(system, method, h, 1) for method, h in runs]})["table 2"]
+    block = puma.puma_blocks([puma.measure(system, method, h, 1) for method, h in runs])["table 2"]
     return [Again(PAPER, block, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
 
 
@@ -75,7 +72,7 @@ def stability_map() -> list[Again]:
     steps = stability.steps_of("double_four_bar", 10.0 / 0.0009)
     points = [(m, h, e) for m in ("ali3p", "energy_momentum") for h in steps for e in eps]
     rows = [stability.kernel_point("double_four_bar", *point) for point in points]
-    text = pages.margin_table(stability_margins.margins(rows))
+    text = stability_margins.margin_table(stability_margins.margins(rows))
     below = ("smallest fine h s", "decades below", "decades above")  # of the smaller steps, too
     return [Again(STABILITY, text, "margins", ("scene", "method"), below)]
 
@@ -88,18 +85,16 @@ def honest_crank() -> list[Again]:
     coarse = [honesty.measure("printed_crank_slider", "ali3p", h) for h in (0.002, 0.001)]
     fine = [honesty.measure("printed_crank_slider", "ali3p", 2e-5)]
     return [
-        Again(page, pages.crank_table(coarse), "honesty crank", key, chaotic),
-        Again(page, pages.crank_table(fine), "honesty crank", key),
+        Again(page, honesty.crank_table(coarse), "honesty crank", key, chaotic),
+        Again(page, honesty.crank_table(fine), "honesty crank", key),
     ]
 
 
 def trusted() -> list[Again]:
     """The tables of the page of trust."""
     keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
-    return [
-        Again("docs/trust.md", text, f"trust {name}", keys[name])
-        for name, text in ((n, trust.trust_blocks(rows)[f"trust {n}"]) for rows in (trust.measure(),) for n in keys)
-    ]
+    made = trust.trust_blocks(trust.measure())
+    return [Again("docs/trust.md", made[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
 def car() -> list[Again]:
@@ -113,15 +108,15 @@ def car() -> list[Again]:
     ]
     keys = ("manoeuvre", "h, ms")
     return [
-        Again(SPEED, car_blocks(rows)["car"], "car", keys, HELD),
-        Again("docs/cars.md", error_table(hatchback), "hatchback", keys),
+        Again(SPEED, accuracy.car_blocks(rows)["car"], "car", keys, accuracy.HELD),
+        Again("docs/cars.md", accuracy.error_table(hatchback), "hatchback", keys, accuracy.TIMES),
     ]
 
 
 def handled() -> list[Again]:
     """Ride, understeer and performance of two cars."""
     measured = {name: measure(load(name)) for name in ("hatchback", "prototype")}
-    return [Again("docs/cars.md", measure_table(measured), "handling", ("measure",))]
+    return [Again("docs/cars.md", measure_table(measure_rows(measured)), "handling", ("measure",))]
 
 
 def drawn() -> list[Again]:
@@ -157,21 +152,20 @@ def flexible() -> list[Again]:
     ]
 
 
-def roads_and_tyres() -> list[Again]:
-    """Loads of a wheel at steps of a road and of answers on it, and errors of fits of tyres."""
+def roads() -> list[Again]:
+    """Loads of a wheel at steps of a road and of answers on it."""
     loads = road_faces.face_table([road_faces.measure("hatchback", height) for height in road_faces.HEIGHTS])
     answers = edge_answers.edge_table([edge_answers.measure(car, edge) for car, edge in edge_answers.EDGES])
-    fits = "docs/decisions/0096-tyres-from-one-formula-to-the-other.md"
     return [
         Again("docs/roads.md", loads, "faces", ("height, m",)),
         Again("docs/fmu.md", answers, "edges", ("car", "edge, m")),
-        Again(fits, tyre_formulas.fit_table(), "tyre fits", ("tyre",)),
     ]
 
 
 def instructions() -> list[Again]:
-    """The table of instructions is that of the file that `benchmarks.instructions` compares steps with."""
-    block = instruction_blocks(json.loads(INSTRUCTIONS.read_text(encoding="utf-8"))["rows"])["instructions"]
+    """The table of instructions is that of the file that `benchmarks.cost` compares steps with."""
+    rows = json.loads(scene_instructions.STORED.read_text(encoding="utf-8"))["rows"]
+    block = scene_instructions.instruction_blocks(rows)["instructions"]
     step = next(row["instructions"] for row in rows_of(block) if row["scene"] == "double four-bar")
     said = Again(PAPER, f"A step at 0.03 s takes {step} instructions")
     return [Again(SPEED, block, "instructions", ("scene", "step, ms")), said]
@@ -238,11 +232,10 @@ def elements(whole: bool) -> list[Again]:
     return [*made, Again(page, frame.calculix_table(), "calculix", ("quantity",))] if whole else made
 
 
-def bending(whole: bool) -> list[Again]:
-    """Errors of the four-bar with assembly defect by bodies a bar."""
-    cases = assembly_defect.SHOWN if whole else assembly_defect.SHOWN[:3]
-    keys = ("bodies per bar", "elements, modes of each")
-    return [Again("docs/flexible.md", assembly_defect.defect_table(cases), "defect", keys)]
+def bending() -> list[Again]:
+    """Errors of the four-bar with assembly defect by bodies a bar; `benchmarks.paper` writes all."""
+    text = assembly_defect.defect_table([assembly_defect.measure(case, 0)[0] for case in assembly_defect.SHOWN[:3]])
+    return [Again("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
 
 
 def flexible_hatchback(whole: bool) -> list[Again]:
@@ -257,7 +250,7 @@ def crg(whole: bool) -> list[Again]:
     return [Again("docs/roads.md", sampled_roads.sampled_table(spacings), "crg", ("file", "spacing, m"))]
 
 
-def naive_sizes(_: bool) -> list[Again]:
+def naive_sizes() -> list[Again]:
     """Sizes of models without savings: all of them in a moment."""
     text = naive.size_table([naive.sizes_of(scene)[0] for scene in naive.SCENES])
     return [Again("docs/flexible_car.md", text, "naive", ("scene",))]
@@ -269,7 +262,7 @@ def start_values(_: bool) -> list[Again]:
 
 
 def chosen_fidelity() -> list[Again]:
-    """Errors of the fidelities that the page of the flexible car chooses; `benchmarks.pages` writes them."""
+    """Errors of the fidelities that the page of the flexible car chooses; `benchmarks.car` writes them."""
     page = "docs/flexible_car.md"
     return [Again(page, fidelity.choice_again(read(page)), "cheapest", ("required",))]
 
@@ -284,14 +277,14 @@ def others_tests() -> list[Again]:
 WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
     "charts": charts,
     "elements": elements,
-    "bending": bending,
     "flexible hatchback": flexible_hatchback,
     "crg": crg,
     "start values": start_values,
-    "naive": naive_sizes,
 }
 """Charts, and tables that no other command writes; in whole with ``--write``, else a quick part of them."""
 MADE: dict[str, Callable[[], list[Again]]] = {
+    "bending": bending,
+    "naive": naive_sizes,
     "Table 1": paper_table_1,
     "Table 2": paper_table_2,
     "stability": stability_map,
@@ -304,7 +297,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
     "flexible": flexible,
     "cheapest fidelity": chosen_fidelity,
     "tests of others": others_tests,
-    "roads and tyres": roads_and_tyres,
+    "roads": roads,
     "instructions": instructions,
     "outputs": outputs,
     "trust page": trust_page,
@@ -319,7 +312,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     names = ", ".join((*WRITTEN, *MADE))
     parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {names}")
     parser.add_argument("--write", action="store_true", help=f"make all of {', '.join(WRITTEN)}, and write them")
+    parser.add_argument("--variables", action="store_true", help="write the tables of docs/variables.md alone")
     options = parser.parse_args(arguments)
+    if options.variables:
+        write_blocks(("variables.md",), variable_tables.blocks(variable_tables.tables()))
+        return 0
     makers = {name: partial(make, options.write) for name, make in WRITTEN.items()}
     makers |= {} if options.write else MADE
     chosen = [make for name, make in makers.items() if options.only.lower() in name.lower()]

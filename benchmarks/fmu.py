@@ -1,84 +1,103 @@
-"""What an FMU costs: ``python -m benchmarks.fmu [--json FILE]``; the native one against PythonFMU, from C and FMPy.
-
-With ``--road-ports`` what the answers of another program at the four road ports of the prototype add to a step through
-FMPy, in instructions, with the answers computed in Python.
-"""
+"""What FMUs cost: ``python -m benchmarks.fmu PART``: calls, WebAssembly, cars in Python, studies of many runs."""
 
 from __future__ import annotations
 
 import sys
 import tempfile
+from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import fmpy
 
-from ali3.running import run_command
-from benchmarks.car import road_port_cost, road_port_steps
-from benchmarks.car.fmu_calls import QUANTITIES, measure
-from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.tables import print_table
+from benchmarks.car import fmu_calls, wasm_times
+from benchmarks.methods import studies
+from benchmarks.methods.study_pages import study_blocks
+from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.pages import Row
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 
 KINDS = ("native", "python")
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    parser = parser_of("fmu", "What an FMU costs.")
-    parser.add_argument("--scene", default="prototype_car", metavar="NAME", help="default: prototype_car")
-    parser.add_argument("--steps", type=int, default=1000, metavar="N", help="calls per timed run; default: 1000")
-    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per figure; default: 5")
-    parser.add_argument("--instances", type=int, default=1000, metavar="N", help="at once; default: 1000")
-    parser.add_argument("--road-ports", action="store_true", help="instructions of steps with four road ports")
-    options = parser.parse_args(arguments)
-    if min(options.steps, options.repeats, options.instances) < 1 or options.repeats > 64:
-        parser.error("numbers of steps, repeats and instances are positive, repeats at most 64")
-    if options.road_ports:
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-            found = road_port_cost.measure("prototype", min(options.steps, 500), Path(folder))
-        print_table(found, road_port_cost.COLUMNS)
-        save_rows(options.json, "road_ports", found, step_s=road_port_steps.STEP)
-        return 0
-    rows = []
+def _calls(options: Namespace) -> list[dict[str, Any]]:
     name, system = load_scene(options.scene)
+    rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         for kind in watched(list(KINDS)):
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
-            rows += measure(fmu, kind, Path(folder, kind), options.steps, options.repeats, options.instances)
-    table = [
-        {
-            "quantity": quantity,
-            **{f"{k}, {h}": _value(rows, quantity, k, h) for k in KINDS for h in ("C", "FMPy")},
-            "meaning": words,
-        }
-        for quantity, words in (QUANTITIES | {"file_MB": "size of the file with the binary of one platform"}).items()
-    ]
-    columns = {"quantity": "", **{f"{k}, {h}": ".4g" for k in KINDS for h in ("C", "FMPy")}, "meaning": ""}
-    print_table(table, columns)
-    save_rows(
-        options.json,
-        "fmu",
-        rows,
-        scene=options.scene,
-        steps=options.steps,
-        repeats=options.repeats,
-        warm_up=1,
-        instances=options.instances,
-        quantities=QUANTITIES,
-        inner_step_s=system.meta["experiment"]["step_s"],
-    )
-    return 0
+            asked = options.steps, min(options.repeats, 64), options.instances
+            rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *asked)
+    return [row | {"meaning": fmu_calls.QUANTITIES.get(row["quantity"], "size of the file")} for row in rows]
 
 
-def _value(rows: Sequence[dict[str, str | float | None]], quantity: str, kind: str, host: str) -> float | None:
-    for row in rows:
-        if (row["quantity"], row["kind"], row["host"]) == (quantity, kind, host):
-            value = row["value"]
-            return float(value) if value is not None else None
-    return None
+def _plant(options: Namespace) -> list[dict[str, Any]]:
+    from benchmarks.car import plant_steps  # needs the extra `learn`
 
+    asked = options.several, options.repeats, options.steps
+    return [row for name in watched(plant_steps.ENVIRONMENTS) for row in plant_steps.measure(name, *asked)]
+
+
+def _plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    from benchmarks.car import plant_steps
+
+    return plant_steps.plant_blocks(rows)
+
+
+PARTS = {
+    "calls": Part(
+        "calls of the native FMU and of that of PythonFMU, from C and through FMPy",
+        _calls,
+        fmu_calls.COLUMNS,
+        options={
+            "scene": ("prototype_car", "car or scene, as of ali3 build"),
+            "steps": (1000, "calls of a timed run"),
+            "repeats": (5, "timed runs of a figure, at most 64"),
+            "instances": (1000, "at once"),
+        },
+        pages=("fmu.md",),
+        blocks=fmu_calls.fmu_blocks,
+    ),
+    "wasm": Part(
+        "a step of the prototype as WebAssembly in each host, beside the native library",
+        lambda options: wasm_times.measure(options.steps, options.repeats, options.rounds),
+        wasm_times.COLUMNS,
+        options={
+            "steps": (2000, "of a timed run"),
+            "repeats": (3, "timed runs a round"),
+            "rounds": (3, "in which all hosts take turns"),
+        },
+        pages=("fmu.md",),
+        blocks=wasm_times.wasm_blocks,
+        words=lambda rows: wasm_times.WORDS,
+    ),
+    "plant": Part(
+        "steps per second of a car in Python and of its environments, beside bare FMPy (extra `learn`)",
+        _plant,
+        options={
+            "several": (8, "environments together"),
+            "repeats": (30, "times that each way makes the steps"),
+            "steps": (20, "steps"),
+        },
+        pages=("stepping.md",),
+        blocks=_plant_blocks,
+    ),
+    "study": Part(
+        "what Dask takes beside runs of about 0.1 s; memory, disk and starts as runs grow in number (extra `study`)",
+        studies.measure,
+        studies.COLUMNS,
+        names=studies.PARTS,
+        options=studies.OPTIONS,
+        pages=("scale.md",),
+        blocks=study_blocks,
+        words=lambda rows: studies.WORDS,
+    ),
+}
+
+main = partial(run, "fmu", __doc__, PARTS)
 
 if __name__ == "__main__":
-    sys.exit(run_command(main, (RuntimeError,)))
+    sys.exit(main())

@@ -1,98 +1,130 @@
-"""Error against time: ``python -m benchmarks.work_precision [--scene NAME ...] [--json FILE] [--charts DIR]``.
-
-Every method over a range of steps, and under error control over a range of tolerances, against the exact motion, one
-chart a scene; Drake, Exudyn, MuJoCo and Pinocchio in the same run when they are installed, and the ratio of our time to
-the best of theirs at equal error.
-"""
+"""Error against time: ``python -m benchmarks.work_precision PART``: methods, tolerances, other engines."""
 
 from __future__ import annotations
 
 import sys
+from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ali3.running import run_command
 from benchmarks import peers
-from benchmarks.baselines.run import LANGUAGE
-from benchmarks.methods.work_precision import QUICK_SCENES, REPEATS, compare, measure
-from benchmarks.methods.work_precision_chart import draw
-from benchmarks.references.cases import CASES, SHARED, size_of
-from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.tables import print_table
+from benchmarks.methods import bicycle, dissipative, error_control, naive, work_precision
+from benchmarks.methods.kernel_methods import suits
+from benchmarks.methods.work_precision_chart import LOST, draw
+from benchmarks.references.cases import CASES, SLOW, size_of, store, system_of
+from benchmarks.shared.command import Part, run, say_missing, watched
+from benchmarks.shared.pages import Row
 from benchmarks.shared.warned import wrong_on_purpose
-
-LOST = 0.5  # of the motion's extent: beyond it the run has no point on the chart
-TABLE = {
-    "scene": "",
-    "family": "",
-    "method": "",
-    "h_s": ".4g",
-    "rtol": ".0e",
-    "position_error_m": ".2e",
-    "energy_deviation_J": ".2e",
-    "wall_s": ".2e",
-    "factorizations": "d",
-    "evaluations": "d",
-    "ended": "",
-}
+from mbs.settings.settings import METHODS
 
 
 @wrong_on_purpose()
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    parser = parser_of("work_precision", __doc__)
-    parser.add_argument("--scene", action="append", choices=list(CASES), help="a scene; may be given again")
-    parser.add_argument("--charts", type=Path, metavar="DIR", help="draw a PNG per scene")
-    parser.add_argument("--quick", action="store_true", help="two scenes, two steps, one repeat")
-    parser.add_argument(
-        "--repeats", "--rounds", type=int, default=REPEATS, metavar="N", help=f"timed runs per row; default: {REPEATS}"
-    )
-    options = parser.parse_args(arguments)
-    if options.quick:
-        options.repeats = 1
-    scenes = options.scene or (QUICK_SCENES if options.quick else tuple(CASES))
+def _charts(options: Namespace) -> list[dict[str, Any]]:
     engines, missing = peers.available()
     for name in missing:
-        print(f"{name} is not installed: its curves are left out (python -m pip install 'ali3[peers]')")
-    rows: list[dict[str, Any]] = []
-    ratios: list[dict[str, Any]] = []
-    for scene in scenes:
-        part = measure(scene, options.quick, engines, options.repeats)
-        rows += part
-        print(f"\n{CASES[scene].title}; extent of the motion {size_of(scene):.3g} {CASES[scene].unit}", flush=True)
-        print_table(part, {k: v for k, v in TABLE.items() if k != "scene"})
-        if engines and scene in SHARED:
-            lines = compare(rows, scene)
-            ratios += lines
-            print("\nours / best peer at equal error, interpolated along the curves")
-            form = {
-                "error_m": ".0e",
-                "ours": "",
-                "ours_ms": ".3g",
-                "peer": "",
-                "peer_ms": ".3g",
-                "ratio": ".3g",
-                "ahead": "",
-            }
-            print_table(lines, form)
-        if options.charts is not None:
-            draw(part, CASES[scene], LOST * size_of(scene), options.charts / f"work_{scene}.png")
-    save_rows(
-        options.json,
-        "work_precision",
-        rows,
-        repeats=options.repeats,
-        warm_up=1,
-        wall="median over repeats through all rows of a scene, time of the steps alone",
-        languages={"kernel": "C", "classical": LANGUAGE} | dict.fromkeys(engines, "C++"),
-        peers={name: engine.VERSION for name, engine in engines.items()},
-        missing_peers=missing,
-        scenes={s: CASES[s].title for s in scenes},
-        ratios=ratios,
-    )
-    return 0
+        say_missing(f"{name} is not installed (python -m pip install 'ali3[peers]')")
+    repeats = 1 if options.quick else options.repeats
+    return [row for scene in options.only for row in work_precision.measure(scene, options.quick, engines, repeats)]
 
+
+def _draw(rows: Sequence[Row], folder: Path) -> None:
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        part = [row for row in rows if row["scene"] == scene]
+        draw(part, CASES[scene], LOST * size_of(scene), folder / f"work_{scene}.png")
+
+
+def _control(options: Namespace) -> list[dict[str, Any]]:
+    tolerances = error_control.QUICK_TOLERANCES if options.quick else error_control.TOLERANCES
+    rows: list[dict[str, Any]] = []
+    for scene, tolerance in [(scene, tolerance) for scene in options.only for tolerance in tolerances]:
+        names = [*error_control.methods_of(scene, tolerance), error_control.CHOSEN]
+        repeats = 1 if options.quick else error_control.REPEATS
+        part = [error_control.measure(scene, tolerance, method, repeats) for method in watched(names)]
+        error_control.compare(part)
+        rows += part
+    return rows
+
+
+@wrong_on_purpose()
+def _dissipative(options: Namespace) -> list[dict[str, Any]]:
+    scenes = dissipative.QUICK if options.quick else options.only
+    methods = ("ali3p",) if options.quick else dissipative.METHODS
+    todo = [(scene, method) for scene in scenes for method in methods]
+    steps = {scene: (0.01,) if options.quick else dissipative.SCENES[scene].steps for scene in scenes}
+    return [dissipative.measure(*one, h) for one in watched(todo) for h in steps[one[0]]]
+
+
+def _bicycle(options: Namespace) -> list[dict[str, Any]]:
+    methods = [method for method in METHODS if suits(method, True, system_of("bicycle"))]
+    todo = [(method, h) for method in methods for h in (bicycle.STEPS[1:2] if options.quick else bicycle.STEPS)]
+    linear = [{"table": "linear", **row} for row in bicycle.linear()]
+    return linear + [{"table": "methods", **bicycle.measure(*one)} for one in watched(todo)]
+
+
+def _motions(options: Namespace) -> None:
+    for name in watched(options.only):
+        store(name)
+
+
+PARTS = {
+    "charts": Part(
+        "every method over a range of steps and tolerances against exact motions, beside other engines",
+        _charts,
+        work_precision.COLUMNS,
+        names=tuple(CASES),
+        options={
+            "quick": (False, "two steps and one repeat of each scene"),
+            "repeats": (work_precision.REPEATS, "timed runs of a row"),
+        },
+        pages=("speed_and_accuracy.md",),
+        blocks=work_precision.work_blocks,
+        words=lambda rows: work_precision.work_blocks(rows)["ratios"],
+        chart=_draw,
+    ),
+    "control": Part(
+        "runs to a tolerance by every method that may be chosen and by the choice itself",
+        _control,
+        error_control.COLUMNS,
+        names=error_control.SCENES,
+        options={"quick": (False, "one tolerance, one repeat")},
+        pages=("speed_and_accuracy.md",),
+        blocks=error_control.control_blocks,
+        words=lambda rows: f"{len(error_control.misses(rows))} misses: choices that are slow or wrong, silent errors",
+    ),
+    "dissipative": Part(
+        "flexible scenes and the car, which have no exact motion: fine, wrong, or refused with a reason",
+        _dissipative,
+        dissipative.COLUMNS,
+        names=tuple(dissipative.SCENES),
+        options={"quick": (False, f"{' and '.join(dissipative.QUICK)} with the default method and one step")},
+        pages=("stability.md",),
+        blocks=dissipative.dissipative_blocks,
+    ),
+    "bicycle": Part(
+        "the rigid bicycle against what is published and against rolling outside of the kernel",
+        _bicycle,
+        bicycle.COLUMNS,
+        options={"quick": (False, "one step size")},
+    ),
+    "motions": Part(
+        "write the exact motions that take long, by minimum-norm accelerations under DOP853 or Radau",
+        _motions,
+        names=SLOW,
+        rows=False,
+    ),
+    "naive": Part(
+        "what models without savings cost: twelve coordinates a body, a row for every equation of a joint",
+        lambda options: [naive.measure(scene, options.repeats) for scene in watched(list(naive.SCENES))],
+        naive.COLUMNS,
+        options={"repeats": (3, "timed runs of a row")},
+        pages=("flexible_car.md",),
+        blocks=lambda rows: {"naive": naive.size_table(rows)},
+    ),
+}
+
+main = partial(run, "work_precision", __doc__, PARTS)
 
 if __name__ == "__main__":
-    sys.exit(run_command(main))
+    sys.exit(main())

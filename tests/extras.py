@@ -112,7 +112,7 @@ READERS = (
 )
 
 OF_THE_CLONE = {
-    "benchmarks": ("-c", "import benchmarks.fmu, benchmarks.wasm, benchmarks.real_time, benchmarks.work_precision"),
+    "benchmarks": ("-c", "import benchmarks.cost, benchmarks.fmu, benchmarks.work_precision"),
     "docs": ("-m", "sphinx", "-W", "-q", "-b", "html", "docs", "site"),
     "peers": (
         "-c",

@@ -26,7 +26,6 @@ METHODS: dict[str, Method] = {
     "penalty": lambda m, **k: Penalty(m, **k),
 }
 """By name; `penalty` is a mass-normalised penalty, 1/s, or for the Lagrange forms Baumgarte's factor, 1/s."""
-LANGUAGE = "Python with NumPy and LAPACK, dense; rows and forces by the kernel in C"
 
 
 @dataclass(frozen=True)

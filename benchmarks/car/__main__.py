@@ -1,85 +1,176 @@
-"""Accuracy and speed of a car: ``python -m benchmarks.car [--car CAR] [--json FILE] [--no-fmu] [--chart FILE]``.
+"""Cars: ``python -m benchmarks.car PART``: accuracy and cost of manoeuvres, of models and fidelities; what cars do.
 
-Per manoeuvre and step, against the stored reference (see `benchmarks.car_references`):
-
-- `path_error_m`: largest distance between the car's reference point and its place in the reference at the same time;
-  `path_error_rel`: that over the length of the reference's path.
-- `wheel_load_error_rel`: largest error of a wheel load over the largest wheel load of the manoeuvre.
-- `us_per_step`, `realtime_factor`: least processor time of the kernel. The `_fmpy` ones go through the FMU: FMPy sets
-  the inputs, makes a communication step of the same length and gets four outputs.
-- `..._fmpy_held`, `..._fmpy_followed`: the errors through the FMU, with inputs that are held over a communication step,
-  and with inputs that follow their first derivatives (fmi2SetRealInputDerivatives).
+Errors of a manoeuvre are against a stored reference, which ``references`` makes. Path: largest distance between the
+car's reference point and its place in the reference at the same time, m, or over the length of the way. Wheel load:
+largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel; those of FMPy
+set the inputs, make a communication step of the same length and get four outputs, with inputs that are held over a
+communication step or follow their first derivatives.
 """
 
 from __future__ import annotations
 
 import sys
 import tempfile
+from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
+from typing import Any
 
-from ali3.running import run_command
-from benchmarks.car import manoeuvres, trajectories
-from benchmarks.car.accuracy import LOAD_BOUND, PATH_BOUND, _build_fmu, chart, measure, verdict
-from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.tables import print_table
+from ali3.errors import UserError
+from benchmarks.car import (
+    accuracy,
+    all_cars,
+    edge_answers,
+    fidelity,
+    fidelity_references,
+    fidelity_runs,
+    manoeuvres,
+    measures,
+    road_faces,
+    tabled_cars,
+    trajectories,
+    trust,
+)
+from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.pages import Row
+from mbs.vehicle import car_names, load
 
-STEPS = (0.01, 0.005, 0.002, 0.001)  # s
-COLUMNS = {
-    "manoeuvre": "",
-    "h_s": ".3f",
-    "path_error_m": ".2e",
-    "path_error_rel": ".1e",
-    "wheel_load_error_rel": ".1e",
-    "iterations_mean": ".2f",
-    "iterations_max": ".0f",
-    "halvings": ".0f",
-    "us_per_step": ".1f",
-    "realtime_factor": ".0f",
-    "us_per_step_fmpy": ".1f",
-    "realtime_factor_fmpy": ".0f",
-    "path_error_rel_fmpy_held": ".1e",
-    "wheel_load_error_rel_fmpy_held": ".1e",
-    "path_error_rel_fmpy_followed": ".1e",
-    "wheel_load_error_rel_fmpy_followed": ".1e",
+REPEATS = {"repeats": (3, "timed runs of a row")}
+ONE_CAR = {"car": (manoeuvres.PROTOTYPE, f"of {', '.join(manoeuvres.CARS)}")}
+
+
+def _car(options: Namespace) -> str:
+    if options.car not in manoeuvres.CARS:
+        raise UserError(f"There are no references of a car {options.car!r}; there are: {', '.join(manoeuvres.CARS)}.")
+    return str(options.car)
+
+
+def _accuracy(options: Namespace) -> list[dict[str, Any]]:
+    car, todo = _car(options), [(name, h) for name in options.only for h in accuracy.STEPS]
+    with tempfile.TemporaryDirectory() as folder:
+        fmu = None if options.no_fmu else accuracy.build_fmu_of(Path(folder), car)
+        return [accuracy.measure(name, h, fmu, options.repeats, car) for name, h in watched(todo)]
+
+
+def _tables(options: Namespace) -> list[dict[str, Any]]:
+    todo = [(car, name) for car in options.cars for name in trajectories.referenced(car) if name in options.only]
+    return [tabled_cars.compare(*one, tabled_cars.STEP, options.repeats) for one in watched(todo)]
+
+
+def _handling(options: Namespace) -> list[dict[str, Any]]:
+    # axles by curves have no links to be measured
+    names = options.cars or [name for name in car_names() if load(name).linked]
+    return measures.measure_rows({name: measures.measure(load(name)) for name in watched(names)})
+
+
+def _fidelity(options: Namespace) -> list[dict[str, Any]]:
+    todo = [(name, f, h) for name in options.only for f in fidelity.COMPARED for h in fidelity.STEPS]
+    return [fidelity.measure(*one, options.repeats) for one in watched(todo)]
+
+
+def _references(options: Namespace) -> None:
+    car, whole = _car(options), len(options.only) == len(manoeuvres.NAMES)
+    if whole and not options.keep_replay:
+        trajectories.write_replay(car)
+    print("\n".join([trajectories.write(name, car) for name in watched(options.only)]))
+
+
+def _fidelity_references(options: Namespace) -> None:
+    print("\n".join([fidelity_references.write(name) for name in watched(options.only)]))
+
+
+def _tables_block(rows: Sequence[Row]) -> dict[str, str]:
+    return {"tables": f"{tabled_cars.table_of(rows)}\n\n{tabled_cars.verdict(rows)}"}
+
+
+PARTS = {
+    "accuracy": Part(
+        "errors and cost of a car's manoeuvres by step, in the kernel and through its FMU",
+        _accuracy,
+        accuracy.COLUMNS,
+        names=manoeuvres.NAMES,
+        options=ONE_CAR | {"repeats": (5, "timed runs of a row"), "no_fmu": (False, "leave the runs through FMPy out")},
+        pages=("speed.md", "fmu.md", "cars.md"),
+        blocks=accuracy.page_blocks,
+        words=lambda rows: "\n".join(accuracy.verdict(rows)),
+    ),
+    "cars": Part(
+        "one table of all cars with steps of 5 ms; rows of other cars are those that are stored",
+        lambda options: all_cars.measure(options.only, options.repeats),
+        all_cars.COLUMNS,
+        names=manoeuvres.CARS,
+        options=REPEATS,
+        pages=("cars.md",),
+        blocks=lambda rows: {"all cars": all_cars.text_of(rows)},
+        words=all_cars.text_of,
+    ),
+    "tables": Part(
+        "cars whose suspensions are tables against those with links",
+        _tables,
+        tabled_cars.COLUMNS,
+        names=manoeuvres.NAMES,
+        options=REPEATS | {"cars": (tabled_cars.CARS, f"of {', '.join(manoeuvres.CARS)}")},
+        pages=("cars.md",),
+        blocks=_tables_block,
+        words=tabled_cars.verdict,
+    ),
+    "handling": Part(
+        "ride, roll, understeer and performance of cars beside what cars of the small class have",
+        _handling,
+        options={"cars": ([], "names, folders or files; by default all of the package that have links")},
+        pages=("cars.md",),
+        blocks=lambda rows: {"handling": measures.measure_table(rows)},
+    ),
+    "trust": Part(
+        "errors by steps in a period, by speed over a kerb, and of hard manoeuvres",
+        lambda options: trust.measure(),
+        trust.COLUMNS,
+        pages=("trust.md",),
+        blocks=trust.trust_blocks,
+    ),
+    "fidelity": Part(
+        "how much model a car needs: manoeuvres with every fidelity of the prototype",
+        _fidelity,
+        fidelity.COLUMNS,
+        names=fidelity_runs.NAMES,
+        options=REPEATS,
+        pages=("flexible_car.md",),
+        blocks=fidelity.choice_blocks,
+        words=lambda rows: "\n".join(fidelity.verdict(rows)),
+        chart=fidelity.chart,
+    ),
+    "faces": Part(
+        "wheel loads up a kerb and up faces of grids, coasting in neutral",
+        lambda options: [road_faces.measure(options.car, height) for height in watched(road_faces.HEIGHTS)],
+        road_faces.COLUMNS,
+        options={"car": ("hatchback", "name, folder or file")},
+        pages=("roads.md",),
+        blocks=lambda rows: {"faces": road_faces.face_table(rows)},
+    ),
+    "edges": Part(
+        "wheel loads up edges that a partner at the road port answers",
+        lambda options: [edge_answers.measure(car, edge) for car, edge in watched(edge_answers.EDGES)],
+        edge_answers.COLUMNS,
+        pages=("fmu.md",),
+        blocks=lambda rows: {"edges": edge_answers.edge_table(rows)},
+    ),
+    "references": Part(
+        "write reference trajectories of a car, in steps of 0.1 ms; each file has the differences of larger steps",
+        _references,
+        names=manoeuvres.NAMES,
+        options=ONE_CAR | {"keep_replay": (False, "do not drive the double lane change again")},
+        rows=False,
+    ),
+    "fidelity-references": Part(
+        "write the references of the fidelities, of the finest model in steps of 0.5 ms",
+        _fidelity_references,
+        names=fidelity_runs.NAMES,
+        rows=False,
+    ),
 }
 
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Measure, print, and write what was asked for."""
-    parser = parser_of("car", __doc__, chart="errors against cost")
-    parser.add_argument("--no-fmu", action="store_true", help="leave the runs through FMPy out")
-    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="timed runs per row; default: 5")
-    parser.add_argument("--manoeuvres", nargs="+", default=manoeuvres.NAMES, choices=manoeuvres.NAMES, metavar="NAME")
-    parser.add_argument("--car", default=manoeuvres.PROTOTYPE, choices=manoeuvres.CARS, help="default: the prototype")
-    options = parser.parse_args(arguments)
-    todo = [(name, h) for name in options.manoeuvres for h in STEPS]
-    with tempfile.TemporaryDirectory() as folder:
-        fmu = None if options.no_fmu else _build_fmu(Path(folder), options.car)
-        rows = [measure(name, h, fmu, options.repeats, options.car) for name, h in watched(todo)]
-    print_table(rows, COLUMNS)
-    print()
-    print(
-        f"Largest step within {100 * PATH_BOUND:g} % of the path's length and {100 * LOAD_BOUND:g} % of the largest "
-        "wheel load:"
-    )
-    lines = verdict(rows)
-    print("\n".join(f"  {line}" for line in lines))
-    save_rows(
-        options.json,
-        "car",
-        rows,
-        reference=f"own engine, h = {trajectories.STEP:g} s, tests/data/car",
-        car=options.car,
-        repeats=options.repeats,
-        warm_up=1,
-        fmpy="set 3 inputs, one communication step of h, get 4 outputs; null: without FMU or another road",
-        verdict=lines,
-    )
-    if options.chart:
-        chart(rows, options.chart, options.car)
-    return 0
-
+main = partial(run, "car", __doc__, PARTS)
 
 if __name__ == "__main__":
-    sys.exit(run_command(main))
+    sys.exit(main())

@@ -1,4 +1,4 @@
-"""Accuracy and speed of a car over its manoeuvres: rows, verdict, chart."""
+"""Accuracy and speed of a car over its manoeuvres: rows, verdict, tables of the pages."""
 
 from __future__ import annotations
 
@@ -11,19 +11,55 @@ from typing import Any
 
 import numpy as np
 
+from ali3.errors import UserError
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
-from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.pages import Row, table
 from benchmarks.shared.timing import best_time
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import with_names_of
 from mbs import Trajectory
 
+STEPS = (0.01, 0.005, 0.002, 0.001)  # s
+COLUMNS = {
+    "manoeuvre": "",
+    "h_s": ".3f",
+    "path_error_m": ".2e",
+    "path_error_rel": ".1e",
+    "wheel_load_error_rel": ".1e",
+    "iterations_mean": ".2f",
+    "iterations_max": ".0f",
+    "halvings": ".0f",
+    "us_per_step": ".1f",
+    "realtime_factor": ".0f",
+    "us_per_step_fmpy": ".1f",
+    "realtime_factor_fmpy": ".0f",
+    "path_error_rel_fmpy_held": ".1e",
+    "wheel_load_error_rel_fmpy_held": ".1e",
+    "path_error_rel_fmpy_followed": ".1e",
+    "wheel_load_error_rel_fmpy_followed": ".1e",
+}
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
 AIM = 50.0  # times real time
 BEFORE = 1e-8  # s: at a jump of an input the value before it
 ERRORS = ("path_error_rel", "wheel_load_error_rel")
 OUTPUTS = (*trajectories.POSITION, "speed")
+TITLES = {
+    "launch_and_brake": "launch and brake",
+    "kerb_drop": "8 cm kerb at 5 m/s",
+    "step_steer_given_throttle": "step steer",
+    "slalom": "slalom",
+    "steady_cornering": "steady cornering",
+    "double_lane_change_replay": "double lane change",
+    "full_lock": "full lock at 15 m/s",
+    "drop": "drop from 0.5 m",
+    "kerb_lock_brake": "8 cm kerb at 20 m/s, full lock and brake at once",
+}
+SMALLER = {"kerb_lock_brake": (0.002,)}
+"""Steps beside those of 10 and 5 ms, s."""
+HELD = ("the same through the FMU, inputs held",)
+TIMES, SHOWN = ("us per step", "times real time"), 0.005
+WITHOUT_INPUTS = ("kerb_drop", "drop")
 
 
 def time_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
@@ -87,9 +123,9 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     report = found.report
     assert report is not None
     if len(found.t) != len(t) or not np.allclose(found.t, t, rtol=0.0, atol=1e-6):
-        raise ValueError(
+        raise UserError(
             f"The reference of {name} is of another duration; "
-            f"run python -m benchmarks.car_references --car {car} {name}."
+            f"run python -m benchmarks.car references --car {car} --only {name}."
         )
     error = trajectories.path_error(found, values)
     duration = float(found.t[-1])
@@ -97,6 +133,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     spent = manoeuvres.time_on(system, manoeuvre, h, repeats, time.process_time)
     held, followed = "_fmpy_held", "_fmpy_followed"
     row: dict[str, Any] = {
+        "car": car,
         "manoeuvre": name,
         "h_s": h,
         "path_error_m": error,
@@ -121,7 +158,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
     return row
 
 
-def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
+def verdict(rows: Sequence[Row]) -> list[str]:
     """Per manoeuvre and for all: the largest step within the bounds, and its real-time factor."""
     lines, largest = [], []
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
@@ -147,31 +184,7 @@ def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
     return lines
 
 
-def chart(rows: Sequence[dict[str, Any]], file: Path, car: str = manoeuvres.PROTOTYPE) -> None:
-    """Errors over processor time of a step, as a picture."""
-    plt = pyplot()
-    figure, axes = plt.subplots(1, 2, figsize=(13, 5.5), layout="constrained", sharex=True)
-    parts = (
-        ("path_error_rel", "path error / path length", PATH_BOUND),
-        ("wheel_load_error_rel", "wheel load error / largest load", LOAD_BOUND),
-    )
-    for ax, (key, label, bound) in zip(axes, parts, strict=True):
-        for number, name in enumerate(dict.fromkeys(row["manoeuvre"] for row in rows)):
-            mine = [row for row in rows if row["manoeuvre"] == name]
-            cost = [1e-3 * row["us_per_step"] / row["h_s"] for row in mine]
-            style = {"marker": "osv^DP*Xd"[number % 9], "markersize": 5, "label": name.replace("_", " ")}
-            ax.loglog(cost, [row[key] for row in mine], **style)
-        ax.axhline(bound, color="0.4", linestyle="--", linewidth=1)
-        ax.text(1.0, bound, f"{100 * bound:g} % ", transform=ax.get_yaxis_transform(), ha="right", va="bottom")
-        ax.set_xlabel("processor time per simulated second, ms (steps 10, 5, 2, 1 ms from the left)")
-        ax.set_ylabel(label)
-        ax.grid(True, which="major", alpha=0.3)
-    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside right center", fontsize="small")
-    figure.suptitle(f"{car.capitalize()} car: error against cost")
-    save_chart(figure, file)
-
-
-def _build_fmu(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
+def build_fmu_of(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
     """The FMU of the car for this platform, or None when it cannot be had."""
     try:
         import fmpy
@@ -182,3 +195,62 @@ def _build_fmu(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
 
     say = partial(print, file=sys.stderr, flush=True)
     return build_fmu(manoeuvres.system_of("drop", car), f"{car}_car", folder, (fmpy.platform,), say)
+
+
+def _errors(row: Row, way: str = "") -> str | None:
+    path, load = row[f"path_error_rel{way}"], row[f"wheel_load_error_rel{way}"]
+    return None if path is None else f"{path:.1e}, {100.0 * load:.2g} %"
+
+
+def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Speed and accuracy by manoeuvre, and what held inputs cost."""
+    order = list(TITLES)
+    known = sorted((r for r in rows if r["manoeuvre"] in TITLES), key=lambda r: order.index(r["manoeuvre"]))
+    lines: list[dict[str, Any]] = []
+    for r in known:
+        if r["h_s"] in (0.01, 0.005, *SMALLER.get(r["manoeuvre"], ())):
+            lines.append(
+                {
+                    "manoeuvre": TITLES[r["manoeuvre"]],
+                    "h, ms": f"{1e3 * r['h_s']:g}",
+                    "path error, of its length; wheel-load error, of the peak": _errors(r),
+                    HELD[0]: _errors(r, "_fmpy_held"),
+                    "iterations, mean (most)": f"{r['iterations_mean']:.2f} ({r['iterations_max']})",
+                }
+            )
+    held = [
+        {
+            "manoeuvre": TITLES[r["manoeuvre"]],
+            "h, ms": f"{1e3 * r['h_s']:g}",
+            "kernel: path, load": _errors(r),
+            "FMU with derivatives": _errors(r, "_fmpy_followed"),
+            "FMU, inputs held": _errors(r, "_fmpy_held"),
+        }
+        for r in known
+        if r["h_s"] in (0.01, 0.002) and r["manoeuvre"] not in WITHOUT_INPUTS and _errors(r, "_fmpy_held")
+    ]
+    blocks = {"car": table(lines, dict.fromkeys(lines[0], ""))}
+    return blocks | ({"held inputs": table(held, dict.fromkeys(held[0], ""))} if held else {})
+
+
+def error_table(rows: Sequence[Row]) -> str:
+    """Errors and cost in the kernel by manoeuvre, with steps of 5 ms."""
+    lines = [
+        {
+            "manoeuvre": r["manoeuvre"].replace("_", " "),
+            "h, ms": f"{1e3 * r['h_s']:g}",
+            "path error, of its length": f"{r['path_error_rel']:.1e}",
+            "wheel-load error, of the peak": f"{100.0 * r['wheel_load_error_rel']:.2g} %",
+            TIMES[0]: f"{r['us_per_step']:.0f}",
+            TIMES[1]: f"{r['realtime_factor']:.0f}",
+        }
+        for r in rows
+        if r["h_s"] == SHOWN
+    ]
+    return table(lines, dict.fromkeys(lines[0], ""))
+
+
+def page_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Tables of the prototype, or that of another car."""
+    car = str(rows[0]["car"])
+    return car_blocks(rows) if car == manoeuvres.PROTOTYPE else {car: error_table(rows)}

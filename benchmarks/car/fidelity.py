@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentTypeError
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ali3.errors import UserError
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import NAMES, OUTPUTS
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.figures import between, rows_of
-from benchmarks.shared.pages import table
+from benchmarks.shared.pages import Row, table
 from mbs import Trajectory
-from mbs.common.errors import ModelError
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 from mbs.vehicle.levels import choice
 from mbs.vehicle.levels.choice import Choice
 
+STEPS = (0.01, 0.005, 0.002)  # s
+COLUMNS = {
+    "manoeuvre": "",
+    "fidelity": "",
+    "h_s": ".3f",
+    "coordinates": "d",
+    "rows": "d",
+    "modes": "d",
+    "moment": ".3f",
+    "moment_unfiltered": ".3f",
+    "motion": ".1e",
+    "wheel_load": ".3f",
+    "iterations_mean": ".2f",
+    "iterations_max": "d",
+    "us_per_step": ".0f",
+    "realtime_factor": ".1f",
+}
 COLOURS = {
     Fidelity.TABLE: "#999999",
     Fidelity.RIGID: "#222222",
@@ -37,14 +53,6 @@ REQUIRED = {
     "moments to 1 %": ("moment", 0.01),
 }
 STRESSES = ("moment", "moment_unfiltered")
-
-
-def fidelity_of(text: str) -> Fidelity:
-    """From an argument of a command: a number or a name."""
-    try:
-        return Fidelity.of(int(text) if text.isdigit() else text)
-    except ModelError as error:
-        raise ArgumentTypeError(str(error)) from error
 
 
 def modes_of(fidelity: Fidelity) -> int:
@@ -89,7 +97,7 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
     }
 
 
-def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> Choice:
+def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> Choice:
     """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
     `rows`: of `measure`, or from a JSON file; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: on its error: a
@@ -100,7 +108,7 @@ def cheapest(rows: Sequence[dict[str, Any]], output: str, tolerance: float) -> C
     return choice.cheapest(rows, {output: tolerance})
 
 
-def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
+def chart(rows: Sequence[Row], file: Path) -> None:
     """Stress and motion errors over time per step, one column per manoeuvre."""
     plt = pyplot()
     names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
@@ -144,11 +152,14 @@ def chart(rows: Sequence[dict[str, Any]], file: Path) -> None:
     save_chart(figure, file)
 
 
-def choice_blocks(rows: Sequence[dict[str, Any]]) -> dict[str, str]:
+def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The cheapest fidelity and step for what is required of the flexible car."""
     lines = []
     for title, (output, tolerance) in REQUIRED.items():
-        c = cheapest(rows, output, tolerance)
+        try:
+            c = cheapest(rows, output, tolerance)
+        except ValueError as error:
+            raise UserError(f"The table of docs/flexible_car.md needs all manoeuvres and steps: {error}") from error
         choice = {
             "cheapest fidelity, step": f"{int(c.fidelity)}, {1e3 * c.h:g} ms",
             "ms per s": f"{c.ms_per_second:.0f}",
@@ -174,7 +185,7 @@ def _error(output: str, value: float) -> str:
     return f"{1e3 * value:.1f} mm" if output == "motion" else f"{100.0 * value:.1f} %"
 
 
-def verdict(rows: Sequence[dict[str, Any]]) -> list[str]:
+def verdict(rows: Sequence[Row]) -> list[str]:
     """The cheapest fidelity for some outputs and tolerances."""
     lines = []
     for output, tolerance in REQUIRED.values():

@@ -30,7 +30,7 @@ def write(name: str) -> str:
     signals = (*POSITION, *LOADS, *MOMENTS, *(FILTERED + s for s in MOMENTS))
     lines = [
         f"# Prototype car, flexible chassis, {name.replace('_', ' ')}: this engine, 106 modes, steps of {STEP:g} s; "
-        "made by python -m benchmarks.fidelity_references",
+        "made by python -m benchmarks.car fidelity-references",
         *(f"# differences with {text}" for text in said),
         ",".join(["time", *signals]),
     ]

@@ -6,13 +6,14 @@ import subprocess
 import sys
 import time
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import fmpy
 from fmpy.fmi2 import FMU2Slave, fmi2Real, fmi2ValueReference
 
+from benchmarks.shared.pages import Row, table
 from benchmarks.shared.timing import best_time
 from fmu_src.native.sources import HERE as FMI_HEADERS
 from mbs.kernel import build
@@ -28,6 +29,18 @@ QUANTITIES = {
     "many_step": "us per step, all instances in turn",
     "memory_per_instance_kB": "kB the FMU asks its host for",
 }
+CALLS = {
+    "step": "one step of 2 ms",
+    "get_all": "all outputs after a step",
+    "get_again": "the same once more",
+    "set_one": "one input set",
+    "save_restore_free": "state: get, set, free",
+    "instantiate_to_initialised": "instantiate to initialised",
+}
+"""Quantities that are shown."""
+HOSTS = {"native from C": ("native", "C"), "native through FMPy": ("native", "FMPy")}
+HOSTS |= {"Python from C": ("python", "C"), "Python through FMPy": ("python", "FMPy")}
+COLUMNS = {"quantity": "", "kind": "", "host": "", "value": ".4g", "meaning": ""}
 SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 
 
@@ -140,3 +153,13 @@ def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
 def _repeat(action: Callable[[], Any], count: int) -> None:
     for _ in range(count):
         action()
+
+
+def fmu_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Microseconds a call by host."""
+    found = {(r["quantity"], r["kind"], r["host"]): r["value"] for r in rows}
+    lines = [
+        {"microseconds": title} | {host: found.get((name, *key)) for host, key in HOSTS.items()}
+        for name, title in CALLS.items()
+    ]
+    return {"fmu calls": table(lines, {"microseconds": "", **dict.fromkeys(HOSTS, ".3g")})}

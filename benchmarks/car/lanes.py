@@ -4,25 +4,33 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.car import manoeuvres
-from benchmarks.car.older_cars import OlderCars
+from benchmarks.shared.pages import Row, table
 from mbs import Model, Simulation, System, compile
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.many import Many, widest_lanes
-from mbs.scenes import double_four_bar, prototype_car
+from mbs.scenes import assembly_defect_four_bar, double_four_bar, kerb_test, prototype_car
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation.prepared_system import prepared
 
 CARS = 16  # two full groups of the widest lanes
 PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
-OLDER = "single, older"
+LANES = {
+    "lanes": ("slalom", "lane change"),
+    "lanes tables": ("slalom, tables", "lane change, tables"),
+    "lanes planar": ("double four-bar", "40 windows"),
+    "lanes flexible": ("slalom, flexible frame", "kerb test, flexible frame", "flexible four-bar"),
+}
+"""Scenes by table."""
+WAYS = {"single": "one after the other"}
 Start: TypeAlias = Callable[[int, float, float], Simulation]
 """Of the number of a variant, the step and the end of the run, s."""
 
@@ -82,12 +90,11 @@ def measure(
     seconds: float = SECONDS,
     *,
     rounds: int = 1,
-    older: OlderCars | None = None,
 ) -> list[dict[str, Any]]:
     """Rows of one scene: us of a core for a step of a car, and the ratio to cars one after the other.
 
-    Each part of a run counts by the least of the rounds. `older` are cars of another commit, which make the same steps
-    in turn; then rows have the ratio to them too.
+    Each way makes a part of the same steps in turn, so that ratios hold on a busy machine; seconds are those in which
+    its threads had a core, and each part counts by the least of the rounds.
     """
     system, start = make()
     loaded, steps = prepared(system)[0], int(seconds / h / PARTS)
@@ -98,16 +105,11 @@ def measure(
             cars = {way: [start(k, h, seconds) for k in range(CARS)] for way in ways}
             spent: dict[str, list[float]] = {way: [] for way in ways}
             alone = dict.fromkeys(ways, 0)
-            if older is not None:
-                older.start()
-                spent[OLDER] = []
             for _ in range(PARTS):
                 for way, many in ways.items():
                     used, made_alone = _step(cars[way], many, h, steps, pool)
                     spent[way].append(used)
                     alone[way] += made_alone
-                if older is not None:
-                    spent[OLDER].append(older.run(steps))
             least = {way: np.minimum(part, least.get(way, np.inf)) for way, part in spent.items()}
     for way in ways:  # a faster run of other numbers would be none
         if any(a.instance.save() != b.instance.save() for a, b in zip(cars["single"], cars[way], strict=True)):
@@ -124,7 +126,6 @@ def measure(
             "steps_alone": alone[way],
             "kilobytes_a_car": 1e-3 * (loaded.instance_size + (many[0].size / many[0].width if many else 0.0)),
         }
-        | ({"ratio_to_older": us[OLDER] / us[way]} if older is not None else {})
         for way, many in ways.items()
     ]
 
@@ -160,3 +161,61 @@ def _step(
             car.instance.run(h, steps)
     alone = sum((pool.map if len(groups) > 1 else map)(together, range(len(groups))))
     return time.process_time() - begin, alone
+
+
+def lane_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """What lanes give, and their memory."""
+    tables = {name: [row for row in rows if row["scene"] in scenes] for name, scenes in LANES.items()}
+    blocks = {name: _table_of_ways(part) for name, part in tables.items() if part}
+    return blocks | {"lanes memory": _memory(rows)}
+
+
+def scene_of(row: Row) -> str:
+    """Scene and step."""
+    return f"{row['scene']}, {row['step_ms']:g} ms"
+
+
+def _table_of_ways(rows: Sequence[Row]) -> str:
+    """us a step and car by way and scene, with the ratio to one after the other."""
+    lines: dict[str, dict[str, str]] = {}
+    for row in rows:
+        line = lines.setdefault(row["way"], {"way": WAYS.get(row["way"], row["way"])})
+        line[scene_of(row)] = f"{row['us_a_step']:.1f} ({row['ratio']:.2f})"
+    return table(list(lines.values()), dict.fromkeys(["way", *dict.fromkeys(map(scene_of, rows))], ""))
+
+
+def _groups(rows: Sequence[Row], scene: str) -> dict[str, Row]:
+    """Rows of a scene by way, alone and in lanes on one core."""
+    return {r["way"]: r for r in rows if r["scene"] == scene and (r["way"] == "single" or r["way"].endswith("lanes"))}
+
+
+def _memory(rows: Sequence[Row]) -> str:
+    lines = []
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        sizes = {f"{WAYS.get(way, way)}, kB": r["kilobytes_a_car"] for way, r in _groups(rows, scene).items()}
+        lines.append({"scene": scene} | sizes)
+    return table(lines, {key: "" if key == "scene" else ".0f" for key in lines[0]})
+
+
+KERB = 7.0  # s: shortly before the front wheels are over it
+SCENES = (
+    ("slalom", 0.005, partial(varied_cars, "slalom", 0)),
+    ("lane change", 0.01, partial(varied_cars, "double_lane_change_replay", 0)),
+    ("slalom, tables", 0.005, partial(varied_cars, "slalom", 10)),
+    ("lane change, tables", 0.01, partial(varied_cars, "double_lane_change_replay", 10)),
+    ("slalom, flexible frame", 0.005, partial(varied_cars, "slalom", 3)),
+    ("kerb test, flexible frame", 0.01, partial(one_after_another, partial(kerb_test.build, 3), KERB)),
+    ("double four-bar", 0.01, partial(varied_four_bars, 2)),
+    ("40 windows", 0.01, partial(varied_four_bars, 40)),
+    ("flexible four-bar", 0.01, partial(one_after_another, assembly_defect_four_bar.build, 1.0)),
+)
+COLUMNS = {
+    "scene": "",
+    "step_ms": "g",
+    "way": "",
+    "us_a_step": ".1f",
+    "ratio": ".2f",
+    "cars_in_real_time_a_core": ".0f",
+    "steps_alone": "d",
+    "kilobytes_a_car": ".0f",
+}

@@ -1,12 +1,22 @@
-"""Forces at the interfaces of a car's frame in its manoeuvres, and their principal combinations."""
+"""Forces at the interfaces of a car's frame in its manoeuvres, and their principal combinations.
+
+The car with fidelity quasi_static drives the manoeuvres of the host and the guided kerb test; the forces at the
+interfaces are snapshots. Their principal combinations in the energy norm of the frame are what can deform it; the
+fidelity load_paths has their deformations as modes.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from ali3.files import write_text
 from benchmarks.car import manoeuvres
+from benchmarks.shared.command import watched
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Simulation, compile
 from mbs.scenes import kerb_test
@@ -15,6 +25,7 @@ from mbs.vehicle import Car, Fidelity
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 
 GUIDED = "kerb_test"
+MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "full_lock", GUIDED)
 H, EVERY = 0.005, 4
 KEEP = 1e-4
 """Combinations with less than this part of the largest deformation, in the energy norm, are left out."""
@@ -71,3 +82,25 @@ def principal_loads(
     large = np.abs(loads) > (1.0 - 1e-6) * np.abs(loads).max(axis=0)  # left and right tie: the first of them decides
     loads *= np.sign(loads[large.argmax(axis=0), np.arange(loads.shape[1])])
     return loads, size[keep] / size[0]
+
+
+def write_loads(car: Car, names: Sequence[str], output: Path | None) -> None:
+    """Drive, decompose, write the table of the loads and say where."""
+    frame = car.flexible_frame
+    forces = np.hstack([port_forces(car, name) for name in watched(names)])
+    loads, sizes = principal_loads(frame, forces)
+    driven = ", ".join(name.replace("_", " ") for name in names)
+    lines = [
+        f"# Loads of the {car.name} car's frame, N, most deforming first: principal combinations of interface forces,",
+        f"# body axes, in {driven} and their mirror images; rms values.",
+        "# Source: this engine, rigid car with ports; made by python -m benchmarks.frame loads",
+        ",".join(["interface", "axis", *(f"load_{k + 1}" for k in range(loads.shape[1]))]),
+    ]
+    for k, row in enumerate(loads):
+        lines.append(",".join([frame.interfaces[k // 3], "xyz"[k % 3], *(f"{v:.7g}" for v in row)]))
+    file = output or frame.folder / (frame.section.loads or "loads.csv")
+    write_text(file, "\n".join(lines) + "\n")
+    shown = np.array2string(sizes, precision=2)
+    print(f"{2 * forces.shape[1]} snapshots, {loads.shape[1]} loads; sizes {shown}")
+    if frame.section.loads is None:
+        print(f'{file}: add loads = "{file.name}" to [chassis.frame] of the car')

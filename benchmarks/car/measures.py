@@ -6,13 +6,13 @@ Definitions after ISO 8855 and, for the steady turn, ISO 4138 (constant speed, s
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from benchmarks.car.rig import NEUTRAL, kinematics
-from benchmarks.shared.pages import table
+from benchmarks.shared.pages import Row, table
 from mbs import Pose, Simulation, System, compile, linearise
 from mbs.analysis.linear_model import LinearModel, Mode
 from mbs.elements.road import PlaneRoad
@@ -205,13 +205,22 @@ def _stop(system: System, pedal: float) -> dict[str, float]:
     }
 
 
-def measure_table(measured: Mapping[str, Mapping[str, float]]) -> str:
-    """The table of the page on cars: a row a measure, a column a car."""
-    rows = []
-    for m in MEASURES:
-        name = m.name.replace("_", " ") + ("" if m.unit == "1" else f", {m.unit}")
-        rows.append({"measure": name, **{car: f[m.name] for car, f in measured.items()}, "usual": usual_words(m)})
-    return table(rows, {"measure": "", **dict.fromkeys(measured, ".2f"), "usual": ""})
+def measure_rows(measured: Mapping[str, Mapping[str, float]]) -> list[dict[str, object]]:
+    """A row a measure, a column a car."""
+    return [
+        {"measure": m.name, "unit": m.unit}
+        | {car: found[m.name] for car, found in measured.items()}
+        | {"usual": usual_words(m), "meaning": m.meaning}
+        for m in MEASURES
+    ]
+
+
+def measure_table(rows: Sequence[Row]) -> str:
+    """The table of the page on cars."""
+    cars = [key for key in rows[0] if key not in ("measure", "unit", "usual", "meaning")]
+    names = (r["measure"].replace("_", " ") + ("" if r["unit"] == "1" else f", {r['unit']}") for r in rows)
+    lines = [row | {"measure": name} for row, name in zip(rows, names, strict=True)]
+    return table(lines, {"measure": "", **dict.fromkeys(cars, ".2f"), "usual": ""})
 
 
 def usual_words(m: Measure) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,10 +11,25 @@ import numpy as np
 
 from benchmarks.car import manoeuvres
 from benchmarks.shared.instructions import instructions
+from benchmarks.shared.pages import Row, table
 from hosts.driving.manoeuvre import Manoeuvre
-from mbs import Simulation, System
+from mbs import Simulation, System, compile
+from mbs.kernel import build
+from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain
 
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
+STORED = Path(__file__).parents[1] / "data" / "instructions.json"
+COLUMNS = {
+    "scene": "",
+    "step_ms": "g",
+    "steps": "d",
+    "iterations": ".3f",
+    "factorizations": ".3f",
+    "solves": ".3f",
+    "instructions": ",d",
+}
+MOST = 1.03
+"""Ratio to the stored table from which on a step is dearer."""
 
 
 class Scene(NamedTuple):
@@ -25,6 +40,46 @@ class Scene(NamedTuple):
     steps: int
     system: Callable[[], System]
     manoeuvre: str = ""
+
+
+def _flexible() -> System:
+    return compile(prototype_car.build(fidelity=3))
+
+
+def _car() -> System:
+    return manoeuvres.system_of("slalom")
+
+
+def _tables() -> System:
+    return compile(prototype_car.build(fidelity=10))
+
+
+SCENES = (
+    Scene("double four-bar", 0.03, 330, lambda: compile(double_four_bar.build())),
+    Scene("40 windows", 0.01, 200, lambda: compile(double_four_bar.build(windows=40))),
+    Scene("Bricard's mechanism", 0.01, 300, lambda: compile(bricard.build())),
+    Scene("flyball governor", 0.01, 300, lambda: compile(flyball.build())),
+    Scene("spatial chain", 0.01, 200, lambda: compile(spatial_chain.build())),
+    Scene("lane change", 0.01, 500, _car, "double_lane_change_replay"),
+    Scene("lane change", 0.002, 500, _car, "double_lane_change_replay"),
+    Scene("slalom", 0.005, 500, _car, "slalom"),
+    Scene("launch and brake", 0.01, 500, _car, "launch_and_brake"),
+    Scene("full lock", 0.01, 500, _car, "full_lock"),
+    Scene("drop", 0.002, 500, _car, "drop"),
+    Scene("lane change, tables", 0.01, 500, _tables, "double_lane_change_replay"),
+    Scene("slalom, tables", 0.005, 500, _tables, "slalom"),
+    Scene("slalom, flexible frame", 0.005, 100, _flexible, "slalom"),
+    Scene("drop, flexible frame", 0.002, 200, _flexible, "drop"),
+    Scene("kerb test, flexible frame", 0.01, 100, lambda: compile(kerb_test.build(3))),
+)
+
+
+def compiled(folder: Path) -> Path:
+    """The program that repeats steps."""
+    program, what = folder / "run_system", "the program that repeats steps"
+    sources, include = [SOURCE, *build.sources(lanes=False)], (build.HERE / "include",)
+    build.compile_c(sources, build.host_target(), program, include=include, what=what, shared=False)
+    return program
 
 
 def command_of(scene: Scene, program: Path, folder: Path) -> list[str]:
@@ -68,3 +123,25 @@ def input_rows(manoeuvre: Manoeuvre, system: System, times: np.ndarray) -> np.nd
         signal = signals.get(entry["name"], entry["start"])
         columns.append(np.interp(times, *signal) if isinstance(signal, tuple) else np.full(len(times), signal))
     return np.array(columns, float).T
+
+
+def instruction_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """What a step costs in iterations, factorizations and instructions."""
+    lines = [r | {"step, ms": f"{r['step_ms']:g}"} for r in rows]
+    columns = {"scene": "", "step, ms": "", "iterations": ".3f", "factorizations": ".3f", "solves": ".2f"}
+    return {"instructions": table(lines, columns | {"instructions": ",d"})}
+
+
+def compared(rows: Sequence[Row], stored: Sequence[Row]) -> list[str]:
+    """A sentence for each scene that takes over 3 % more than in stored rows; factorizations count without valgrind."""
+    known = {(row["scene"], row["step_ms"]): row for row in stored}
+    lines = []
+    for row in rows:
+        before = known.get((row["scene"], row["step_ms"]))
+        if before is None:
+            continue
+        what = "instructions" if row["instructions"] and before["instructions"] else "factorizations"
+        ratio = row[what] / before[what]
+        if ratio > MOST:
+            lines.append(f"{row['scene']}, {row['step_ms']:g} ms: {what} {100.0 * (ratio - 1.0):.1f} % more a step.")
+    return lines

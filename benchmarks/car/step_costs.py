@@ -6,7 +6,7 @@ import gc
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -23,32 +23,9 @@ try:
 except ImportError:  # Windows
     resource = None  # type: ignore[assignment]
 
-STRETCH = 250  # steps between saved states
 RUN = 20.0  # s, after which the car starts again
 ROLLED, LYING = 1.2, 3.0  # rad, s: a car that lies so long starts again
-KEPT = 3  # worst steps that are kept, by time and by iterations
 _READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_steps", "solver.capped_residual")
-
-
-@dataclass
-class Stretch:
-    """Steps from a saved state on."""
-
-    time: float
-    """Of the state, s."""
-    state: bytes
-    inputs: list[list[float]] = field(default_factory=list)
-    """Of each step since, in the order of the FMU."""
-
-
-@dataclass(frozen=True)
-class Worst:
-    """One of the worst steps: the last of `steps` steps of a stretch."""
-
-    cost: float
-    iterations: int
-    stretch: Stretch
-    steps: int
 
 
 @dataclass
@@ -67,10 +44,6 @@ class Costs:
     """Whether the system took the processor away during the step."""
     refused: list[str]
     starts: int
-    worst: list[Worst]
-    """By time without interruption, then by iterations."""
-    kinds: str
-    """A letter for each input: r real, i whole."""
 
 
 def _switches() -> int:
@@ -118,7 +91,6 @@ class _Drive:
         self.starts = self.steps = 0
         self.lying = 0.0
         self.seen: list[float] = []
-        self.stretch = Stretch(0.0, b"")
 
     def begin(self) -> None:
         """A new start; one that the FMU refuses, as in a ramp, is passed over."""
@@ -135,14 +107,11 @@ class _Drive:
                 if self.starts >= 50:
                     raise
         self.steps, self.lying, self.seen = 0, 0.0, self.read()
-        self.stretch = Stretch(0.0, self.car.state_bytes())
 
     def go(self, n: int, progress: Callable[[float], None]) -> Costs:
         whole = [np.zeros(n, dtype=np.int64) for _ in range(3)]
         us, residual, interrupted = np.zeros(n), np.zeros(n), np.zeros(n, dtype=bool)
         refused: list[str] = []
-        by_time: list[Worst] = []
-        by_iterations: list[Worst] = []
         self.begin()
         collecting = gc.isenabled()
         gc.disable()
@@ -159,21 +128,14 @@ class _Drive:
                     whole[0][k], whole[1][k], whole[2][k] = iterations, halvings - before[0], capped - before[1]
                     self.last = halvings, capped
                     self.lying = self.lying + self.h if abs(roll) > ROLLED else 0.0
-                    one = Worst(us[k], int(iterations), self.stretch, len(self.stretch.inputs))
-                    if not interrupted[k]:
-                        _keep(by_time, one, lambda w: w.cost)
-                    _keep(by_iterations, one, lambda w: w.iterations)
                 if refusal or self.lying > LYING or self.steps * self.h >= RUN:
                     self.begin()
                     if self.driver is not None:
                         self.driver.restart(k * self.h)
-                elif self.steps % STRETCH == 0:
-                    self.stretch = Stretch(self.steps * self.h, self.car.state_bytes())
         finally:
             if collecting:
                 gc.enable()
-        kinds = "".join("i" if self.car.variables[name].type == "Integer" else "r" for name in self.inputs)
-        return Costs(us, *whole, residual, interrupted, refused, self.starts, by_time + by_iterations, kinds)
+        return Costs(us, *whole, residual, interrupted, refused, self.starts)
 
     last = (0.0, 0.0)  # halvings and capped steps since the start, before the present step
 
@@ -184,7 +146,6 @@ class _Drive:
         if self.driver is not None:
             self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
         row = [self.held[name] for name in self.inputs]
-        self.stretch.inputs.append(row)
         self.set(row)
         refusal = ""
         switches, begin = _switches(), time.thread_time_ns()
@@ -200,32 +161,20 @@ class _Drive:
         return spent, interrupted, refusal
 
 
-def _keep(worst: list[Worst], one: Worst, size: Callable[[Worst], float]) -> None:
-    if len(worst) == KEPT and size(one) <= size(worst[-1]):
-        return
-    worst.append(one)
-    worst.sort(key=size, reverse=True)
-    del worst[KEPT:]
-
-
 def summary(costs: Costs, step: float) -> dict[str, object]:
     """Numbers of a drive, for a table."""
     us, alone = costs.us, costs.us[~costs.interrupted]
     return {
         "steps": len(us),
         "mean_us": float(us.mean()),
-        "p99_us": float(np.percentile(us, 99.0)),
         "p99_9_us": float(np.percentile(us, 99.9)),
         "worst_us": float(us.max()),
         "worst_alone_us": float(alone.max()) if len(alone) else math.nan,
-        "interrupted": int(costs.interrupted.sum()),
         "quarter_us": 0.25e6 * step,
         "iterations": float(costs.iterations.mean()),
         "most_iterations": int(costs.iterations.max()),
-        "histogram": np.bincount(costs.iterations).tolist(),
         "halvings": int(costs.halvings.sum()),
         "capped": int(costs.capped.sum()),
         "residual_mm": 1e3 * float(costs.residual.max()),
         "refused": len(costs.refused),
-        "starts": costs.starts,
     }

@@ -94,7 +94,7 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
     assert report is not None
     lines = [
         f"# {car.capitalize()} car, {name.replace('_', ' ')}: this engine with steps of {STEP:g} s, tolerance_r = "
-        f"{TIGHT.tolerance_r:g}; made by python -m benchmarks.car_references",
+        f"{TIGHT.tolerance_r:g}; made by python -m benchmarks.car references",
         f"# path_length_m: {length:.9g}",
         "# path error and relative wheel load error of larger steps: "
         + "; ".join(f"{h:g} s {e:.2e} m, {w:.1e}" for h, e, w in zip(CHECKS, errors, loads, strict=True)),
@@ -119,5 +119,5 @@ def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
     folder = manoeuvres.FOLDER if car == manoeuvres.PROTOTYPE else manoeuvres.FOLDER / car
     name = manoeuvres.OWN[0]
     made = Manoeuvre(name, rows[:, 0], inputs, float(rows[-1, 0]), dict(closed.start))
-    words = "What the host's driver did in the double lane change; made by python -m benchmarks.car_references"
+    words = "What the host's driver did in the double lane change; made by python -m benchmarks.car references"
     write_manoeuvre(made, folder / f"{name}.toml", words)

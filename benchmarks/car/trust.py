@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -86,17 +86,15 @@ def acceleration(name: str, h: float) -> dict[str, Any]:
     }
 
 
-def measure() -> dict[str, list[dict[str, Any]]]:
-    """All rows by the name of their table."""
+def measure() -> list[dict[str, Any]]:
+    """All rows with the name of their table."""
     todo: list[tuple[str, Any, tuple[Any, ...]]] = [("frequency", frequency, (n,)) for n in IN_A_PERIOD]
     todo += [("kerb", kerb, (v,)) for v in SPEEDS]
     todo += [("acceleration", acceleration, (name, h)) for name in HARD for h in (0.01, 0.002)]
-    rows: dict[str, list[dict[str, Any]]] = {name: [] for name in COLUMNS}
-    for name, work, arguments in watched(todo):
-        rows[name].append(work(*arguments))
-    return rows
+    return [{"table": name} | work(*arguments) for name, work, arguments in watched(todo)]
 
 
-def trust_blocks(rows: Mapping[str, Sequence[Row]]) -> dict[str, str]:
+def trust_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The tables of the page."""
-    return {f"trust {name}": table(part, COLUMNS[name]) for name, part in rows.items()}
+    names = dict.fromkeys(row["table"] for row in rows)
+    return {f"trust {name}": table([r for r in rows if r["table"] == name], COLUMNS[name]) for name in names}

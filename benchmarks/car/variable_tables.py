@@ -60,6 +60,11 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
     return {name: _table(name) for name in names}
 
 
+def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
+    """The tables of the page by their marks, from `tables`."""
+    return {"car variables": overview(found)} | full(found)
+
+
 def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     """The variables of all cars in the order of the first, without repetition for wheels and axles."""
     merged: dict[tuple[str, str, str], Shown] = {}

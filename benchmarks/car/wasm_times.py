@@ -1,12 +1,14 @@
-"""Times of the steps of the car's FMU in the hosts that there are: native, wasmtime, Node, Chromium."""
+"""What a step of the car's FMU costs as WebAssembly: native, wasmtime, Node, Chromium, by turns."""
 
 from __future__ import annotations
 
+import gzip
 import importlib.metadata
+import statistics
 import struct
-import sys
+import tempfile
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -15,9 +17,17 @@ import fmpy
 from fmpy.fmi2 import fmi2Real, fmi2ValueReference
 from fmpy.simulation import instantiate_fmu
 
+from benchmarks.shared.command import say_missing, watched
 from benchmarks.shared.fmu_module import FmuModule
 from benchmarks.shared.fmu_page import ChromiumPage, NotHereError, in_node, job_of, resources_of
+from benchmarks.shared.pages import Row, crossed
+from fmu_src.build.build import build_fmu
+from fmu_src.build.scene_registry import load_fidelities
 
+FIDELITIES, INNER = (0, 2), 10
+PLAN = {"inputs": ["steering", "throttle"], "values": [0.1, 0.3], "inner": INNER}
+COLUMNS = {"fidelity": "", "what": "", "host": "", "us": ".4g", "best_us": ".4g", "ratio": ".3g", "x": ".3g"}
+WORDS = "us: median of an inner step; ratio: best over that of the native library; x: times real time"
 KINDS = {"inner": "inner step, ten a call", "each": "one a call, inputs set, outputs read"}
 Measure = Callable[[Mapping[str, Any]], dict[str, Any]]
 _JS = Path(__file__).parents[1] / "shared" / "js"
@@ -42,7 +52,7 @@ def open_hosts(fmu: Path, folder: Path, stack: ExitStack) -> tuple[dict[str, Mea
         versions["Chromium"] = chromium.version
         hosts["Chromium"] = lambda plan: chromium.run(_CLOCK, job_of(fmu, {**plan, "outputs": outputs}))
     except NotHereError as error:
-        print(f"left out: {error}", file=sys.stderr)
+        say_missing(str(error))
     return hosts, versions
 
 
@@ -157,3 +167,55 @@ def _wasmtime(fmu: Path) -> Measure:
         return found | {"end": struct.unpack("<d", module.bytes_at(values, 8))[0]}
 
     return measure
+
+
+def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
+    """Rows of every host, fidelity and kind of call. Raises `RuntimeError`: they do not all end at the same place."""
+    name, systems, _ = load_fidelities("prototype_car")
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, ExitStack() as stack:
+        fmu = build_fmu(systems, name, folder, [fmpy.platform, "wasm32"], kind="native")
+        h = float(fmpy.read_model_description(str(fmu)).defaultExperiment.stepSize)
+        hosts, versions = open_hosts(fmu, Path(folder, "unpacked"), stack)
+        found: dict[tuple[int, str, str], list[float]] = {}
+        for fidelity in watched(FIDELITIES):
+            many = max(INNER, (steps if fidelity == 0 else steps // 2) // INNER * INNER)
+            start = {"initial.speed": 15.0, "fidelity": fidelity}
+            plan = {**PLAN, "h": h, "start": start, "steps": many, "warmUp": 1, "repeats": repeats}
+            ends = set()
+            for _ in range(rounds):
+                for host, timed in hosts.items():
+                    times = timed(plan)
+                    ends.add(times.pop("end"))
+                    for kind, values in times.items():
+                        found.setdefault((fidelity, kind, host), []).extend(values)
+            if len(ends) != 1:
+                raise RuntimeError(f"The hosts do not end at the same place: {sorted(ends)}.")
+        wasm, _ = resources_of(fmu)
+    print(f"module: {len(wasm) / 1e3:.0f} kB, {len(gzip.compress(wasm, 9, mtime=0)) / 1e3:.0f} kB gzipped")
+    print("hosts: " + ", ".join(f"{host} {version}" for host, version in versions.items()))
+    return [_row(key, values, found, h) for key, values in found.items()]
+
+
+def _row(
+    key: tuple[int, str, str], values: Sequence[float], found: Mapping[tuple[int, str, str], Sequence[float]], h: float
+) -> dict[str, Any]:
+    fidelity, kind, host = key
+    us = statistics.median(values)
+    return {
+        "fidelity": str(fidelity),
+        "what": KINDS[kind],
+        "host": host,
+        "us": us,
+        "best_us": min(values),
+        "ratio": min(values) / min(found[fidelity, kind, "native"]),
+        "x": 1e6 * h / us,
+    }
+
+
+def wasm_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Least microseconds of an inner step by host."""
+    return {"wasm": crossed(rows, _name, "host", lambda r: f"{r['best_us']:.0f}", "fidelity, calls")}
+
+
+def _name(row: Row) -> str:
+    return f"{row['fidelity']}, {row['what']}"

@@ -7,10 +7,23 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks import references
+from benchmarks.references import motions as references
 from benchmarks.references.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, stable_speeds
 from benchmarks.references.cases import CASES, SAMPLES, exact_of, system_of
 from benchmarks.references.rolling import RollingBicycle
+
+STEPS = (0.02, 0.01, 0.005)
+COLUMNS = {
+    "linear": {"at 5 m/s": "", "published": ".8f", "system": ".10f", "outside": ".8f"},
+    "methods": {
+        "method": "",
+        "h_s": "g",
+        "error": ".2e",
+        "energy_deviation_J": ".2e",
+        "iterations_a_step": ".2f",
+        "factorizations": "d",
+    },
+}
 
 
 def linear() -> list[dict[str, Any]]:

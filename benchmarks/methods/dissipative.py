@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -13,12 +13,27 @@ import numpy as np
 
 import mbs
 from benchmarks.car import fidelity_runs
-from benchmarks.methods.kernel_methods import TITLES
+from benchmarks.methods.kernel_methods import CONSERVATIVE_ONLY, KERNEL, TITLES, TREE_ONLY
 from benchmarks.paper.assembly_defect import STEP
 from benchmarks.references.assembly_defect import COMPONENTS, reference
+from benchmarks.shared.pages import Row, table
 from mbs.scenes import assembly_defect_four_bar, prototype_car, spinning_beam
 from mbs.vehicle.environment import GRAVITY
 
+METHODS = [method for method in KERNEL if method not in (*CONSERVATIVE_ONLY, *TREE_ONLY)]
+QUICK = ("spinning_beam", "car_at_rest_100s")
+COLUMNS = {
+    "scene": "",
+    "method": "",
+    "h_s": "g",
+    "outcome": "",
+    "error": ".1e",
+    "limit": "g",
+    "iterations": ".2f",
+    "violation_m": ".0e",
+    "wall_s": ".2g",
+    "reason": "",
+}
 SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
 Found = tuple[float, mbs.Trajectory]
 
@@ -130,3 +145,17 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
         "violation_m": t.report.violation,
         "wall_s": t.wall_s,
     }
+
+
+def dissipative_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Flexible scenes and the car: a line for each scene and method."""
+    lines = []
+    for scene, method in dict.fromkeys((r["scene"], r["method"]) for r in rows):
+        part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
+        line = {"scene": scene, "method": method, "error": part[0]["quantity"], "wrong from": f"{part[0]['limit']:g}"}
+        for r in sorted(part, key=lambda r: -r["h_s"]):
+            said = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
+            line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {said}")))
+        line["first stop"] = next((r["reason"].partition(". Worst")[0] for r in part if r["reason"]), "-")
+        lines.append(line)
+    return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}

@@ -12,14 +12,17 @@ import numpy as np
 import mbs
 from benchmarks.methods.kernel_methods import suits
 from benchmarks.references.cases import CASES, SAMPLES, exact_of, system_of
+from benchmarks.shared.pages import Row, table
 
 METHODS = ("ali3p", "radau_5", "runge_kutta_8", "semi_recursive", "semi_recursive_4")
 CHOSEN = "auto"
+TOLERANCES, QUICK_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-6), (1e-3,)
+SCENES = tuple(name for name in CASES if name not in ("pendulum_1000s", "four_bar_200"))
 SLOW = 1e-3
 """Below this tolerance ALi3-P, of order two, is left out where others can be used."""
 MOST_ERROR, MOST_TIME = 10.0, 2.0
 REPEATS, LONG = 5, 0.5  # s: longer runs are made once
-TABLE = {
+COLUMNS = {
     "scene": "",
     "tolerance": ".0e",
     "method": "",
@@ -38,7 +41,7 @@ TABLE = {
 def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str, Any]:
     """One row: the run with its errors, and the least time of a few."""
     case, system = CASES[scene], system_of(scene)
-    row: dict[str, Any] = dict.fromkeys(TABLE) | {"scene": scene, "tolerance": tolerance, "method": method}
+    row: dict[str, Any] = dict.fromkeys(COLUMNS) | {"scene": scene, "tolerance": tolerance, "method": method}
     times = np.linspace(0.0, case.end, SAMPLES + 1)
     spent = []
     for _ in range(repeats):
@@ -83,7 +86,7 @@ def compare(rows: list[dict[str, Any]]) -> None:
             row["ratio"] = row["cpu_ms"] / min(r for r in good)
 
 
-def misses(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def misses(rows: Sequence[Row]) -> list[Row]:
     """Rows of the choice that are costly or wrong, and of any method that are wrong without a warning."""
     found = []
     for row in rows:
@@ -93,3 +96,31 @@ def misses(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         if (chosen and (costly or wrong or row["ended"] != "finished")) or (wrong and not row["warned"]):
             found.append(row)
     return found
+
+
+def control_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """What the choice of method took at each tolerance, beside the best method by name."""
+    lines = []
+    for r in rows:
+        if not r["method"].startswith(CHOSEN):
+            continue
+        others = [
+            x
+            for x in rows
+            if (x["scene"], x["tolerance"]) == (r["scene"], r["tolerance"])
+            and not x["method"].startswith(CHOSEN)
+            and x["cpu_ms"]
+            and x["error_over_tolerance"] <= MOST_ERROR
+        ]
+        best = min(others, key=lambda x: x["cpu_ms"], default=None)
+        miss = [
+            what for what, there in (("slow", (r["ratio"] or 0.0) > MOST_TIME), ("refused", not r["cpu_ms"])) if there
+        ]
+        if (r["error_over_tolerance"] or 0.0) > MOST_ERROR:
+            miss.append("wrong" + (", warned" if r["warned"] else ""))
+        lines.append(
+            {**r, "chosen": r["method"].removeprefix(f"{CHOSEN}: "), "best": best and best["method"]}
+            | {"best_ms": best and best["cpu_ms"], "miss": ", ".join(miss)}
+        )
+    columns = {"scene": "", "tolerance": ".0e", "chosen": "", "error_over_tolerance": ".2g", "cpu_ms": ".3g"}
+    return {"control": table(lines, columns | {"best": "", "best_ms": ".3g", "ratio": ".2f", "miss": ""})}

@@ -11,24 +11,31 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.methods.arithmetic import compiled_loop_peak, dgemm_peak, operations, resident
 from benchmarks.shared.command import pyplot, save_chart, watched
 from benchmarks.shared.machine import machine
+from benchmarks.shared.pages import Row, table
 from mbs.flexible.component_modes import craig_bampton
 from mbs.scenes import double_four_bar
 from mbs.vehicle import load
 
 STEP, END = 0.01, 0.6  # s: up to before the first singular position
-CHASSIS_STEP, CHASSIS_STEPS, CHASSIS_REPEATS = 0.005, 100, 5  # s
+CHASSIS_STEP, CHASSIS_STEPS = 0.005, 100  # s
 FITTED_FROM = 10  # N: below it the fixed cost of a step shows
+WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+REPEATS = 9
+MODES = (5, 10, 20, 50, 100, 200)  # dynamic ones of the chassis, beside 60 static and 6 inertia modes
 METHODS = ("ali3p", "energy_momentum")
-EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros", "operations_per_step")
-CHASSIS_EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros")
+EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros")
+TIMES = {"us_per_step": ".3g", "us_per_iteration": ".3g"}
+SIZES = {"coordinates": "d", "factor_nonzeros": "d", "system_bytes": "d", "state_bytes": "d", "iterations": ".2f"}
+COLUMNS = {
+    "windows": {"N": "d", "method": "", **SIZES, "rows": "d", "compile_s": ".2g", **TIMES},
+    "chassis": {"dynamic_modes": "d", "modes": "d", **SIZES, **TIMES},
+}
 
 
 def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
     """All rows; times are medians over repeats through all of them."""
-    loop, dgemm = compiled_loop_peak(), dgemm_peak()
     steps = round(END / STEP)
     rows: list[dict[str, Any]] = []
     systems: dict[int, mbs.System] = {}
@@ -37,10 +44,7 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
         system = systems[n] = mbs.compile(double_four_bar.build(n))
         compiled = time.perf_counter() - begin
         for method in METHODS:
-            before = resident()
             simulation = mbs.Simulation(system, settings=mbs.Settings(method=method))
-            after = resident()
-            first = simulation.report
             simulation.step(STEP, n=steps)
             report = simulation.report
             rows.append(
@@ -52,15 +56,8 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
                     "factor_nonzeros": system.report["factor_nonzeros"],
                     "system_bytes": len(system.kernel_bytes()),
                     "state_bytes": simulation.instance.system.state_size,
-                    "resident_bytes": max(after - before, 0),
                     "compile_s": compiled,
                     "iterations": report.iterations / steps,
-                    "operations_per_step": operations(
-                        system,
-                        report.iterations / steps,
-                        (report.factorizations - first.factorizations) / steps,
-                        (report.solves - first.solves) / steps,
-                    ),
                 }
             )
     walls: list[list[float]] = [[] for _ in rows]
@@ -70,17 +67,8 @@ def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
         if turn:
             walls[k].append(run.wall_s / steps)
     for row, times in zip(rows, walls, strict=True):
-        wall = statistics.median(times)
-        rate = row["operations_per_step"] / wall
-        row |= {
-            "us_per_step": 1e6 * wall,
-            "us_per_iteration": 1e6 * wall / row["iterations"],
-            "gflops": 1e-9 * rate,
-            "of_compiled_loop": rate / loop if loop else None,
-            "of_dgemm": rate / dgemm,
-            "compiled_loop_gflops": 1e-9 * loop if loop else None,
-            "dgemm_gflops": 1e-9 * dgemm,
-        }
+        wall = 1e6 * statistics.median(times)
+        row |= {"us_per_step": wall, "us_per_iteration": wall / row["iterations"]}
     return rows
 
 
@@ -125,28 +113,33 @@ def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
     return rows
 
 
-def chassis_exponents(rows: Sequence[dict[str, Any]]) -> dict[str, float]:
-    """Fitted b of ``cost = a n^b`` over all modes n, static ones included."""
-    x = np.log([r["modes"] for r in rows])
-    return {key: float(np.polyfit(x, np.log([r[key] for r in rows]), 1)[0]) for key in CHASSIS_EXPONENTS}
+def exponents(rows: Sequence[Row], size: str) -> dict[str, float]:
+    """Fitted b of ``cost = a size^b``."""
+    x = np.log([r[size] for r in rows])
+    return {key: float(np.polyfit(x, np.log([r[key] for r in rows]), 1)[0]) for key in EXPONENTS}
 
 
-def exponents(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Fitted b of ``cost = a N^b`` from `FITTED_FROM` on."""
-    lines = []
+def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Growth and its exponents, of four-bars from `FITTED_FROM` windows on."""
+    four_bars, frames = ([r for r in rows if r["table"] == name] for name in COLUMNS)
+    fitted = []
     for method in METHODS:
-        part = [r for r in rows if r["method"] == method and r["N"] >= FITTED_FROM]
-        if len(part) > 1:
-            x = np.log([r["N"] for r in part])
-            lines.append(
-                {"method": method}
-                | {key: float(np.polyfit(x, np.log([r[key] for r in part]), 1)[0]) for key in EXPONENTS}
-            )
-    return lines
+        part = [r for r in four_bars if r["method"] == method and r["N"] >= FITTED_FROM]
+        fitted.append({"method": method} | exponents(part, "N"))
+    columns = {"N": "d", "method": "", "us_per_step": ".3g", "iterations": ".2f", "factor_nonzeros": "d"}
+    of_frame = {key: COLUMNS["chassis"][key] for key in ("dynamic_modes", "modes", *SIZES) if key != "state_bytes"}
+    slopes = ", ".join(f"{key.replace('_', ' ')} {value:.2f}" for key, value in exponents(frames, "modes").items())
+    said = f"Steps of {CHASSIS_STEP:g} s. Exponents b of cost = a n^b in all modes n: {slopes}."
+    return {
+        "growth": table(four_bars, columns | {"system_bytes": "d"}),
+        "exponents": table(fitted, {"method": ""} | dict.fromkeys(EXPONENTS, ".2f")),
+        "chassis growth": f"{table(frames, of_frame | dict.fromkeys(TIMES, '.0f'))}\n\n{said}",
+    }
 
 
-def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
+def draw(rows: Sequence[Row], file: Path) -> None:
     """Time per step and non-zeros against N, log-log, with a line of slope one."""
+    rows = [r for r in rows if r["table"] == "windows"]
     plt = pyplot()
     figure, ax = plt.subplots(figsize=(6.2, 4.4), layout="constrained")
     for method, colour, marker in zip(METHODS, ("#0072B2", "#CC79A7"), "ov", strict=True):

@@ -12,8 +12,24 @@ import numpy as np
 import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
+from benchmarks.shared.pages import Row, table
 from mbs.results.accuracy import WRONG_BALANCE, WRONG_ERROR
 
+LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
+QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
+COLUMNS = {
+    "scene": "",
+    "method": "",
+    "h_s": ".4g",
+    "ended": "",
+    "error": ".1e",
+    "estimate": ".1e",
+    "balance": ".1e",
+    "halvings_per_step": ".2g",
+    "repeated": "",
+    "verdict": "",
+    "cpu_s": ".2g",
+}
 HOLDS = 1e-3  # of the range: a smaller error needs no estimate
 FACTOR = 10.0  # by which an error may be larger than its estimate
 VERDICTS = ("right, no warning", "false alarm", "wrong, warned", "wrong, missed")
@@ -61,7 +77,7 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
     }
 
 
-def summary(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """Per method: wrong runs caught and missed, right ones disturbed."""
     lines = []
     for method in dict.fromkeys(r["method"] for r in rows):
@@ -85,3 +101,31 @@ def summary(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
             }
         )
     return lines
+
+
+def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Wrong runs caught and right ones disturbed, and by name those that went against the rule."""
+    said = []
+    for verdict in (VERDICTS[3], VERDICTS[1]):
+        found = [r for r in rows if r["verdict"] == verdict]
+        for method in dict.fromkeys(r["method"] for r in found):
+            runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in found if r["method"] == method)
+            said.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
+    short = [
+        f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
+        for r in rows
+        if r["estimate"] is not None and r["error"] > max(HOLDS, FACTOR * r["estimate"])
+    ]
+    said += [f"- More than {FACTOR:g} times the estimate: {'; '.join(short) or 'none'}."]
+    return {
+        "honesty": table(summary(rows), SUMMARY),
+        "honesty exceptions": "\n".join(said),
+        "honesty crank": crank_table(rows),
+    }
+
+
+def crank_table(rows: Sequence[Row]) -> str:
+    """The crank-slider of the modelling page with the default method, by step."""
+    crank = [r for r in rows if r["scene"] == "printed_crank_slider" and r["method"] == "ali3p"]
+    columns = {"h_s": "g", "ended": "", "error": ".1e", "estimate": ".1e", "balance": ".1e", "halvings_per_step": ".2g"}
+    return table(crank, columns | {"verdict": ""})

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import mbs
 from benchmarks.methods import random_cars, random_machines, random_mechanisms
 from benchmarks.references import masses_on_a_line, newton_euler
+from benchmarks.shared.pages import Row, table
 from mbs.results.accuracy import WRONG_ERROR, extent, judged_sensors
 from mbs.simulation.prepared_system import length_of
 
@@ -23,12 +24,11 @@ CAR_SHARE = 0.1  # cars beside so many mechanisms
 NOTHING = 1e-3  # of the range or the length: of a smaller error no estimate is asked
 FACTOR = 10.0  # by which an estimate may be off
 BEYOND = 10.0  # tolerances: wrong
-FAMILIES = ("mechanisms", "machines")
 KINDS = ("planar", "spatial", "car", *random_machines.KINDS)
 VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong")
 TOLD = ("false alarm", "refused", "silently wrong")
 """Verdicts that are shown case by case."""
-TABLE = {
+COLUMNS = {
     "number": "d",
     "kind": "",
     "asked": "",
@@ -49,19 +49,21 @@ SUMMARY = {
     "within ten times": ".0%",
     "steps over its own": ".2f",
     "cost, median": ".3g",
-    "cost over before": ".2f",
 }
 
 
-def rows_of(seed: int, numbers: Iterable[int], family: str = FAMILIES[0]) -> Iterator[dict[str, Any]]:
-    """Rows of the cases of a seed; a case without a reference gives one row that says so."""
+def rows_of(seed: int, numbers: Iterable[int], family: str = "mechanisms") -> Iterator[dict[str, Any]]:
+    """Rows of the cases of a seed; a case without a reference gives one row that says so.
+
+    `family`: ``mechanisms``, with cars among them, or ``machines``.
+    """
+    empty = {"seed": seed} | dict.fromkeys(COLUMNS)
     for number in numbers:
         rng = np.random.default_rng([seed, number])
-        if family == "machines":
-            yield from _machine(number, rng)
-            continue
-        is_car = rng.random() < CAR_SHARE / (1.0 + CAR_SHARE)
-        yield from (_car if is_car else _mechanism)(number, rng)
+        make = _machine
+        if family == "mechanisms":
+            make = _car if rng.random() < CAR_SHARE / (1.0 + CAR_SHARE) else _mechanism
+        yield from (empty | row for row in make(number, rng))
 
 
 def _mechanism(number: int, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
@@ -188,20 +190,19 @@ def _of_length(run: mbs.Trajectory, truth: Mapping[str, Array]) -> float:
     return max(float(np.abs(run[n] - values).max()) for n, values in truth.items()) / run.control.length
 
 
-def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = ()) -> list[dict[str, Any]]:
-    """Counts per class of cases, of fixed steps and under a tolerance; costs over those of rows of before."""
-    old = {(r["number"], r["asked"]): r["cpu_s"] for r in before if "cpu_s" in r}
+def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
+    """Counts per class of cases, of fixed steps and under a tolerance."""
     lines = []
     for kind in KINDS:
         for asked, controlled in (("fixed steps", False), ("tolerance", True)):
-            part = [r for r in rows if r["class"] == kind and "cpu_s" in r and ("tol" in r["asked"]) == controlled]
+            mine = [r for r in rows if r["class"] == kind and r["cpu_s"] is not None]
+            part = [r for r in mine if ("tol" in r["asked"]) == controlled]
             if not part:
                 continue
             count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}
             told = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
             near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in told)
             steps = [r["steps"] for r in part if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
-            ratios = [r["cpu_s"] / old[r["number"], r["asked"]] for r in part if (r["number"], r["asked"]) in old]
             lines.append(
                 {
                     "asked": f"{kind}, {asked}",
@@ -215,12 +216,20 @@ def summary(rows: Sequence[dict[str, Any]], before: Sequence[dict[str, Any]] = (
                     "within ten times": near / len(told) if told else None,
                     "steps over its own": float(np.median(steps)) if steps else None,
                     "cost, median": float(np.median([r["cpu_s"] for r in part])),
-                    "cost over before": float(np.median(ratios)) if ratios else None,
                 }
             )
     return lines
 
 
-def _least(row: dict[str, Any]) -> float:
+def _least(row: Row) -> float:
     """The smallest error of which an estimate is asked: what nobody asked for better than a hundredth of."""
     return 0.01 * float(row["asked"].split()[1]) if "tol" in row["asked"] else NOTHING
+
+
+def random_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Verdicts on random machines of several seeds."""
+    columns = {k: f for k, f in SUMMARY.items() if not k.startswith("cost")}
+    seeds = ", ".join(map(str, dict.fromkeys(r["seed"] for r in rows)))
+    none = sum(r["verdict"] == "none" for r in rows)
+    said = f"Seeds {seeds}, {len({(r['seed'], r['number']) for r in rows})} machines; {none} without a reference."
+    return {"honesty machines": f"{said}\n\n{table(summary(rows), columns)}"}

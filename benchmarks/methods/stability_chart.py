@@ -5,17 +5,17 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.pages import Row
 
 LOOK = {"fine": ("#009E73", "s"), "wrong": ("#E69F00", "v"), "refused": ("#56B4E9", "D"), "diverged": ("#D55E00", "X")}
 """Colours of Okabe and Ito; shapes say the same."""
 
 
-def draw(rows: Sequence[dict[str, Any]], title: str, file: Path) -> None:
+def draw(rows: Sequence[Row], title: str, file: Path) -> None:
     """Draw the maps of one scene; the default settings are the line of ringed marks at the bottom."""
     plt = pyplot()
     from matplotlib.lines import Line2D

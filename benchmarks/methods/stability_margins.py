@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 import mbs
+from benchmarks.shared.pages import Row, table
 
 USUAL_STEP = 0.01  # s
 SQUEEZED = {"squeezer": 0.01}  # scenes whose steps are this share of the others'
 
 
-def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def margins(rows: Sequence[Row]) -> list[dict[str, Any]]:
     """How far the default settings lie inside the fine region: the span of steps over which they are fine without a
     gap, and the decades of eps to either side up to the first that is not fine, over that span and at the usual step;
     none where a method has no penalty.
@@ -42,7 +43,7 @@ def margins(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return lines
 
 
-def _decades(rows: Sequence[dict[str, Any]], h: float) -> tuple[float, float]:
+def _decades(rows: Sequence[Row], h: float) -> tuple[float, float]:
     """Decades of eps below and above the default up to the first that is not fine (or one beyond those tried)."""
     centre = np.log10(mbs.Settings().eps_rel)
     values = sorted((np.log10(r["value"]), r["outcome"]) for r in rows if r["h_s"] == h and r["value"] is not None)
@@ -61,3 +62,11 @@ def _longest(steps: list[float], fine: list[bool]) -> list[float]:
         now = [*now, h] if good else []
         best = now if len(now) > len(best) else best
     return best
+
+
+def margin_table(margins: Sequence[Row]) -> str:
+    """The distance of the default settings from failure, a line for each scene and method."""
+    columns = {"scene": "", "method": "", "smallest_fine_h_s": ".1e", "largest_fine_h_s": ".1e", "first_break": ""}
+    decades = dict.fromkeys(("decades_below", "decades_above"), ".0f") | {"usual_h_s": ".0e"}
+    decades |= dict.fromkeys(("usual_below", "usual_above"), ".0f")
+    return table(margins, columns | decades)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import gc
 import multiprocessing
+import tempfile
 import time
+from argparse import Namespace
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
@@ -16,6 +18,8 @@ import numpy as np
 import psutil
 
 import mbs
+from ali3.errors import UserError
+from benchmarks.shared.command import watched
 from fmu_src.build.build import build_fmu
 
 Row = dict[str, Any]
@@ -54,6 +58,35 @@ range = [0.0, 5.0]
 low = "min(bob.y)"
 end = "final(bob.y)"
 """
+PARTS = ("overhead", "memory", "single")
+_LOOP = 50
+COLUMNS: dict[str, dict[str, str]] = {
+    "loop": {"case": "", "runs": "d", "run_s": ".4f"},
+    "runs": {
+        "case": "", "workers": "d", "runs": "d", "failed": "d", "run_s": ".4f", "elapsed_s": ".1f", "rate": ".1f",
+        "overhead_ms": ".2f", "overhead": ".2%", "chunks": "d", "main_ms": ".3f", "before_mb": ".0f", "main_mb": ".0f",
+        "worker_mb": ".0f", "bytes": ".0f", "parts": "d", "start_s": ".1f",
+    },
+    "start again": {"case": "", "runs": "d", "start_s": ".1f"},
+    "plan": {"method": "", "runs": "d", "start_s": ".2f", "main_ms": ".4f", "main_mb": ".0f"},
+    "rows": {
+        "case": "", "runs": "d", "main_ms": ".4f", "bytes": ".0f", "found_s": ".2f", "read_s": ".2f", "read_mb": ".0f"
+    },
+    "empty tasks": {"runs": "d", "workers": "d", "task_ms": ".3f", "main_ms": ".3f"},
+}  # fmt: skip
+WORDS = """run_s: in the worker; overhead: workers x elapsed less the time in runs, as a part of the latter; main_ms:
+processor time of the process with client, scheduler and writer, of a run, row or task; before_mb, main_mb: its memory
+before the first run and at most; bytes: on the disk, of a row; found_s: to find which runs are there; read_s, read_mb:
+to open all rows"""
+OPTIONS = {
+    "fmu": ("dist/PrototypeCar.fmu", "of the car"),
+    "runs": (200, "of the car"),
+    "seconds": (0.1, "of a run of the car, s"),
+    "workers": ((1, 2), "of the local cluster"),
+    "sizes": ((500, 2000), "runs of a small FMU"),
+    "rows": (100_000, "of the plan and the writer alone"),
+    "tasks": (2000, "that are empty"),
+}
 TEXTS = {"car": _CAR, "spring": _SPRING}
 """Study files by their case."""
 
@@ -106,7 +139,7 @@ def loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row
         begin = time.perf_counter()
         for value in values:
             bench.run(job, value, 0)
-        return {"what": "loop", "case": case, "runs": runs, "run_s": (time.perf_counter() - begin) / runs}
+        return {"table": "loop", "case": case, "runs": runs, "run_s": (time.perf_counter() - begin) / runs}
     finally:
         bench.close()
 
@@ -150,7 +183,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     beside = workers * elapsed - walls.sum()
     files = part_files(folder)
     return {
-        "what": "runs",
+        "table": "runs",
         "case": case,
         "workers": workers,
         "runs": runs,
@@ -183,7 +216,7 @@ def start_again(case: str, fmu: Path, runs: int, stop_time: float, folder: Path)
     done = subprocess.run(line, check=False, capture_output=True, text=True)
     if done.returncode != 0 or f"{runs} of {runs} runs are there" not in done.stdout:
         raise RuntimeError(f"the study was not found whole: {done.stdout} {done.stderr}")
-    return {"what": "start again", "case": case, "runs": runs, "start_s": time.perf_counter() - begin}
+    return {"table": "start again", "case": case, "runs": runs, "start_s": time.perf_counter() - begin}
 
 
 def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Row:
@@ -198,7 +231,7 @@ def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Ro
         plan.points.block(first, min(size, runs - first))
     blocks = time.perf_counter() - begin
     memory = psutil.Process().memory_info().rss - before
-    row = {"what": "plan", "method": method, "runs": runs, "start_s": seconds}
+    row = {"table": "plan", "method": method, "runs": runs, "start_s": seconds}
     return row | {"main_ms": 1e3 * blocks / runs, "main_mb": 1e-6 * memory}
 
 
@@ -238,7 +271,7 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     read = time.perf_counter() - begin
     assert len(frame) == rows
     memory = psutil.Process().memory_info().rss - before
-    row = {"what": "rows", "case": case, "runs": rows, "main_ms": 1e3 * spent / rows, "bytes": size / rows}
+    row = {"table": "rows", "case": case, "runs": rows, "main_ms": 1e3 * spent / rows, "bytes": size / rows}
     return row | {"found_s": found, "read_s": read, "read_mb": 1e-6 * memory}
 
 
@@ -252,9 +285,44 @@ def empty_tasks(tasks: int, workers: int) -> Row:
         begin, processor = time.perf_counter(), sum(me.cpu_times()[:2])
         client.gather(client.map(_nothing, range(tasks), pure=False))
         elapsed, processor = time.perf_counter() - begin, sum(me.cpu_times()[:2]) - processor
-    row = {"what": "empty tasks", "runs": tasks, "workers": workers, "elapsed_s": elapsed}
+    row = {"table": "empty tasks", "runs": tasks, "workers": workers, "elapsed_s": elapsed}
     return row | {"task_ms": 1e3 * elapsed / tasks, "main_ms": 1e3 * processor / tasks}
 
 
 def _nothing(number: int) -> int:
     return number
+
+
+def measure(options: Namespace) -> list[Row]:
+    """Rows of what was asked for, each with the name of its table."""
+    if "overhead" in options.only and not Path(options.fmu).is_file():
+        raise UserError(f"There is no file {options.fmu}; build it, or give --fmu.")
+    with tempfile.TemporaryDirectory(prefix="study-") as folder:
+        return [work() for work in watched(list(_works(options, Path(folder))))]
+
+
+def _works(options: Namespace, folder: Path) -> Iterator[Callable[[], dict[str, Any]]]:
+    """What is measured, each in a process of its own."""
+    if "overhead" in options.only:
+        car = Path(options.fmu).absolute()
+        stop = alone(stop_time_for, "car", car, options.seconds, folder / "calibration")
+        yield lambda: alone(loop, "car", car, _LOOP, stop, folder / "loop")
+        for workers in options.workers:
+            arguments = ("car", car, options.runs, workers, stop, folder / f"car-{workers}")
+            yield lambda arguments=arguments: alone(study_runs, *arguments)
+    if not set(options.only) & {"memory", "single"}:
+        return
+    spring = spring_fmu(folder)
+    if "memory" in options.only:
+        for runs in options.sizes:
+            place = folder / f"spring-{runs}"
+            yield lambda runs=runs, place=place: alone(
+                study_runs, "spring", spring, runs, max(options.workers), 1.0, place
+            )
+            yield lambda runs=runs, place=place: start_again("spring", spring, runs, 1.0, place)
+    if "single" in options.only:
+        for method in ("sobol", "latin_hypercube"):
+            place = folder / f"plan-{method}"
+            yield lambda method=method, place=place: alone(plan_alone, "spring", spring, options.rows, method, place)
+        yield lambda: alone(rows_written, "spring", spring, options.rows, folder / "rows")
+        yield lambda: alone(empty_tasks, options.tasks, max(options.workers))

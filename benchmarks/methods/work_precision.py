@@ -15,6 +15,7 @@ from benchmarks.baselines.run import run
 from benchmarks.methods.kernel_methods import TITLES, all_settings, controlled, suits
 from benchmarks.references.cases import CASES, SAMPLES, SHARED, exact_of, system_of
 from benchmarks.shared.command import watched
+from benchmarks.shared.pages import Row, table
 from mbs.kernel.binding import KernelError
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
@@ -25,9 +26,22 @@ SCIPY = {"method": "index-1 minimum norm, Baumgarte", "solver": "DOP853"}
 SCIPY_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
 CLASSICAL_STEPS = 4000  # a slow method in Python is not run longer
 LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
-QUICK_DIVISIONS, QUICK_SCENES = 2, ("double_four_bar", "spatial_slider_crank")
+QUICK_DIVISIONS = 2
 CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
 CONTROLLED_TOLERANCES, ORDER_TWO_ENDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8), 1e-5
+COLUMNS = {
+    "scene": "",
+    "family": "",
+    "method": "",
+    "h_s": ".4g",
+    "rtol": ".0e",
+    "position_error_m": ".2e",
+    "energy_deviation_J": ".2e",
+    "wall_s": ".2e",
+    "factorizations": "d",
+    "evaluations": "d",
+    "ended": "",
+}
 Action = Callable[[], tuple[float, dict[str, Any]]]
 
 
@@ -173,7 +187,7 @@ def measure(scene: str, quick: bool, engines: dict[str, Any], repeats: int) -> l
     return [row for row, _ in todo]
 
 
-def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> float | None:
+def time_at_error(rows: Sequence[Row], method: str, level: float) -> float | None:
     """Time from which on a method stays within an error, along its curve (log-log); None where it does not.
 
     Every finished run with a smaller step must be as good: a lucky step does not count. A run that is better than
@@ -193,7 +207,7 @@ def time_at_error(rows: Sequence[dict[str, Any]], method: str, level: float) -> 
     return float(best)
 
 
-def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:
+def compare(rows: Sequence[Row], scene: str) -> list[dict[str, Any]]:
     """Our best time over the best peer's at each level of error."""
     part = [r for r in rows if r["scene"] == scene]
     lines = []
@@ -220,3 +234,40 @@ def compare(rows: Sequence[dict[str, Any]], scene: str) -> list[dict[str, Any]]:
             }
         )
     return lines
+
+
+def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """The comparison with the peers, and the time each method takes to each error."""
+    scenes = list(dict.fromkeys(r["scene"] for r in rows))
+    ratios = [line for s in scenes for line in compare(rows, s) if line["peer_ms"] is not None]
+    columns = {
+        "scene": "",
+        "error_m": ".0e",
+        "ours": "",
+        "ours_ms": ".3g",
+        "peer": "",
+        "peer_ms": ".3g",
+        "ratio": ".2g",
+    }
+    behind = [r for r in ratios if r["ahead"] == "NO"]
+    half = [r for r in ratios if r["ratio"] is not None and 0.5 < r["ratio"] <= 1.0]
+    said = f"Behind the best peer in {len(behind)} of {len(ratios)} lines"
+    said += ": " + "; ".join(f"{r['scene']} at {r['error_m']:.0e} m" for r in behind) + "." if behind else "."
+    said += f" Ahead, but by less than a factor of two, in {len(half)}."
+    times = []
+    for scene in scenes:
+        part = [r for r in rows if r["scene"] == scene]
+        for method in dict.fromkeys(r["method"] for r in part):
+            line: dict[str, Any] = {"scene": scene, "method": method}
+            line |= {f"{level:.0e} m": _ms(time_at_error(part, method, level)) for level in LEVELS}
+            runs = [r for r in part if r["method"] == method]
+            line["finished"] = f"{sum(r['ended'] == 'finished' for r in runs)} of {len(runs)}"
+            times.append(line)
+    columns_2 = {"scene": "", "method": ""} | {f"{level:.0e} m": ".3g" for level in LEVELS} | {"finished": ""}
+    charts = "\n".join(f"![{CASES[s].title}](images/work_{s}.png)\n" for s in scenes)
+    ratio_table = table(ratios, columns | {"ahead": ""}) + "\n\n" + said
+    return {"ratios": ratio_table, "times": table(times, columns_2), "work charts": charts}
+
+
+def _ms(wall: float | None) -> float | None:
+    return None if wall is None else 1e3 * wall

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from benchmarks.methods.kernel_methods import TITLES, controlled
 from benchmarks.references.cases import Case
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.machine import machine
+from benchmarks.shared.pages import Row
 
 KERNEL = {
     TITLES["ali3p"]: ("#0072B2", "o"),
@@ -32,11 +32,12 @@ OTHERS = {
 """Colour, line, and the marks of the methods of each family."""
 CONTROLLED = {controlled(title): style for title, style in KERNEL.items()}
 """Runs to a tolerance: the same colours, dash-dotted with open marks."""
+LOST = 0.5  # of the motion's extent: beyond it a run has no point
 PANELS = {"wall_s": ("kernel", "drake", "exudyn", "mujoco", "pinocchio"), "factorizations": ("kernel", "classical")}
 """What is compared: times of compiled programs, factorizations of the methods that count them."""
 
 
-def draw(rows: Sequence[dict[str, Any]], case: Case, lost: float, file: Path) -> None:
+def draw(rows: Sequence[Row], case: Case, lost: float, file: Path) -> None:
     """Left: wall time of the kernel and of other engines; right: factorizations of the kernel and of methods in Python.
     Runs that lost the motion are left out.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,18 +10,34 @@ from typing import Any
 import numpy as np
 
 import mbs
-from benchmarks.references.double_four_bar import exact
+from benchmarks.references.motions import four_bar
 from benchmarks.shared.command import pyplot, save_chart, watched
 from benchmarks.shared.machine import machine
+from benchmarks.shared.pages import Row, table
 from mbs.scenes import double_four_bar
 
+WINDOWS = (1, 2, 40, 200, 1000)
+COLUMNS = {
+    "method": "",
+    "N": "d",
+    "h_s": "g",
+    "energy_deviation_J": ".3g",
+    "position_error_m": ".2e",
+    "iterations_mean": ".2f",
+    "iterations_max": "d",
+    "us_per_step": ".2f",
+    "us_reported": ".2f",
+    "wall_s": ".2e",
+    "realtime_factor": ".0f",
+    "failed_at_s": ".3f",
+}
 END = 10.0  # s
 REPEATS, FEW_REPEATS = 15, 3
 LONG = 0.2  # s of wall time beyond which a few repeats must do
 SHORT = 2  # N up to which runs that record every state are timed too
 LOST = 1.0  # m: beyond it the phase is lost and the chart has no point
 PAPER = {0.01: (-0.21, 0.86), 0.03: (-0.83, 0.37), 0.05: (-9.03, 0.26)}  # s: (J, s), Table 1
-PAPER_ROWS = [{"h_s": h, "energy_deviation_J": e, "wall_s": w} for h, (e, w) in PAPER.items()]
+SHOWN = 3e-3  # s: a run that takes less is seldom interrupted, and its time is told
 METHODS = {
     "ALi3-P": mbs.Settings(),
     "ALi3-P, tolerance 1e-12": mbs.Settings(tolerance_r=1e-12, tolerance_phi=1e-12),
@@ -32,14 +47,6 @@ METHODS = {
     "energy-momentum": mbs.Settings(method="energy_momentum"),
     "ALi3 without projections": mbs.Settings(project=False),
 }
-TRIED = {
-    "method": ("ali3p", "ali3p_generalised_alpha", "ali3p_no_projection"),
-    "update": ("linearised", "paper"),
-    "predictor": ("parabola", "acceleration"),
-    "eps_rel": (1e-4, 1e-5, 1e-6, 1e-7, 1e-8),
-    "tolerance_r": (1e-4, 1e-7),
-}
-"""Settings with which the paper's Table 1 was looked for; each step once, without halving."""
 STEPS = (0.1, 0.05, 0.03, 0.01, 0.005, 0.002, 0.001)
 FEW_STEPS = (0.05, 0.01, 0.002)  # for the long chains
 
@@ -78,7 +85,7 @@ def measure(system: mbs.System, windows: int, method: str, h: float, compile_s: 
     place = np.column_stack([run["B0.position.x"], run["B0.position.y"]])
     return row | {
         "energy_deviation_J": _largest(energy - energy[0]),
-        "position_error_m": float(np.linalg.norm(place - exact(windows, run.t), axis=1).max()),
+        "position_error_m": float(np.linalg.norm(place - four_bar(windows, run.t), axis=1).max()),
         "iterations_mean": run.report.mean_iterations,
         "iterations_max": run.report.max_iterations,
         "wall_s": run.wall_s,
@@ -129,77 +136,26 @@ def measure_all(windows: Sequence[int], repeats: int = REPEATS) -> list[dict[str
     return rows
 
 
-def compare_with_paper(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def four_bar_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The paper's Table 1 beside the rows of N = 2."""
-    found = {r["h_s"]: r for r in rows if r["N"] == 2 and r["method"] == "ALi3-P"}
     lines = []
-    for h, (energy, wall) in PAPER.items():
-        if h in found:
-            r = found[h]
-            lines.append(
-                {
-                    "h_s": h,
-                    "paper_energy_J": energy,
-                    "energy_J": r["energy_deviation_J"],
-                    "energy_ratio": energy / r["energy_deviation_J"],
-                    "paper_wall_s": wall,
-                    "wall_s": r["wall_s"],
-                    "wall_ratio": wall / r["wall_s"],
-                }
-            )
-    return lines
-
-
-def settings_tried() -> list[dict[str, Any]]:
-    """Energy deviations at the paper's steps with other settings, N = 2; those whose largest factor to the paper's
-    figures is least come first. A run that is refused has no figure.
-    """
-    system = mbs.compile(double_four_bar.build(2))
-    lines = []
-    for method, update, predictor, eps, tolerance in watched(list(itertools.product(*TRIED.values()))):
-        settings = mbs.Settings(
-            method=method, update=update, predictor=predictor, eps_rel=eps, tolerance_r=tolerance, max_halvings=0
+    for r in sorted((r for r in rows if r["N"] == 2 and r["method"] == "ALi3-P"), key=lambda r: -r["h_s"]):
+        energy, wall = PAPER.get(r["h_s"], (None, None))
+        lines.append(
+            {
+                "h s": r["h_s"],
+                "paper dE J": energy,
+                "ours dE J": r["energy_deviation_J"],
+                "largest position error m": r["position_error_m"],
+                "iterations, mean (most)": f"{r['iterations_mean']:.2f} ({r['iterations_max']})",
+                "paper s (Matlab)": wall,
+                "ours ms": 1e3 * r["wall_s"] if r["wall_s"] < SHOWN else None,
+            }
         )
-        line: dict[str, Any] = dict(zip(TRIED, (method, update, predictor, eps, tolerance), strict=True))
-        for h in sorted(PAPER):
-            try:
-                run = mbs.simulate(system, END, h, settings=settings, progress=False, estimate_error=False)
-                line[f"{h:g} s"] = _largest(run["energy.total"] - run["energy.total"][0])
-            except mbs.SimulationError:
-                line[f"{h:g} s"] = None
-        found = [(line[f"{h:g} s"], paper) for h, (paper, _) in PAPER.items()]
-        factors = [max(ours / paper, paper / ours) if ours and ours < 0.0 else np.inf for ours, paper in found]
-        lines.append(line | {"largest factor": float(max(factors))})
-    return sorted(lines, key=lambda line: line["largest factor"])
+    return {"table 1": table(lines, dict.fromkeys(lines[0], ".3g"))}
 
 
-def cost_of_accuracy(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Ratios within this run, N = 2: what the other settings and methods cost against the default."""
-    base = {r["h_s"]: r for r in rows if r["N"] == 2 and r["method"] == "ALi3-P"}
-    lines = []
-    for r in rows:
-        if (
-            r["N"] == 2
-            and r["wall_s"]
-            and r["method"] != "ALi3-P"
-            and METHODS[r["method"]].project
-            and r["h_s"] in base
-        ):
-            b = base[r["h_s"]]
-            lines.append(
-                {
-                    "method": r["method"],
-                    "h_s": r["h_s"],
-                    "wall / ALi3-P": r["wall_s"] / b["wall_s"],
-                    "every state recorded": r["us_reported"] / b["us_reported"],
-                    "iterations / ALi3-P": r["iterations_mean"] / b["iterations_mean"],
-                    "error / ALi3-P": r["position_error_m"] / b["position_error_m"],
-                }
-            )
-    return lines
-
-
-def draw(rows: Sequence[dict[str, Any]], file: Path) -> None:
+def draw(rows: Sequence[Row], file: Path) -> None:
     """Position error against wall time, log-log; colours of Okabe and Ito, a marker per method, a panel per N."""
     plt = pyplot()
     look = dict(

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 
 from benchmarks.car import fidelity_runs
-from benchmarks.car.fidelity import size_of
+from benchmarks.car.fidelity import COMPARED, size_of
 from benchmarks.shared.warned import wrong_on_purpose
 from mbs import Simulation, Trajectory
 from mbs.scenes import kerb_test
 from mbs.vehicle import Fidelity
 
 GAUGES = ("SG1", "SG3")
+FIDELITIES = tuple(fidelity.name.lower() for fidelity in COMPARED)
 RELEASE = 13.0  # s: tyres let go
 COLUMNS = {
     "fidelity": "",

@@ -18,6 +18,8 @@ from scipy.interpolate import PchipInterpolator, PPoly
 
 from ali3.low_pass import low_pass
 from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
+from benchmarks.shared.command import watched
+from benchmarks.shared.pages import Row, table
 from mbs import Settings, Trajectory, compile, simulate
 from mbs.model.model import Model
 from mbs.model.records import Guide
@@ -235,3 +237,16 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
 
 def _rms(error: Array) -> float:
     return float(np.sqrt(np.mean(error**2)))
+
+
+def measure(seeds: int) -> list[dict[str, Any]]:
+    """All rows, after the paper's and that of the smooth guide."""
+    true, plain = smooth(), simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
+    none = dict.fromkeys(COLUMNS)
+    rows = [none | PAPER, none | {"guide": "smooth", **cost(plain)}]
+    return rows + [row(name, true, plain, range(seeds)) for name in watched(list(CASES))]
+
+
+def guide_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """The table of the page."""
+    return {"measured guides": table(rows, COLUMNS)}

@@ -9,18 +9,16 @@ import numpy as np
 from benchmarks.car.fidelity_runs import MOMENTS
 from benchmarks.paper import measured_guides as guides
 from benchmarks.shared.command import pyplot, save_chart
-from mbs import Trajectory
+from mbs import compile, simulate
 from mbs.scenes import kerb_test
 
 _SMOOTH, _MEASURED, _SIGNAL = "#0b62c4", "#d55e00", "#b0b0b0"
 
 
-def draw(true: Trajectory, plain: Trajectory, file: Path) -> None:
-    """One seed with all of its noise; moments after the low-pass.
-
-    `true`, `plain`: the run that is measured, and the test with its own guide and steps.
-    """
+def draw(file: Path) -> None:
+    """One seed with all of its noise; moments after the low-pass."""
     plt = pyplot()
+    true, plain = guides.smooth(), simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
     signals = guides.measured(true)
     found = guides.motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
     run = guides.driven(found)

@@ -3,15 +3,35 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 import mbs
+from benchmarks.shared.pages import Row, table
 from benchmarks.shared.timing import best_time
 from mbs.scenes import puma
 
 PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (m, s), Table 2; 0.1: no convergence
+STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
+METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
+REPEATS = 5
+COLUMNS = {
+    "methods": {
+        "method": "",
+        "h_s": "g",
+        "error_mm": ".3g",
+        "path_error_mm": ".3g",
+        "jump_close_J": ".2e",
+        "jump_open_J": ".2e",
+        "cpu_s": ".2e",
+        "paper_error_mm": ".3g",
+        "paper_wall_s": ".3g",
+        "ended": "",
+    },
+    "large steps in one stage": {"large steps in": "", "when pinned mm": ".3g", "error mm": ".3g"},
+}
 LARGE, SMALL = 0.05, 0.0005  # s
 SPLIT = {
     "all stages": (LARGE, LARGE, LARGE),
@@ -66,3 +86,18 @@ def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
         offset = float(np.linalg.norm(held[-1] - puma.held_at()))
         rows.append({"large steps in": title, "when pinned mm": 1e3 * offset, "error mm": 1e3 * found.error})
     return rows
+
+
+def puma_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """The paper's Table 2 beside ours."""
+    columns = {
+        "method": "",
+        "h_s": "g",
+        "paper_error_mm": ".3g",
+        "error_mm": ".3g",
+        "path_error_mm": ".3g",
+        "jump_close_J": ".1e",
+        "jump_open_J": ".1e",
+        "ended": "",
+    }
+    return {"table 2": table([row for row in rows if "method" in row], columns)}

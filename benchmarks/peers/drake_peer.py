@@ -16,8 +16,7 @@ from pydrake.multibody.plant import DiscreteContactApproximation, MultibodyPlant
 from pydrake.multibody.tree import FixedOffsetFrame, RevoluteJoint, RotationalInertia, SpatialInertia
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 
-from benchmarks.peers.common import PeerRun, samples_times
-from benchmarks.peers.trees import SCENES, Link, Tree, tree_of
+from benchmarks.peers.trees import SCENES, Link, PeerRun, Tree, samples_times, tree_of
 
 SAP = "SAP, semi-implicit Euler"
 RULES = {"RK5": "runge_kutta5", "RK3": "runge_kutta3"}

@@ -12,8 +12,7 @@ import exudyn as exu
 import numpy as np
 from exudyn import itemInterface
 
-from benchmarks.peers.common import PeerRun, samples_times
-from benchmarks.peers.trees import SCENES, Tree, Vector, tree_of
+from benchmarks.peers.trees import SCENES, PeerRun, Tree, Vector, samples_times, tree_of
 from mbs.scenes import bricard
 
 INTEGRATORS = ("generalised alpha", "generalised alpha (tree)", "trapezoidal index 2", "RK44 (tree)")

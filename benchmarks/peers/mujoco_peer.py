@@ -10,8 +10,7 @@ import time
 import mujoco
 import numpy as np
 
-from benchmarks.peers.common import PeerRun, samples_times
-from benchmarks.peers.trees import SCENES, Tree, tree_of
+from benchmarks.peers.trees import SCENES, PeerRun, Tree, samples_times, tree_of
 
 INTEGRATORS = ("RK4", "implicitfast")
 VERSION = mujoco.__version__

@@ -11,8 +11,7 @@ import time
 import numpy as np
 import pinocchio as pin
 
-from benchmarks.peers.common import PeerRun, samples_times
-from benchmarks.peers.trees import SCENES, Tree, Vector, tree_of
+from benchmarks.peers.trees import SCENES, PeerRun, Tree, Vector, samples_times, tree_of
 
 INTEGRATORS = ("RK4", "RK4, corrected")
 VERSION = pin.__version__

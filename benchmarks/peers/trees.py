@@ -1,4 +1,4 @@
-"""The shared scenes as trees of links on revolute joints whose loops points close, for engines of joint coordinates."""
+"""The shared scenes as trees of links on revolute joints whose loops points close, and what a peer hands back."""
 
 from __future__ import annotations
 
@@ -12,6 +12,22 @@ from mbs.scenes import bricard, spatial_chain
 SCENES = ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_bar_200")
 Vector = NDArray[np.float64]
 Y, Z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class PeerRun:
+    """Positions (n, k) and energies (n,), J (None: not available), at times (n,); wall time of the steps, s."""
+
+    t: Vector
+    positions: Vector
+    energy: Vector | None
+    wall_s: float
+    finished: bool
+
+
+def samples_times(end: float, samples: int) -> Vector:
+    """Times of the start and of `samples` equal intervals."""
+    return np.linspace(0.0, end, samples + 1)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from benchmarks import references
+from benchmarks.references import motions as references
 from mbs.model.model import Model
 from mbs.scenes import (
     bicycle,
@@ -29,7 +29,7 @@ from mbs.scenes import (
 Array = NDArray[np.float64]
 SAMPLES = 50  # instants of a run at which errors are measured; steps are end / (SAMPLES k)
 STORED = Path(__file__).with_name("stored")
-"""Motions that take seconds or minutes to compute; `python -m benchmarks.references.store` writes them."""
+"""Motions that take seconds or minutes to compute; `python -m benchmarks.work_precision motions` writes them."""
 
 
 @dataclass(frozen=True)
@@ -183,6 +183,10 @@ SHARED = ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_ba
 """Scenes that the peers run too."""
 
 
+SLOW = tuple(name for name, case in CASES.items() if case.stored)
+"""Scenes whose motion is read from a file."""
+
+
 @cache
 def system_of(name: str) -> mbs.System:
     """The compiled scene."""
@@ -204,6 +208,15 @@ def computed(name: str) -> Array:
         system_of(name), case.sensors, case.end, stiff=not case.conservative
     )
     return motion(np.linspace(0.0, case.end, SAMPLES + 1))
+
+
+def store(name: str) -> None:
+    """Write a motion that is stored."""
+    case = CASES[name]
+    rows = np.column_stack([np.linspace(0.0, case.end, SAMPLES + 1), computed(name)])
+    made = f"python -m benchmarks.work_precision motions --only {name}"
+    header = f"{made}\n" + ",".join(["time_s", *case.sensors])
+    np.savetxt(STORED / f"{name}.csv", rows, fmt="%.17g", delimiter=",", header=header)
 
 
 def size_of(name: str) -> float:

@@ -1,33 +1,163 @@
-"""What the commands share: arguments, progress, pictures and files."""
+"""The frame of the commands: arguments, table, machine line, JSON, chart and page; the same for every measurement."""
 
 from __future__ import annotations
 
-import argparse
+import json
+import sys
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ali3.files import write_text
+from ali3.running import run_command
+from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.machine import conditions, describe
-from benchmarks.shared.tables import write_json
+from benchmarks.shared.pages import DOCS, Row, machine, replace
+from benchmarks.shared.tables import print_table, write_json
 from mbs.common.progress import DELAY, progress_for
 
 T = TypeVar("T")
 
 
-def parser_of(name: str, text: str | None, *, json: bool = True, chart: str | None = None) -> argparse.ArgumentParser:
-    """Parser of ``python -m benchmarks.<name>``.
+@dataclass(frozen=True)
+class Part:
+    """What a command measures or writes, with its options.
 
-    `json`: with the option ``--json FILE``; `chart`: what the option ``--chart FILE`` draws; without it there is none.
+    Rows with the key ``table`` belong to several tables; `columns` then has the formats of each by its name.
     """
-    parser = argparse.ArgumentParser(
-        prog=f"python -m benchmarks.{name}", description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+
+    about: str
+    """One line."""
+    measure: Callable[[Namespace], Sequence[Row] | None]
+    """Gives the rows; None where it writes files itself and has said so."""
+    columns: Mapping[str, Any] = field(default_factory=dict)
+    """Formats of the printed columns, by default of all."""
+    names: Sequence[str] = ()
+    """What ``--only`` chooses from, by default all."""
+    options: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
+    """Default and help of further options; that of a switch is False, of an optional file `Path`."""
+    rows: bool = True
+    """Whether there are rows, and ``--json``."""
+    pages: Sequence[str] = ()
+    """In `docs/`, into which ``--write`` puts the tables of `blocks`."""
+    blocks: Callable[[Sequence[Row]], Mapping[str, str]] | None = None
+    """Tables of the page by their marks."""
+    words: Callable[[Sequence[Row]], str] | None = None
+    """What is printed below the table."""
+    chart: Callable[[Sequence[Row], Path], None] | None = None
+    """Draws the rows; a folder for several charts."""
+    check: Callable[[Sequence[Row], Namespace], Sequence[str]] | None = None
+    """Sentences that make the exit code 1."""
+
+
+def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Sequence[str] | None = None) -> int:
+    """Run ``python -m benchmarks.<name> [PART]``; the exit code.
+
+    A command of one part has no argument for it. With ``--from`` rows of earlier runs are taken from their JSON files.
+    """
+    parser = ArgumentParser(
+        prog=f"python -m benchmarks.{name}", description=text, formatter_class=RawDescriptionHelpFormatter
     )
-    if json:
+    if len(parts) == 1:
+        _add_options(parser, *parts.values())
+        parser.set_defaults(part=next(iter(parts)))
+    else:
+        chosen = parser.add_subparsers(dest="part", metavar="PART", required=True)
+        for key, part in parts.items():
+            _add_options(chosen.add_parser(key, help=part.about, description=part.about), part)
+    options = parser.parse_args(arguments)
+    part = parts[options.part]
+    for key, (default, _) in part.options.items():
+        value = getattr(options, key)
+        if isinstance(default, (int, float)) and default > 0 and not value > 0:
+            parser.error(f"--{key.replace('_', '-')} is {value}; it is a positive number.")
+    return run_command(partial(_work, name, part, options), (RuntimeError,))
+
+
+def _add_options(parser: ArgumentParser, part: Part) -> None:
+    if part.names:
+        parser.add_argument(
+            "--only", nargs="+", choices=part.names, default=[*part.names], metavar="NAME",
+            help=f"of {', '.join(part.names)}",
+        )  # fmt: skip
+    for key, (default, words) in part.options.items():
+        flag, told = f"--{key.replace('_', '-')}", words.replace("%", "%%")
+        if default is False:
+            parser.add_argument(flag, action="store_true", help=told)
+        elif default is Path:
+            parser.add_argument(flag, type=Path, metavar="FILE", help=told)
+        else:
+            many = isinstance(default, (list, tuple))
+            first = (*default, "")[0] if many else default
+            shown = " ".join(map(str, default)) if many else str(default)
+            parser.add_argument(
+                flag, type=type(first), nargs="+" if many else None, default=default, metavar="X",
+                help=f"{told}; default: {shown}" if shown else told,
+            )  # fmt: skip
+    if part.rows:
         parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
-    if chart is not None:
-        parser.add_argument("--chart", type=Path, metavar="FILE", help=f"draw {chart} (PNG)")
-    return parser
+        parser.add_argument("--from", dest="given", type=Path, nargs="+", metavar="FILE", help="rows of earlier runs")
+    if part.chart is not None:
+        parser.add_argument("--chart", type=Path, metavar="FILE", help="draw the rows (PNG), or into a folder")
+    if part.blocks is not None:
+        parser.add_argument("--write", action="store_true", help=f"write the tables of {', '.join(part.pages)} in docs")
+
+
+def _work(name: str, part: Part, options: Namespace) -> int:
+    given = getattr(options, "given", None)
+    if given:
+        files = [json.loads(file.read_text(encoding="utf-8")) for file in given]
+        rows, meta = [row for file in files for row in file["rows"]], files[0]["meta"]
+    else:
+        found = part.measure(options)
+        if found is None:
+            return 0
+        rows = [*found]
+        asked = {key: value for key, value in vars(options).items() if key in part.options or key in ("part", "only")}
+        told = {key: str(value) if isinstance(value, Path) else value for key, value in asked.items()}
+        meta = describe(name, **{"repeats": 1} | told)
+    print_rows(rows, part.columns)
+    if part.words is not None:
+        print(f"\n{part.words(rows)}")
+    print(f"\n{conditions(meta)}")
+    if options.json is not None:
+        write_json(options.json, meta, rows)
+        print(f"written: {options.json}")
+    if part.chart is not None and options.chart is not None:
+        part.chart(rows, options.chart)
+    if part.blocks is not None and options.write:
+        title = options.part.replace("-", " ")
+        write_blocks(part.pages, {**part.blocks(rows), f"machine {title}": machine(meta)})
+    said = [] if part.check is None else part.check(rows, options)
+    print("\n".join(said), end="\n" if said else "")
+    return int(bool(said))
+
+
+def print_rows(rows: Sequence[Row], columns: Mapping[str, Any]) -> None:
+    """Print the table of the rows, or that of each ``table`` among them."""
+    names = list(dict.fromkeys(row["table"] for row in rows if "table" in row))
+    if not names:
+        print_table(rows, columns or None)
+    for name in names:
+        print(f"\n{name}")
+        print_table([row for row in rows if row["table"] == name], columns[name])
+
+
+def write_blocks(pages: Sequence[str], blocks: Mapping[str, str]) -> None:
+    """Put tables between their marks on pages of `docs/`; all else stays."""
+    for page in pages:
+        file = DOCS / page
+        text = file.read_text(encoding="utf-8")
+        for name, content in blocks.items():
+            before, now = (len(rows_of(part)) for part in (between(text, name), content))
+            if now < before:
+                print(f"The table '{name}' has {now} rows now and had {before}: leave --only and --quick out for all.")
+        write_text(file, replace(text, blocks))
+        print(f"written: {file}")
 
 
 def watched(items: Sequence[T]) -> Iterator[T]:
@@ -65,13 +195,6 @@ def save_chart(figure: Any, file: Path) -> None:
     print(f"written: {file}")
 
 
-def save_rows(file: Path | None, benchmark: str, rows: Sequence[Mapping[str, Any]], **more: Any) -> None:
-    """Print under which conditions was measured; write ``{"meta": ..., "rows": [...]}`` if a file was asked for.
-
-    `more`: as of `benchmarks.shared.machine.describe`.
-    """
-    meta = describe(benchmark, **more)
-    print(f"\n{conditions(meta)}")
-    if file is not None:
-        write_json(file, meta, rows)
-        print(f"written: {file}")
+def say_missing(what: str) -> None:
+    """Something that is not installed and left out, on the error stream."""
+    print(f"left out: {what}", file=sys.stderr)

@@ -32,14 +32,13 @@ def machine() -> dict[str, Any]:
     }
 
 
-def describe(benchmark: str, *, repeats: int = 1, warm_up: int = 0, **more: Any) -> dict[str, Any]:
+def describe(benchmark: str, *, repeats: int = 1, **more: Any) -> dict[str, Any]:
     """The `meta` part of a JSON file: what was measured, when, where and how.
 
-    `repeats`, `warm_up`: measured runs of a figure, and unmeasured ones before them; `**more`: anything else a reader
-    must know; JSON values.
+    `repeats`: measured runs of a figure; `**more`: anything else a reader must know; JSON values.
     """
     meta: dict[str, Any] = {"benchmark": benchmark, "time": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
-    meta |= {"machine": machine(), "repeats": repeats, "warm_up": warm_up, "settings": Settings().kernel_fields()}
+    meta |= {"machine": machine(), "repeats": repeats, "settings": Settings().kernel_fields()}
     return meta | more
 
 
@@ -53,7 +52,7 @@ def place(meta: Mapping[str, Any]) -> str:
 def conditions(meta: Mapping[str, Any]) -> str:
     """What `describe` found, in words: machine, versions, repeats."""
     runs = "one run" if meta["repeats"] == 1 else f"{meta['repeats']} runs"
-    return f"{place(meta)}\nDefault settings; {runs} of each figure after {meta['warm_up']} to warm up"
+    return f"{place(meta)}\nDefault settings; {runs} of each figure"
 
 
 def _processor() -> str:

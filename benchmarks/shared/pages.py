@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,20 @@ def table(rows: Sequence[Row], columns: Mapping[str, str]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
+def crossed(
+    rows: Sequence[Row],
+    name: Callable[[Row], str],
+    column: str,
+    cell: Callable[[Row], str],
+    title: str,
+) -> str:
+    """Rows by name, a column for each value of a key."""
+    lines: dict[str, dict[str, str]] = {}
+    for row in rows:
+        lines.setdefault(name(row), {title: name(row)})[row[column]] = cell(row)
+    return table(list(lines.values()), dict.fromkeys([title, *dict.fromkeys(r[column] for r in rows)], ""))
+
+
 def machine(meta: Row) -> str:
     """Where and when, one line."""
     return f"{place(meta)}; {meta['time'][:10]}."
@@ -38,11 +52,6 @@ def replace(text: str, blocks: Mapping[str, str]) -> str:
         mark = re.compile(rf"(<!-- begin {re.escape(name)} -->\n).*?(<!-- end {re.escape(name)} -->)", re.DOTALL)
         text = mark.sub(lambda m, content=content: f"{m[1]}{_wrapped(content.strip())}\n{m[2]}", text)
     return text
-
-
-def print_blocks(blocks: Mapping[str, str]) -> None:
-    """Show the tables of a page on the terminal."""
-    print("\n\n".join(f"{name}\n{content}" for name, content in blocks.items()))
 
 
 def _wrapped(content: str) -> str:

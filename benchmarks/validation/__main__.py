@@ -1,9 +1,8 @@
-"""A car against its measured drive: ``python -m benchmarks.validation FILE [--json FILE] [--page] [--chart FILE]``.
+"""A car against its measured drive, and the tests of others: ``python -m benchmarks.validation PART``.
 
-Without FILE: the tests of others alone (``python -m benchmarks.validation [--json FILE] [--page]``).
-
-FILE is the log of a Ferrari 250 LM on a race track (see `docs/validation.md` for where it comes from), or another log
-with its alias file and car. Simple models are fitted on the same seconds as the car was, and all are judged on others.
+The drive is the log of a Ferrari 250 LM on a race track (see `docs/validation.md` for where it comes from), or another
+log with its alias file and car. Simple models are fitted on the same seconds as the car was, and all are judged on
+others.
 """
 
 from __future__ import annotations
@@ -13,16 +12,15 @@ import tempfile
 from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace as replace_of
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ali3.files import write_text
-from ali3.running import run_command
-from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.pages import DOCS, replace, table
-from benchmarks.shared.tables import print_table
+from ali3.errors import UserError
+from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.pages import DOCS, Row, table
 from benchmarks.validation import others, two_track
 from benchmarks.validation.bank import bank_of
 from benchmarks.validation.banked_log import write_banked
@@ -31,16 +29,16 @@ from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within
 from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
-from benchmarks.validation.multibody import LATERAL, YAW, Judged, judge
+from benchmarks.validation.multibody import Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
 
-HERE = Path(__file__).parent
-PAGE = DOCS / "validation.md"
+ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
+PAGE = "validation.md"
 BODY = Body(
     982.0, 1605.0, 1.33, 1.07, 0.55
 )  # of the publication that the car file names; inertia of a box of its outline
 FITTED_NUMBERS = 9  # marked [F] in the file of the car
-COLUMNS = {
+MODEL_COLUMNS = {
     "model": "",
     "numbers": "d",
     "fitted": ".4f",
@@ -53,7 +51,7 @@ COLUMNS = {
     "departed": "",
 }
 AIMS = {"understeer angle": 0.3, "sideslip": 0.5}  # deg, of the mean difference in a bin
-PARTS = (
+PARTS_LEFT_OUT = (
     ("steering a quarter as stiff", {"steering.stiffness": 122.0}),
     ("without anti-roll bars", {"front.anti_roll_bar.factor": 0.02, "rear.anti_roll_bar.factor": 0.02}),
     ("open differential", {"drive.locking": 0.0}),
@@ -61,100 +59,62 @@ PARTS = (
     ("without the driver, who sits on the right", {"payload.driver.mass": 0.0}),
     ("inner steps of 10 ms", {"step_size": 0.01}),
 )
-LACKING = {k: f for k, f in COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
+LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
 STEP = 0.005  # s, inner one of the car
 BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
+COLUMNS = {
+    "models": MODEL_COLUMNS,
+    "parts": LACKING,
+    "published": PUBLISHED,
+    "curves": {"quantity": "", "ay, g": "+.1f", "seconds": ".1f", "measured": ".2f", "spread": ".2f"},
+    "folds": FOLDS,
+    "numbers": {"model": "", "found": "", "starts": ""},
+    "notes": {"note": ""},
+}
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Fit, judge, print, and write what was asked for."""
-    parser = parser_of("validation", __doc__, chart="measured and predicted yaw rate")
-    parser.add_argument(
-        "file",
-        type=Path,
-        nargs="?",
-        metavar="FILE",
-        help="log of the drive: CSV, perhaps packed (.csv.gz); without it the tests of others are made",
-    )
-    parser.add_argument("--car", default="ferrari_250_lm", help="FMU or car; default: %(default)s")
-    parser.add_argument(
-        "--log-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="of the log as it is"
-    )
-    parser.add_argument(
-        "--car-aliases", type=Path, default=HERE / "ferrari_250_lm_log.toml", metavar="FILE", help="for the car"
-    )
-    parser.add_argument(
-        "--banked-car", metavar="FMU", help="the car with --ports forces=vehicle: driven with the bank of the road too"
-    )
-    parser.add_argument("--page", action="store_true", help="write the tables of docs/validation.md")
-    parser.add_argument("--no-published", dest="published", action="store_false", help="without figures of others")
-    parser.add_argument("--no-parts", action="store_true", help="without the cars that lack a part")
-    options = parser.parse_args(arguments)
-    if options.file is None:
-        if options.chart or options.banked_car:
-            parser.error("--chart and --banked-car need the FILE of the drive.")
-        return _others(options)
-    if options.page and not options.banked_car and f"| {BANKED} |" in PAGE.read_text(encoding="utf-8"):
-        parser.error(f"The page has the row '{BANKED}', which --page without --banked-car FMU would lose; give it too.")
-    drive = read_drive(options.file, options.log_aliases)
-    drive = _banked(drive, FITTED)
+def _drive(options: Namespace) -> list[dict[str, Any]]:
+    """Fit and judge; each table of the page by its name."""
+    log, aliases = options.log, options.aliases or ALIASES
+    if log is None:
+        raise UserError("The log of the drive is given by --log FILE.")
+    page = (DOCS / PAGE).read_text(encoding="utf-8")
+    if options.write and options.banked_car is None and f"| {BANKED} |" in page:
+        raise UserError(
+            f"The page has the row '{BANKED}', which --write without --banked-car FMU would lose; give it too."
+        )
+    drive = _banked(read_drive(log, aliases), FITTED)
     models = [m for m in (*MODELS, *two_track.MODELS) if drive.bank.size or not m.bank]
     simple = [fit(model, BODY, drive) for model in watched(models)]
 
     def judged(settings: dict[str, float], brief: bool) -> Judged:
-        return judge(options.car, options.file, options.car_aliases, {"step_size": STEP} | settings, brief)
+        return judge(options.car, log, aliases, {"step_size": STEP} | settings, brief)
 
     car = judged({}, brief=False)
-    parts = {} if options.no_parts else {name: judged(values, brief=True) for name, values in PARTS}
     rows = [_of_bicycle(f, drive) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS, drive)]
-    if options.banked_car and drive.bank.size:
+    if options.banked_car is not None and drive.bank.size:
         with tempfile.TemporaryDirectory() as folder:
-            given = write_banked(Path(folder), options.file, options.car_aliases, drive.bank, BODY.mass)
-            banked = judge(options.banked_car, *given, {"step_size": STEP})
+            given = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
+            banked = judge(str(options.banked_car), *given, {"step_size": STEP})
         rows.append(_of_car(BANKED, banked, FITTED_NUMBERS, drive))
-    lacking = [_of_car(name, part, 0, drive) for name, part in parts.items()]
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
-    over = _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive)
     swapped = fit(best.model, BODY, _banked(drive, JUDGED), JUDGED, FITTED)
-    folds = _folds(best, swapped)
-    told_of_it = published_rows(*full_throttle(options.car, {"step_size": STEP})) if options.published else []
-    print_table(rows, COLUMNS)
-    for told, columns in ((lacking, LACKING), (told_of_it, PUBLISHED)):
-        if told:
-            print_table(told, columns)
-    for note in car.notes:
-        print(f"note: {note}")
-    record: dict[str, Any] = {"numbers": _numbers(simple), "bins": car.bins, "notes": car.notes, "parts": lacking}
-    record |= {"curves": over, "published": told_of_it, "folds": folds}
-    save_rows(options.json, "validation", rows, **record)
-    if options.page:
-        tables = blocks(rows, lacking, simple, car, over)
-        tables["folds"] = table(folds, FOLDS)
-        if told_of_it:
-            tables["published"] = table(told_of_it, PUBLISHED)
-        _merge(tables)
-    if options.chart:
+    tables = {
+        "models": rows,
+        "parts": [_of_car(name, judged(values, brief=True), 0, drive) for name, values in PARTS_LEFT_OUT],
+        "published": published_rows(*full_throttle(options.car, {"step_size": STEP})),
+        "curves": _curves({"multibody car": car.predicted, best.model.name: best.predicted}, drive),
+        "folds": _folds(best, swapped),
+        "numbers": _numbers(simple),
+        "notes": [{"note": note} for note in car.notes],
+    }
+    if options.picture is not None:
         chosen = simple[CHART_MODEL]
-        draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.chart)
-    return 0
-
-
-def _others(options: Namespace) -> int:
-    """The tests of others, printed and merged into the page, whose other tables stay."""
-    made = others.rows()
-    print_table(made, others.COLUMNS)
-    save_rows(options.json, "validation", made)
-    if options.page:
-        _merge({"others": table(made, others.COLUMNS)})
-    return 0
-
-
-def _merge(tables: dict[str, str]) -> None:
-    """Exchange these tables of the page."""
-    write_text(PAGE, replace(PAGE.read_text(encoding="utf-8"), tables))
+        draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.picture)
+    return [{"table": name, **row} for name, part in tables.items() for row in part]
 
 
 def _banked(drive: Drive, seconds: Spans) -> Drive:
@@ -243,47 +203,40 @@ def _named(f: Fitted) -> list[tuple[Any, float]]:
     return list(zip(f.model.unknowns, f.numbers.tolist(), strict=True))
 
 
-def blocks(
-    rows: Sequence[dict[str, Any]],
-    lacking: Sequence[dict[str, Any]],
-    simple: Sequence[Fitted],
-    car: Judged,
-    over: Sequence[dict[str, Any]],
-) -> dict[str, str]:
+def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The tables of the page by their marks."""
-    by = {}
-    for quantity in ("speed", "lateral acceleration"):
-        told = [b for b in car.bins if b["quantity"] == quantity]
-        lines = []
-        for low, high, unit in sorted({(b["low"], b["high"], b["unit"]) for b in told}):
-            of = {b["signal"]: b for b in told if b["low"] == low}
-            lines.append(
-                {
-                    f"{quantity}, {unit}": f"{low:g} to {high:g}",
-                    "samples": of[YAW]["samples"],
-                    "yaw rate, rms": of[YAW]["rms"],
-                    "yaw rate, mean": of[YAW]["mean"],
-                    "lateral velocity, rms": of[LATERAL]["rms"],
-                    "lateral velocity, mean": of[LATERAL]["mean"],
-                }
-            )
-        if lines:
-            keys = list(lines[0])
-            by[quantity] = table(
-                lines,
-                {keys[0]: "", keys[1]: "d", **dict.fromkeys(keys[2:4], "+.4f"), **dict.fromkeys(keys[4:], "+.2f")},
-            )
-    keys = list(over[0])
-    form = {keys[0]: "", keys[1]: "+.1f", keys[2]: ".1f", **dict.fromkeys(keys[3:], ".2f")}
-    return {
-        "curves": table(over, form),
-        "models": table(rows, COLUMNS),
-        "parts": table(lacking, LACKING),
-        "numbers": table(_numbers(simple), {"model": "", "found": "", "starts": ""}),
-        **{f"by {quantity}": text for quantity, text in by.items()},
-        "notes": "\n".join(f"- {note}" for note in car.notes),
-    }
+    of = {name: [{k: v for k, v in r.items() if k != "table"} for r in rows if r["table"] == name] for name in COLUMNS}
+    form = COLUMNS["curves"] | dict.fromkeys(list(of["curves"][0])[5:], ".2f")
+    plain = {name: table(of[name], COLUMNS[name]) for name in ("models", "parts", "published", "folds", "numbers")}
+    notes = "\n".join(f"- {row['note']}" for row in of["notes"])
+    return plain | {"curves": table(of["curves"], form), "notes": notes}
 
+
+PARTS = {
+    "drive": Part(
+        "simple models and the multibody car through a measured drive",
+        _drive,
+        COLUMNS,
+        options={
+            "log": (Path, "CSV, perhaps packed (.csv.gz)"),
+            "car": ("ferrari_250_lm", "FMU or car"),
+            "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
+            "banked_car": (Path, "FMU of the car with --ports forces=vehicle: driven with the bank of the road too"),
+            "picture": (Path, "draw measured and predicted yaw rate (PNG)"),
+        },
+        pages=(PAGE,),
+        blocks=blocks,
+    ),
+    "others": Part(
+        "figures that others published of cars and tyres, with what the cars here do",
+        lambda options: others.rows(),
+        others.COLUMNS,
+        pages=(PAGE,),
+        blocks=lambda rows: {"others": table(rows, others.COLUMNS)},
+    ),
+}
+
+main = partial(run, "validation", __doc__, PARTS)
 
 if __name__ == "__main__":
-    sys.exit(run_command(main))
+    sys.exit(main())

@@ -1,4 +1,4 @@
-"""Cars by CommonRoad's parameters against its own multi-body model: ``python -m benchmarks.validation.commonroad``.
+"""Cars by CommonRoad's parameters against its own multi-body model.
 
 The references are made by `commonroad_reference`. Both are asked for the same angle of the front wheels and the same
 torque of the brakes; engine and air are left out here, as that model has none.
@@ -6,19 +6,16 @@ torque of the brakes; engine and air are left out here, as that model has none.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.shared.command import parser_of, save_rows
-from benchmarks.shared.tables import print_table
 from benchmarks.validation.commonroad_reference import (
     BEGIN,
     BRAKING,
-    CARS,
     FOLDER,
     MANOEUVRES,
     SECONDS,
@@ -35,7 +32,6 @@ STEP = 0.002
 ROLLING = 0.344  # m, R_w
 SAME = {"steering.frequency": 200.0, "ports.torque": "half_shafts"}
 """Of the cars here: their wheels follow the demand at once, and nothing drives or drags."""
-COLUMNS = {"car": "", "manoeuvre": "", "quantity": "", "reference": ".4g", "found": ".4g", "largest": ".1%"}
 
 
 @dataclass(frozen=True)
@@ -45,10 +41,6 @@ class Compared:
     reference: Mapping[str, Array]
     found: Mapping[str, Array]
     """`reference`, `found`, each of shape (n,): by the names of the reference's columns."""
-
-    def largest(self, name: str) -> float:
-        """Largest difference over the range of the reference."""
-        return float(np.abs(self.found[name] - self.reference[name]).max() / np.ptp(self.reference[name]))
 
 
 def compared(name: str, manoeuvre: str) -> Compared:
@@ -92,38 +84,3 @@ def _inputs(car: Car, manoeuvre: str) -> dict[str, tuple[Array, Array]]:
     pedal = car.vehicle.mass * ROLLING * BRAKING / (2.0 * car.brakes.torque)
     t = np.array([0.0, BEGIN, BEGIN + 1e-6, SECONDS])
     return {"brake": (t, np.array([0.0, 0.0, pedal, pedal]))}
-
-
-def rows() -> list[dict[str, Any]]:
-    """Last values of both models and the largest difference over the range of the reference."""
-    turning = ("yaw_rate", "roll", "y", "Fz_FL", "Fz_RL")
-    asked = {"step_steer": turning, "consistent_step_steer": turning, "braking": ("vx", "x", "pitch", "Fz_FL", "Fz_RL")}
-    made = []
-    for name in CARS:
-        for manoeuvre, quantities in asked.items():
-            both = compared(name, manoeuvre)
-            for quantity in quantities:
-                made.append(
-                    {
-                        "car": name,
-                        "manoeuvre": manoeuvre,
-                        "quantity": quantity,
-                        "reference": float(both.reference[quantity][-1]),
-                        "found": float(both.found[quantity][-1]),
-                        "largest": both.largest(quantity),
-                    }
-                )
-    return made
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Print the table."""
-    parser = parser_of("validation.commonroad", __doc__)
-    options = parser.parse_args(arguments)
-    made = rows()
-    print_table(made, COLUMNS)
-    save_rows(options.json, "validation.commonroad", made)
-
-
-if __name__ == "__main__":
-    main()

@@ -32,8 +32,6 @@ class Judged:
     """`fitted`, `whole`, `windows`, `lateral`: as of `benchmarks.validation.fitting.Fitted`."""
     departed: list[str]
     """Windows that were not fitted and departed: their begin, s, and the signal."""
-    bins: list[dict[str, Any]]
-    """Deviations by speed and lateral acceleration in those windows."""
     notes: list[str]
     time: Array
     path: Array
@@ -64,7 +62,7 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
         across, turning = (_in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
         predicted = across, turning
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
-        told = _rms(others, YAW), _rms(others, LATERAL), departed, others["bins"]
+        told = _rms(others, YAW), _rms(others, LATERAL), departed
         if brief:
             return Judged(math.nan, math.nan, *told, [], np.zeros(0), np.zeros(0), predicted)
         first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from benchmarks import animations
-from benchmarks.paper.animations import ANIMATIONS, FPS, SIZE
+from benchmarks.pictures import __main__ as pictures
+from benchmarks.pictures.animations import ANIMATIONS, FPS, SIZE
 from tests.in_browser import chromium_or_skip
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -36,7 +36,7 @@ def test_the_films_are_small():
 @pytest.mark.slow
 def test_the_command_films(tmp_path, capsys):
     chromium_or_skip()
-    assert animations.main(["--out", str(tmp_path / "films"), "--only", "pendulum"]) == 0
+    assert pictures.main(["films", "--out", str(tmp_path / "films"), "--only", "pendulum"]) == 0
     said = capsys.readouterr().out
     assert "pendulum.webp  61 pictures, 4.1 s" in said
     with Image.open(tmp_path / "films" / "pendulum.webp") as file:
@@ -45,5 +45,5 @@ def test_the_command_films(tmp_path, capsys):
 
 def test_the_command_names_its_films(capsys):
     with pytest.raises(SystemExit):
-        animations.main(["--only", "opera"])
+        pictures.main(["films", "--only", "opera"])
     assert "double_four_bar" in capsys.readouterr().err

@@ -7,19 +7,19 @@ import json
 import numpy as np
 import pytest
 
-from benchmarks import dissipative, growth, honesty, puma, stability, work_precision
+from benchmarks import cost, honesty, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
-from benchmarks.methods import pages
-from benchmarks.methods.arithmetic import operations
-from benchmarks.methods.honesty import VERDICTS
+from benchmarks.methods import dissipative, growth
+from benchmarks.methods import stability as maps
+from benchmarks.methods.honesty import VERDICTS, honesty_blocks, summary
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
 from benchmarks.methods.stability import OUTCOMES
 from benchmarks.methods.stability_margins import margins
-from benchmarks.methods.work_precision import time_at_error
+from benchmarks.methods.work_precision import time_at_error, work_blocks
 from benchmarks.methods.work_precision_chart import KERNEL as COLOURED
+from benchmarks.paper import __main__ as paper
 from benchmarks.shared.pages import replace, table
-from mbs import Settings, compile
-from mbs.scenes import double_four_bar
+from mbs import Settings
 from mbs.settings.settings import METHODS as KERNEL
 
 PNG = b"\x89PNG"
@@ -34,40 +34,32 @@ def read(file):
 
 @pytest.mark.slow
 def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_step(tmp_path, capsys):
-    arguments = [
-        "--quick",
-        "--scene",
-        "double_four_bar",
-        "--json",
-        str(tmp_path / "w.json"),
-        "--charts",
-        str(tmp_path),
-    ]
-    assert work_precision.main(arguments) == 0
+    files = ["--json", str(tmp_path / "w.json"), "--chart", str(tmp_path)]
+    assert work_precision.main(["charts", "--quick", "--only", "double_four_bar", *files]) == 0
     _, rows = read(tmp_path / "w.json")
     assert {"kernel", "classical"} <= {r["family"] for r in rows}
     assert set(CLASSICAL) <= {r["method"] for r in rows}
     lagrange = sorted((r["h_s"], r["position_error_m"]) for r in rows if r["method"] == "index-1 Lagrange, Baumgarte")
     assert lagrange[0][1] < 0.5 * lagrange[-1][1]
-    blocks = pages.work_blocks(rows)
+    blocks = work_blocks(rows)
     assert all(f"| double_four_bar | {method} |" in blocks["times"] for method in {r["method"] for r in rows})
     refused = [r for r in rows if r["ended"].startswith("refused")]
     assert any(r["method"] == "velocity transformation" for r in refused)
     assert (tmp_path / "work_double_four_bar.png").read_bytes().startswith(PNG)
-    assert "2-four-bar" in capsys.readouterr().out
+    assert "Behind the best peer in" in capsys.readouterr().out
 
 
 @pytest.mark.slow
 def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, capsys):
-    arguments = ["--quick", "--json", str(tmp_path / "s.json"), "--charts", str(tmp_path)]
-    assert stability.main(arguments) == 0
-    meta, rows = read(tmp_path / "s.json")
+    files = ["--json", str(tmp_path / "s.json"), "--chart", str(tmp_path)]
+    assert stability.main(["--quick", "--only", "double_four_bar", *files]) == 0
+    _, rows = read(tmp_path / "s.json")
     assert {r["outcome"] for r in rows} <= set(OUTCOMES)
     assert len({r["method"] for r in rows}) == len(KERNEL) + len(CLASSICAL)
     fixed = [r for r in rows if r["method"] == "velocity transformation"]
     assert fixed
     assert all(r["outcome"] == "refused" and r["reason"] for r in fixed)
-    by_method = {m["method"]: m for m in meta["margins"]}
+    by_method = {m["method"]: m for m in margins(rows)}
     bare = TITLES["ali3p_no_projection"]  # at no step, over the whole motion
     assert {name for name, m in by_method.items() if m["largest_fine_h_s"] is None} == {bare}
     assert by_method[TITLES["ali3p"]]["first_break"] == "wrong at 0.02 s"
@@ -75,24 +67,23 @@ def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, ca
     assert {name for name, m in by_method.items() if m["decades_below"] is None} == without
     lagrange = [r for r in rows if r["method"] == "index-1 Lagrange, Baumgarte"]
     assert [r["outcome"] for r in lagrange] == ["fine", "wrong"]  # 10 1/s; 0.02 and 0.05 s
-    blocks = pages.stability_blocks([{"meta": meta, "rows": rows}])
-    assert "Fine at smaller steps alone: double_four_bar (up to 0.005 s)" in blocks["default"]
+    blocks = maps.stability_blocks(rows)
     assert all(f"| {title} |" in blocks["margins"] for title in by_method)
-    assert set(stability.WHY) == set(CLASSICAL)
+    assert set(maps.WHY) == set(CLASSICAL)
     assert (tmp_path / "stability_double_four_bar.png").read_bytes().startswith(PNG)
     assert "dead point" in capsys.readouterr().out
 
 
 @pytest.mark.slow
 def test_the_default_is_right_on_the_spinning_beam_and_the_standing_car(tmp_path, capsys):
-    assert dissipative.main(["--quick", "--json", str(tmp_path / "d.json")]) == 0
+    assert work_precision.main(["dissipative", "--quick", "--json", str(tmp_path / "d.json")]) == 0
     _, rows = read(tmp_path / "d.json")
     assert [r["scene"] for r in rows] == list(dissipative.QUICK)
     assert all(r["outcome"] == "fine" and 0.0 < r["error"] < r["limit"] for r in rows)
     refused = dissipative.measure("car_at_rest_100s", "runge_kutta_8", 0.01)
     assert (refused["outcome"], refused["error"]) == ("refused", None)
     assert "element states" in refused["reason"]
-    written = pages.dissipative_blocks({"rows": [*rows, refused]})["dissipative"]
+    written = dissipative.dissipative_blocks([*rows, refused])["dissipative"]
     assert written.count("fine") == 2
     assert "0.01: refused" in written
     assert "spinning_beam" in capsys.readouterr().out
@@ -100,8 +91,8 @@ def test_the_default_is_right_on_the_spinning_beam_and_the_standing_car(tmp_path
 
 @pytest.mark.slow
 def test_the_default_warns_where_it_is_wrong_and_nowhere_else(tmp_path, capsys):
-    assert honesty.main(["--quick", "--json", str(tmp_path / "h.json")]) == 0
-    meta, rows = read(tmp_path / "h.json")
+    assert honesty.main(["scenes", "--quick", "--json", str(tmp_path / "h.json")]) == 0
+    _, rows = read(tmp_path / "h.json")
     verdicts = {(r["scene"], r["h_s"]): r["verdict"] for r in rows}
     assert set(verdicts.values()) == {"wrong, warned", "right, no warning"}
     assert verdicts["pendulum", 0.01] == verdicts["printed_crank_slider", 2e-5] == "right, no warning"
@@ -109,9 +100,9 @@ def test_the_default_warns_where_it_is_wrong_and_nowhere_else(tmp_path, capsys):
     estimate = {(r["scene"], r["h_s"]): r["estimate"] / r["error"] for r in rows if r["estimate"] is not None}
     assert 0.8 < estimate["pendulum", 0.05] < 1.2
     assert 0.8 < estimate["printed_crank_slider", 2e-5] < 1.3
-    (line,) = meta["summary"]
+    (line,) = summary(rows)
     assert (line["missed"], line["false alarms"]) == (0, 0)
-    blocks = pages.honesty_blocks(rows)
+    blocks = honesty_blocks(rows)
     assert "| ALi3-P | 7 | 0 |" in blocks["honesty"]
     assert "estimate: none." in blocks["honesty exceptions"]
     assert "wrong, warned" in blocks["honesty crank"]
@@ -137,11 +128,11 @@ def test_what_goes_against_the_rule_is_counted_and_named():
 
     rows = [row(0.2, 0.1, True), row(0.3, 0.01, False), row(0.01, None, False), row(0.02, 0.1, True)]
     assert [r["verdict"] for r in rows] == ["wrong, warned", "wrong, missed", "right, no warning", "false alarm"]
-    (line,) = honesty.summary(rows)
+    (line,) = summary(rows)
     assert (line["right"], line["wrong"], line["missed"], line["false alarms"]) == (2, 2, 1, 1)
     assert line["right without a repeat"] == 0.5
     assert line["above the estimate"] == 1
-    said = pages.honesty_blocks(rows)["honesty exceptions"]
+    said = honesty_blocks(rows)["honesty exceptions"]
     assert "missed: s at 0.3 s (0.3)" in said
     assert "false alarm: s at 0.02 s (0.02)" in said
     assert "estimate 1.0e-02" in said
@@ -157,29 +148,18 @@ def test_written_sentences_are_wrapped_and_tables_are_not():
 
 
 @pytest.mark.slow
-def test_growth_counts_arithmetic_and_finds_the_non_zeros_linear(tmp_path):
-    arguments = ["--quick", "--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
-    assert growth.main(arguments) == 0
-    meta, rows = read(tmp_path / "g.json")
-    few, more = meta["chassis"]["rows"]
+def test_growth_finds_the_non_zeros_linear(tmp_path):
+    files = ["--json", str(tmp_path / "g.json"), "--chart", str(tmp_path / "growth.png")]
+    assert cost.main(["growth", "--quick", *files]) == 0
+    _, rows = read(tmp_path / "g.json")
+    few, more = [row for row in rows if row["table"] == "chassis"]
     assert more["modes"] - few["modes"] == growth.MODES[1] - growth.MODES[0]
-    assert 1.0 < meta["chassis"]["exponents"]["factor_nonzeros"] < 2.0  # the modal block is dense
-    assert {"growth", "exponents", "chassis growth"} == set(pages.growth_blocks({"meta": meta, "rows": rows}))
-    assert all(0.0 < r["of_dgemm"] < 1.0 for r in rows)
+    exponents = growth.exponents([few, more], "modes")
+    assert 1.0 < exponents["factor_nonzeros"] < 2.0  # the modal block is dense
+    blocks = growth.growth_blocks(rows)
+    assert f"factor nonzeros {exponents['factor_nonzeros']:.2f}" in blocks["chassis growth"]
+    assert {"growth", "exponents", "chassis growth"} == set(blocks)
     assert (tmp_path / "growth.png").read_bytes().startswith(PNG)
-    counts = [operations(compile(double_four_bar.build(n)), 2.0, 2.0, 4.0) for n in (50, 100, 200)]
-    assert counts[2] - counts[1] == pytest.approx(2.0 * (counts[1] - counts[0]), rel=0.02)
-
-
-def test_the_arithmetic_of_a_dense_front_is_a_third_of_its_cube():
-    """Cholesky of m x m takes m^3/3 additions and multiplications."""
-    system = compile(double_four_bar.build(2))
-    m = system.nq
-    assert system.report["factor_nonzeros"] == m * (m + 1) // 2  # one front
-    with_, without = (operations(system, 0.0, f, 0.0) for f in (1.0, 0.0))
-    in_row = np.diff(system.arrays["row_ptr"])
-    assembly = np.sum(in_row * (in_row + 1)) + 3 * len(system.arrays["quad_h"])
-    assert with_ - without - assembly == pytest.approx(m**3 / 3.0, rel=0.35)  # and lower powers of m
 
 
 def test_time_at_equal_error_lies_on_the_curve_and_no_curve_is_extended():
@@ -223,34 +203,8 @@ def test_every_method_has_a_title_and_all_but_those_for_comparison_a_colour_of_t
     assert len({colour for colour, _ in COLOURED.values()}) == len({mark for _, mark in COLOURED.values()}) == 8
 
 
-def test_what_is_said_of_the_default_parts_usual_steps_small_ones_and_none():
-    def line(scene, largest):
-        row = {"scene": scene, "method": TITLES["ali3p"], "largest_fine_h_s": largest}
-        return row | dict.fromkeys(("usual_below", "usual_above", "decades_below", "decades_above"), 3.0)
-
-    said = pages.stability_blocks(
-        [
-            {
-                "meta": {
-                    "margins": [
-                        line("a", 0.05) | {"smallest_fine_h_s": 1e-6, "first_break": "-", "usual_h_s": 0.01},
-                        line("squeezer", 3e-4) | {"smallest_fine_h_s": 1e-8, "first_break": "-", "usual_h_s": 1e-4},
-                        line("b", 1e-6) | {"smallest_fine_h_s": 1e-6, "first_break": "-", "usual_h_s": 1e-6},
-                        line("c", None) | {"smallest_fine_h_s": None, "first_break": "-", "usual_h_s": None},
-                    ],
-                    "classical": [],
-                    "why": {},
-                },
-                "rows": [],
-            }
-        ]
-    )["default"]
-    assert "on 2 of 4 scenes" in said
-    assert said.endswith("Fine at smaller steps alone: b (up to 1e-06 s). Not fine at any step: c.")
-
-
 def test_the_puma_table_has_the_paper_beside_it(tmp_path):
-    assert puma.main(["--quick", "--json", str(tmp_path / "p.json")]) == 0
+    assert paper.main(["puma", "--quick", "--json", str(tmp_path / "p.json")]) == 0
     _, rows = read(tmp_path / "p.json")
     found = {r["h_s"]: r for r in rows}
     assert found[0.01]["paper_error_mm"] == pytest.approx(0.53)

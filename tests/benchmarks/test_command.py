@@ -1,4 +1,4 @@
-"""What the commands share: timing of steps, the bar, charts and files."""
+"""The frame of the commands: options, tables, files, pages; timing of steps, the bar, charts."""
 
 from __future__ import annotations
 
@@ -6,16 +6,120 @@ import itertools
 import json
 import os
 import time
+from argparse import Namespace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from benchmarks.car import manoeuvres
-from benchmarks.shared.command import parser_of, pyplot, save_chart, save_rows, watched
+from benchmarks.shared.command import Part, pyplot, run, save_chart, watched
+from benchmarks.shared.pages import table
 from benchmarks.shared.timing import step_time
 from mbs import Settings
 
 H, DURATION = 0.01, 0.05  # s
+ROWS = [{"scene": "a", "h_s": 0.1}, {"scene": "b", "h_s": 0.2}]
+
+
+def measured(options: Namespace) -> list[dict[str, object]]:
+    return [row | {"size": options.size} for row in ROWS if row["scene"] in options.only]
+
+
+def drawn(rows, file):
+    figure, ax = pyplot().subplots()
+    ax.plot([row["h_s"] for row in rows])
+    save_chart(figure, file)
+
+
+PARTS = {
+    "some": Part(
+        "about it",
+        measured,
+        {"scene": "", "h_s": ".2f"},
+        names=("a", "b"),
+        options={
+            "size": (2.5, "in m"),
+            "against": (Path, "a file"),
+            "fast": (False, "a switch"),
+            "many": ((1, 2), "n"),
+        },
+        pages=("page.md",),
+        blocks=lambda rows: {"steps": table(rows, {"scene": "", "h_s": "g"})},
+        words=lambda rows: f"{len(rows)} rows",
+        chart=drawn,
+        check=lambda rows, options: [f"{row['scene']} is fast" for row in rows if options.fast],
+    ),
+    "writer": Part("writes", lambda options: print("has written"), rows=False),
+}
+
+
+def test_rows_are_printed_written_drawn_and_put_into_the_page(tmp_path, capsys, monkeypatch):
+    page = "x\n<!-- begin steps -->\n<!-- end steps -->\n<!-- begin machine some -->\n<!-- end machine some -->\n"
+    (tmp_path / "page.md").write_text(page, encoding="utf-8")
+    monkeypatch.setattr("benchmarks.shared.command.DOCS", tmp_path)
+    file, chart = tmp_path / "rows.json", tmp_path / "chart.png"
+    files = ["--json", str(file), "--chart", str(chart), "--write"]
+    assert run("it", "Text.", PARTS, ["some", "--only", "b", "--size", "4", *files]) == 0
+    written = json.loads(file.read_text(encoding="utf-8"))
+    assert written["rows"] == [{"scene": "b", "h_s": 0.2, "size": 4.0}]
+    told = {"benchmark": "it", "part": "some", "only": ["b"], "size": 4.0, "many": [1, 2], "fast": False}
+    assert told.items() <= written["meta"].items()
+    assert written["meta"]["settings"] == Settings().kernel_fields()
+    assert chart.read_bytes().startswith(b"\x89PNG")
+    printed = capsys.readouterr().out
+    assert "b      0.20" in printed
+    assert "1 rows" in printed
+    assert f"numpy {np.__version__}" in printed
+    assert f"{written['meta']['machine']['processor']}, {os.cpu_count()} cores" in printed
+    text = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert "| b | 0.2 |" in text
+    assert f"numpy {np.__version__}" in text.partition("machine some")[2]
+    assert text.startswith("x\n")
+    assert "rows now and had" not in printed
+    assert run("it", "Text.", PARTS, ["some", "--write"]) == 0
+    assert run("it", "Text.", PARTS, ["some", "--only", "a", "--write"]) == 0
+    assert "The table 'steps' has 1 rows now and had 2" in capsys.readouterr().out
+
+
+def test_rows_of_earlier_runs_are_taken_together(tmp_path, capsys):
+    files = [tmp_path / f"{name}.json" for name in "ab"]
+    for file in files:
+        assert run("it", "Text.", PARTS, ["some", "--only", file.stem, "--json", str(file)]) == 0
+    both = tmp_path / "both.json"
+    capsys.readouterr()
+    assert run("it", "Text.", PARTS, ["some", "--from", *map(str, files), "--json", str(both)]) == 0
+    assert [row["scene"] for row in json.loads(both.read_text(encoding="utf-8"))["rows"]] == ["a", "b"]
+    assert "2 rows" in capsys.readouterr().out
+
+
+def test_what_is_not_good_ends_with_one_and_wrong_options_with_two(capsys):
+    assert run("it", "Text.", PARTS, ["some", "--fast"]) == 1
+    assert capsys.readouterr().out.endswith("a is fast\nb is fast\n")
+    for arguments, said in (
+        (["some", "--size", "-1"], "--size is -1.0; it is a positive number."),
+        (["some", "--only", "c"], "invalid choice: 'c'"),
+        ([], "required: PART"),
+    ):
+        with pytest.raises(SystemExit) as ended:
+            run("it", "Text.", PARTS, arguments)
+        assert ended.value.code == 2
+        assert said in capsys.readouterr().err
+
+
+def test_a_part_that_writes_has_no_rows(capsys):
+    assert run("it", "Text.", PARTS, ["writer"]) == 0
+    assert capsys.readouterr().out == "has written\n"
+    with pytest.raises(SystemExit):
+        run("it", "Text.", PARTS, ["writer", "--json", "x"])
+
+
+def test_rows_of_several_tables_have_their_own(capsys):
+    rows = [{"table": "long", "a": 1.0}, {"table": "short", "b": "x"}]
+    part = Part("two", lambda options: rows, {"long": {"a": ".1f"}, "short": {"b": ""}})
+    assert run("it", "Text.", {"only": part}, []) == 0
+    lines = capsys.readouterr().out.split()
+    assert lines[:8] == ["long", "a", "---", "1.0", "short", "b", "-", "x"]
 
 
 def test_only_the_steps_are_between_two_looks_at_the_clock():
@@ -50,25 +154,6 @@ def test_a_short_run_shows_no_bar(capsys):
 def test_the_same_chart_gives_the_same_bytes(tmp_path, capsys):
     files = [tmp_path / "new" / name for name in ("one.png", "other.png")]
     for file in files:
-        figure, ax = pyplot().subplots()
-        ax.plot([0.0, 1.0])
-        save_chart(figure, file)
+        drawn(ROWS, file)
     assert files[0].read_bytes() == files[1].read_bytes()
     assert f"written: {files[1]}" in capsys.readouterr().out
-
-
-def test_rows_are_written_where_asked_for_and_the_conditions_printed(tmp_path, capsys):
-    options = parser_of("some", "Text.", chart="a line").parse_args(["--json", str(tmp_path / "rows.json")])
-    assert options.chart is None
-    save_rows(options.json, "some", [{"h_s": 0.1}], repeats=7, warm_up=2, of="a thing")
-    save_rows(None, "some", [])
-    written = json.loads(options.json.read_text(encoding="utf-8"))
-    assert written["rows"] == [{"h_s": 0.1}]
-    assert written["meta"]["of"] == "a thing"
-    assert written["meta"]["settings"] == Settings().kernel_fields()
-    assert [f.name for f in tmp_path.iterdir()] == ["rows.json"]
-    printed = capsys.readouterr().out
-    assert "7 runs of each figure after 2 to warm up" in printed
-    assert "one run of each figure after 0 to warm up" in printed
-    assert f"numpy {np.__version__}" in printed
-    assert f"{written['meta']['machine']['processor']}, {os.cpu_count()} cores" in printed

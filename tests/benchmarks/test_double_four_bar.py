@@ -7,7 +7,8 @@ import json
 import pytest
 from matplotlib import image
 
-from benchmarks import double_four_bar
+from benchmarks.paper import __main__ as paper
+from benchmarks.paper.double_four_bar import METHODS
 
 KEYS = {
     "method",
@@ -24,16 +25,15 @@ KEYS = {
 
 
 @pytest.mark.slow
-def test_quick_run(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(double_four_bar, "REPEATS", 1)
+def test_quick_run(tmp_path, capsys):
     file, chart = tmp_path / "rows.json", tmp_path / "chart.png"
-    assert double_four_bar.main(["--quick", "--json", str(file), "--chart", str(chart)]) == 0
+    assert paper.main(["four-bar", "--quick", "--repeats", "1", "--json", str(file), "--chart", str(chart)]) == 0
     printed = capsys.readouterr().out
-    assert "The paper's Table 1" in printed
+    assert "paper dE J" in printed
     written = json.loads(file.read_text(encoding="utf-8"))
-    assert {"benchmark", "time", "machine", "settings", "methods"} <= set(written["meta"])
+    assert {"benchmark", "time", "machine", "settings", "quick"} <= set(written["meta"])
     rows = written["rows"]
-    assert {(r["N"], r["method"]) for r in rows} == {(n, m) for n in (1, 2) for m in double_four_bar.METHODS}
+    assert {(r["N"], r["method"]) for r in rows} == {(n, m) for n in (1, 2) for m in METHODS}
     for row in rows:
         assert set(row) >= KEYS
         assert (row["wall_s"] is None) == (row["failed_at_s"] is not None)

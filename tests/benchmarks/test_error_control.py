@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import error_control
+from benchmarks import work_precision
 from benchmarks.methods.error_control import MOST_ERROR, compare, misses
 
 
 @pytest.mark.slow
 def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
     file = tmp_path / "e.json"
-    assert error_control.main(["--quick", "--scene", "spatial_slider_crank", "--json", str(file)]) == 0
+    assert work_precision.main(["control", "--quick", "--only", "spatial_slider_crank", "--json", str(file)]) == 0
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
     methods = [r["method"] for r in rows]
     assert methods[:3] == ["ali3p", "radau_5", "runge_kutta_8"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from argparse import ArgumentTypeError
 from pathlib import Path
 
 import numpy as np
@@ -80,9 +79,3 @@ def test_naive_models_move_alike_and_are_larger() -> None:
         assert found["naive_rows"] > 2 * found["rows"]
         assert found["difference"] < 0.01
     assert np.isfinite(found["factor"])
-
-
-def test_a_command_takes_numbers_and_names() -> None:
-    assert [fidelity.fidelity_of(text) for text in ("3", "dynamic", "Paper")] == [3, Fidelity.DYNAMIC, Fidelity.PAPER]
-    with pytest.raises(ArgumentTypeError, match="fidelity of the car is 'soft'"):
-        fidelity.fidelity_of("soft")

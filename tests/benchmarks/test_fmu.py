@@ -1,19 +1,15 @@
-"""`python -m benchmarks.fmu`: a figure for every quantity, positive, in the file too."""
+"""The command of FMUs: a figure for every call and host, positive; tables of the pages."""
 
 from __future__ import annotations
 
 import json
-import subprocess
-from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from benchmarks import fmu
-from benchmarks.car import road_port_cost
-from benchmarks.car.road_port_steps import ANSWER, answers, height
-from tests.vehicle.rigid_car import rigid_car
+from benchmarks.car import fmu_calls, plant_steps, wasm_times
+from benchmarks.shared.figures import rows_of
 
 SCENE = Path(__file__).parents[2] / "examples" / "motor_pendulum.py"
 
@@ -22,38 +18,48 @@ SCENE = Path(__file__).parents[2] / "examples" / "motor_pendulum.py"
 def test_every_quantity_has_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "fmu.json"
     scene = f"{SCENE}:motor_pendulum"
-    arguments = ["--scene", scene, "--steps", "20", "--repeats", "2", "--instances", "5", "--json", str(file)]
+    arguments = ["calls", "--scene", scene, "--steps", "20", "--repeats", "2", "--instances", "5", "--json", str(file)]
     assert fmu.main(arguments) == 0
     printed = capsys.readouterr().out
-    assert all(quantity in printed for quantity in fmu.QUANTITIES)
+    assert all(quantity in printed for quantity in fmu_calls.QUANTITIES)
     content = json.loads(file.read_text(encoding="utf-8"))
     native = {(r["quantity"], r["host"]): r["value"] for r in content["rows"] if r["kind"] == "native"}
-    assert {q for q, h in native if h == "C"} == {*fmu.QUANTITIES, "file_MB"}
+    assert {q for q, h in native if h == "C"} == {*fmu_calls.QUANTITIES, "file_MB"}
     assert all(value > 0.0 for value in native.values())
     assert {h for _, h in native} == {"C", "FMPy"}
     assert content["meta"]["scene"] == scene
 
 
-def test_answers_are_the_planes_that_touch_the_waves() -> None:
-    places = [0.3, 1.0, 1.7, -1.0]
-    for (x, y), told in zip(np.reshape(places, (2, 2)), np.reshape(answers(places, 0.015), (2, 7)), strict=True):
-        point = dict(zip(ANSWER, told, strict=True))
-        slope = (height(x + 1e-6, 0.015) - height(x - 1e-6, 0.015)) / 2e-6
-        normal = np.array([-slope, 0.0, 1.0]) / np.hypot(1.0, slope)
-        assert abs(slope) > 0.01
-        assert (point["x"], point["y"], point["height"]) == (x, y, height(x, 0.015))
-        assert [point[f"normal_{c}"] for c in "xyz"] == pytest.approx(normal.tolist(), abs=1e-9)
-
-
 @pytest.mark.slow
-def test_cars_on_a_road_of_their_own_and_at_road_ports_make_the_steps_that_are_counted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def counted(command: Sequence[str]) -> int:
-        subprocess.run(command, check=True)
-        return 500 + (1300 if "ported" in command[-3] else 1000) * int(command[-1])
+def test_every_host_has_its_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "wasm.json"
+    assert fmu.main(["wasm", "--steps", "20", "--repeats", "1", "--rounds", "1", "--json", str(file)]) == 0
+    printed = capsys.readouterr().out
+    content = json.loads(file.read_text(encoding="utf-8"))
+    hosts = list(dict.fromkeys(row["host"] for row in content["rows"]))
+    assert hosts[:2] == ["native", "wasmtime"]
+    assert all(f"{host} " in printed for host in hosts)
+    assert {(r["fidelity"], r["host"]) for r in content["rows"]} == {(f, h) for f in ("0", "2") for h in hosts}
+    assert all(r["us"] >= r["best_us"] > 0.0 for r in content["rows"])
+    assert all(r["ratio"] == 1.0 for r in content["rows"] if r["host"] == "native")
 
-    monkeypatch.setattr(road_port_cost, "instructions", counted)
-    rows = road_port_cost.measure(str(rigid_car("hatchback", tmp_path / "hatchback")), 2, tmp_path)
-    assert [row["own road"] for row in rows] == [1000, 1000]
-    assert [row["ratio"] for row in rows] == [1.3, 1.3]
+
+def test_fmu_calls_webassembly_and_cars_in_python():
+    calls = [
+        {"quantity": "step", "kind": k, "host": h, "value": v}
+        for k, h, v in (("native", "C", 27), ("python", "FMPy", 29.4))
+    ]
+    step, *_ = rows_of(fmu_calls.fmu_blocks(calls)["fmu calls"])
+    assert list(step.values()) == ["one step of 2 ms", "27", "–", "–", "29.4"]
+    hosts = [
+        {"fidelity": "2", "what": "inner", "host": host, "best_us": us}
+        for host, us in (("native", 245.3), ("Node", 313.0))
+    ]
+    assert rows_of(wasm_times.wasm_blocks(hosts)["wasm"]) == [
+        {"fidelity, calls": "2, inner", "native": "245", "Node": "313"}
+    ]
+    ways = [
+        {"environment": "E", "step_ms": 20.0, "way": way, "steps_a_second": 2009.2, "us_of_processor": us}
+        for way, us in (("FMPy", 472.3), ("Async", None))
+    ]
+    assert [row["E, 20 ms"] for row in rows_of(plant_steps.plant_blocks(ways)["plant"])] == ["2009 (472)", "2009"]

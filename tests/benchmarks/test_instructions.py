@@ -1,4 +1,4 @@
-"""`python -m benchmarks.instructions`: the counts are those of the kernel, and a dearer step is told."""
+"""`python -m benchmarks.cost instructions`: the counts are those of the kernel, and a dearer step is told."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import json
 
 import pytest
 
-from benchmarks import instructions
+from benchmarks import cost
+from benchmarks.car import scene_instructions
 from benchmarks.shared.instructions import counter
 from mbs import simulate
 from tests.unoptimised import unoptimised
@@ -15,43 +16,26 @@ from tests.unoptimised import unoptimised
 @pytest.mark.slow
 @unoptimised()
 def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, monkeypatch):
-    scene = instructions.SCENES[0]._replace(steps=20)
-    monkeypatch.setattr(instructions, "SCENES", [scene])
+    scene = scene_instructions.SCENES[0]._replace(steps=20)
+    monkeypatch.setattr(scene_instructions, "SCENES", [scene])
     table = tmp_path / "table.json"
-    assert instructions.main(["--json", str(table)]) == 0
+    assert cost.main(["instructions", "--json", str(table)]) == 0
     stored = json.loads(table.read_text("utf-8"))
     row = stored["rows"][0]
     run = simulate(scene.system(), scene.steps * scene.step, scene.step, progress=False, estimate_error=False).report
     assert run is not None
     assert row["iterations"] == pytest.approx(run.iterations / scene.steps)
     assert (row["instructions"] is None) == (counter() is None)
-    assert instructions.main(["--against", str(table)]) == 0
+    assert cost.main(["instructions", "--against", str(table)]) == 0
     what = "factorizations" if counter() is None else "instructions"
     row[what] /= 1.05
     table.write_text(json.dumps(stored), "utf-8")
     capsys.readouterr()
-    assert instructions.main(["--against", str(table)]) == 1
+    assert cost.main(["instructions", "--against", str(table)]) == 1
     assert f"double four-bar, 30 ms: {what} 5.0 % more a step." in capsys.readouterr().out
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(counter() is None, reason="valgrind is not installed; .ci/run installs it")
-@unoptimised()
-def test_the_functions_of_a_scene_are_named_with_their_shares(tmp_path, capsys, monkeypatch):
-    scene = instructions.SCENES[0]._replace(steps=20)
-    monkeypatch.setattr(instructions, "SCENES", [scene])
-    table = tmp_path / "functions.json"
-    assert instructions.main(["--functions", scene.name, "--json", str(table)]) == 0
-    rows = json.loads(table.read_text("utf-8"))["rows"]
-    share = {row["function"]: row["share"] for row in rows}
-    assert sum(share.values()) == pytest.approx(1.0)
-    named = {name.removeprefix("ali3_").removesuffix("_avx2") for name in share}  # one of the two that are compiled
-    assert {"rigid_rows", "factorise"} <= named
-    assert all(value > instructions.LEAST for name, value in share.items() if name != "all others")
-    assert "factorise" in capsys.readouterr().out
-
-
 def test_the_table_of_the_project_has_every_scene():
-    rows = json.loads(instructions.TABLE.read_text("utf-8"))["rows"]
+    rows = json.loads(scene_instructions.STORED.read_text("utf-8"))["rows"]
     stored = {(row["scene"], row["step_ms"]) for row in rows}
-    assert stored == {(scene.name, 1e3 * scene.step) for scene in instructions.SCENES}
+    assert stored == {(scene.name, 1e3 * scene.step) for scene in scene_instructions.SCENES}

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import mbs
-from benchmarks.load_paths import main
+from benchmarks.frame import main
 from mbs.vehicle import Fidelity, load
 from tests.vehicle.frame_cars import small_frame, written
 
@@ -18,7 +18,7 @@ REST = {"drive.creep_torque": 0.0}
 def test_loads_of_the_own_manoeuvres_give_the_load_paths(tmp_path: Path) -> None:
     """The command writes the table that the car then names; few modes bend the frame like all of them."""
     folder = written(small_frame(tmp_path))
-    assert main(["--car", str(folder), "--manoeuvres", "launch_and_brake", "step_steer_given_throttle"]) == 0
+    assert main(["loads", "--car", str(folder), "--only", "launch_and_brake", "step_steer_given_throttle"]) == 0
     car = load(folder).changed({"chassis.frame.loads": "loads.csv"})
     assert Fidelity.LOAD_PATHS in car.fidelities()
     few, all_modes = (car.flexible_frame.reduced(fidelity).n_modes for fidelity in (2, 3))

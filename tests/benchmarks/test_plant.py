@@ -1,4 +1,4 @@
-"""`python -m benchmarks.plant`: a positive figure for every way, and several environments that are the same in all."""
+"""`python -m benchmarks.fmu plant`: a positive figure for every way, and environments that are the same in all."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import plant
+from benchmarks.car import plant_steps as plant
 from hosts.plant.together import Together
 
 

@@ -17,11 +17,6 @@ FOLDER = ROOT / "benchmarks"
 ROOMS = benchmarks.ROOMS
 MODULES = {n: f"benchmarks.{n}.__main__" if n in benchmarks.ROOMS else f"benchmarks.{n}" for n in commands()}
 COMMANDS = set(MODULES.values())
-WRITERS = {
-    "animations", "calculix", "car_references", "fidelity_references", "figures", "gauge_picture", "load_paths",
-    "pages", "simulator_pictures", "stress_picture", "variables",
-}  # fmt: skip
-"""Commands that write references, pages or pictures or read pages; all others measure, and write rows with `--json`."""
 
 
 def imports(file: Path) -> Iterator[str]:
@@ -69,9 +64,9 @@ def test_a_room_imports_only_those_before_it(room: str) -> None:
 def test_the_list_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert main() == 0
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == len(commands()) >= 20
+    assert len(lines) == len(commands()) == 12
     assert {line.split()[2].removeprefix("benchmarks.") for line in lines} == set(commands())
-    assert all(len(line.split()) > 4 for line in lines)
+    assert all(len(line.split()) > 3 for line in lines)
 
 
 @pytest.mark.parametrize("name", sorted(commands()))
@@ -86,6 +81,14 @@ def test_a_command_explains_its_arguments(name: str, capsys: pytest.CaptureFixtu
     with pytest.raises(SystemExit) as ended:
         module.main(["--help"])
     assert ended.value.code == 0
-    said = capsys.readouterr().out
-    assert f"usage: python -m benchmarks.{name} " in said
-    assert ("[--json FILE]" in said) != (name in WRITERS)
+    assert f"usage: python -m benchmarks.{name} " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", sorted(set(commands()) - {"figures"}))
+def test_what_measures_writes_rows_and_what_has_a_page_has_its_marks(name: str) -> None:
+    """Tables of a part stand on its pages, and what is between marks there is made by a part or by `figures`."""
+    for key, part in importlib.import_module(MODULES[name]).PARTS.items():
+        assert part.about
+        assert (part.blocks is not None) == bool(part.pages), key
+        assert part.rows or part.blocks is None, key
+        assert all((ROOT / "docs" / page).is_file() for page in part.pages), key

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.references.cases import computed, exact_of
-from benchmarks.references.store import NAMES
+from benchmarks.references.cases import SLOW, computed, exact_of
 
 
 @pytest.mark.proof
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SLOW)
 def test_a_stored_motion_is_made_again(name: str) -> None:
     stored = exact_of(name)
     assert np.ptp(stored, axis=0).max() > 0.01

@@ -17,7 +17,7 @@ def test_the_computed_motion_is_slower_by_what_the_trapezoidal_rule_says(steps):
 
 
 def test_rows_of_each_table_have_its_columns():
-    made = trust.trust_blocks({"frequency": [trust.frequency(20)]})["trust frequency"]
+    made = trust.trust_blocks([{"table": "frequency", **trust.frequency(20)}])["trust frequency"]
     (row,) = rows_of(made)
     assert row["steps in a period"] == "20"
     assert float(row["frequency error"]) == pytest.approx(0.0081, rel=0.02)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.shared.pages import table
+from benchmarks.shared.pages import DOCS, table
 from benchmarks.validation import __main__ as command
 from benchmarks.validation import acceleration, avoidance, others, tyre_rig
 from benchmarks.validation.published import Published
@@ -47,14 +47,13 @@ def test_times_are_those_of_the_speeds_asked_for() -> None:
 
 
 def test_the_part_is_merged_and_the_rest_of_the_page_stays(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    before = command.PAGE.read_text(encoding="utf-8")
-    page = tmp_path / "validation.md"
-    page.write_text(before, encoding="utf-8")
+    before = (DOCS / "validation.md").read_text(encoding="utf-8")
+    (tmp_path / "validation.md").write_text(before, encoding="utf-8")
     made = [Published("a test", "s", {"somebody": 1.0}, 0.05).row(1.2)]
-    monkeypatch.setattr(command, "PAGE", page)
+    monkeypatch.setattr("benchmarks.shared.command.DOCS", tmp_path)
     monkeypatch.setattr(others, "rows", lambda: made)
-    assert command.main(["--page"]) == 0
-    after = page.read_text(encoding="utf-8")
+    assert command.main(["others", "--write"]) == 0
+    after = (tmp_path / "validation.md").read_text(encoding="utf-8")
     begin, end = "<!-- begin others -->\n", "<!-- end others -->"
     assert after.split(begin)[1].split(end)[0] == table(made, others.COLUMNS) + "\n"
     assert "| a test, s | 1 (somebody) | 0.05 | 1.2 | +14 % |" in after
@@ -64,12 +63,10 @@ def test_the_part_is_merged_and_the_rest_of_the_page_stays(monkeypatch: pytest.M
 
 
 def test_a_row_of_the_page_that_would_be_lost_is_told(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        command.main(["drive.csv", "--page"])
+    assert command.main(["drive", "--log", "drive.csv", "--write"]) == 2
     assert "would lose" in capsys.readouterr().err
-    with pytest.raises(SystemExit):
-        command.main(["--chart", "x.png"])
-    assert "need the FILE" in capsys.readouterr().err
+    assert command.main(["drive"]) == 2
+    assert "The log of the drive is given by --log FILE." in capsys.readouterr().err
 
 
 @pytest.mark.slow

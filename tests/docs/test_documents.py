@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import mbs
-from benchmarks.car.variable_tables import full, overview, tables
+from benchmarks.car.variable_tables import blocks, tables
 from benchmarks.references.cases import CASES
 from benchmarks.shared.pages import replace
 from fmu_src.build.scene_registry import load_scene
@@ -119,10 +119,10 @@ def test_pages_list_the_manoeuvres_and_the_scene_of_ones_own():
 @pytest.mark.slow
 def test_tables_of_variables_are_those_of_the_cars():
     found = tables()
-    blocks = {"car variables": overview(found)} | full(found)
+    made = blocks(found)
     page = (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
-    assert replace(page, blocks) == page, "run: python -m benchmarks.variables"
-    assert all(f"<!-- begin {name} -->" in page for name in blocks)
+    assert replace(page, made) == page, "run: python -m benchmarks.figures --variables"
+    assert all(f"<!-- begin {name} -->" in page for name in made)
     # and, whatever wrote them, nothing is missing and nothing is there that no car has
     table = re.search(r"\| variables \|.*?\n<!--", page, re.DOTALL)[0]
     names = {v.name for variables in found.values() for v in variables}

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks import references
+from benchmarks.references import motions as references
 from mbs.scenes import pendulum
 
 G = 9.81

@@ -7,8 +7,8 @@ import warnings
 import numpy as np
 import pytest
 
-from benchmarks import references
 from benchmarks.methods.honesty_scenes import printed_model
+from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, system_of
 from mbs import AccuracyWarning, Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import Status, open_row

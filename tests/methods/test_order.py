@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.references.double_four_bar import exact
+from benchmarks.references.motions import four_bar as exact
 from mbs import Settings, compile, simulate
 from mbs.scenes import bricard, double_four_bar
 from tests.methods.models import driven, end, hinge, swing

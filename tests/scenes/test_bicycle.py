@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks import references
+from benchmarks.references import motions as references
 from benchmarks.references.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, stable_speeds
 from benchmarks.references.cases import exact_of, system_of
 from benchmarks.references.rolling import RollingBicycle

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks import references
 from benchmarks.baselines.run import METHODS, run
+from benchmarks.references import motions as references
 from mbs import Settings, compile, simulate
 from mbs.scenes import (
     bricard,

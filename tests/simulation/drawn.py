@@ -1,4 +1,4 @@
-"""Mechanisms that `benchmarks.honesty --random` draws."""
+"""Mechanisms that `benchmarks.honesty random` draws."""
 
 from __future__ import annotations
 

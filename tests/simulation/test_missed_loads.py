@@ -72,7 +72,7 @@ def test_a_fourth_repeat_tells_what_three_leave_open() -> None:
 
 
 def _stream(seed: int, number: int) -> np.random.Generator:
-    """Of a car of `benchmarks.honesty --random`, after the number that makes it a car."""
+    """Of a car of `benchmarks.honesty random`, after the number that makes it a car."""
     rng = np.random.default_rng([seed, number])
     assert rng.random() < 0.1 / 1.1
     return rng

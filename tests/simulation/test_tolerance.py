@@ -11,10 +11,10 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import PPoly
 
 import mbs
-from benchmarks import references
 from benchmarks.car.manoeuvres import inputs_of, load, start_of
 from benchmarks.car.manoeuvres import system_of as car_of
 from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
+from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs.results.accuracy import AccuracyWarning
 from mbs.simulation.controlled_run import ControlledRun, Task

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ali3.scene.scene import scene_errors
-from benchmarks.car.stress_picture import frame_alone, motion_of
+from benchmarks.car.frame_pictures import frame_alone, motion_of
 from mbs import Simulation, Trajectory, compile
 from mbs.model.flexible import FlexibleBody
 from mbs.scenes import kerb_test, prototype_car

@@ -95,7 +95,7 @@ def drawn(_page: Any) -> Iterator[DrawnPage]:
 @pytest.fixture(scope="session")
 def recorded(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[[str], Recording]:
     """The run of a film, driven once for all tests that look at it."""
-    from benchmarks.paper.animations import ANIMATIONS  # takes a second, which other pages do not need
+    from benchmarks.pictures.animations import ANIMATIONS  # takes a second, which other pages do not need
 
     def get(name: str) -> Recording:
         def fill(folder: Path) -> None:

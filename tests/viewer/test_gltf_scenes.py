@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks.paper.animations import ANIMATIONS
+from benchmarks.pictures.animations import ANIMATIONS
 from tests.viewer.gltf_files import accessor, content, run_node
 from viewer.gltf import write_gltf
 from viewer.poses import FramePoses, rotated

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ali3.scene.recording import Recording
-from benchmarks.paper.animations import ANIMATIONS
+from benchmarks.pictures.animations import ANIMATIONS
 from viewer.poses import FramePoses
 
 # They have the car of the lane change.

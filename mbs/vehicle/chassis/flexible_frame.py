@@ -96,7 +96,7 @@ class FlexibleFrame:
         if self.section.loads is None:
             raise ModelError(
                 f"{self.section.key('loads')} is missing: fidelity {Fidelity.LOAD_PATHS.value} needs a table of the "
-                "forces on the frame in driving (python -m benchmarks.load_paths --car writes one)."
+                "forces on the frame in driving (python -m benchmarks.frame loads --car writes one)."
             )
         key = self.section.key("loads")
         rows = read_table(self.folder, self.section.loads, key, ("interface", "axis", "load_1"))

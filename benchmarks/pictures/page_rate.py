@@ -1,22 +1,16 @@
-"""How fast a page draws, by the processor: ``python -m benchmarks.page_rate [--size W H] [--json FILE]``.
-
-A picture of each scene is drawn again and again in a Chromium without a window, whose WebGL is SwiftShader; each time
-one pixel is read, so that the picture is there. On a machine with a graphics card a page is faster by far.
-"""
+"""How fast a page draws, by the processor; on a machine with a graphics card a page is faster by far."""
 
 from __future__ import annotations
 
 import json
 import statistics
-import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from argparse import Namespace
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ali3.running import run_command
-from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.tables import print_table
+from benchmarks.shared.command import watched
 from mbs import compile
 from mbs.scenes import double_four_bar, prototype_car, puma
 from mbs.worlds import command as world_command
@@ -24,6 +18,10 @@ from viewer import browser
 from viewer.bundle import bundle
 
 SIZE = (1280, 720)
+COLUMNS = {"scene": "", "quality": ""} | dict.fromkeys(("ms", "best_ms", "worst_ms", "rate", "first_s"), ".3g")
+COLUMNS |= dict.fromkeys(("calls", "triangles", "bytes"), "d")
+WORDS = """ms: median of a picture; rate: pictures a second; first_s: until the first picture; bytes: what a picture of
+moved things gives to the graphics card"""
 
 
 def in_world(name: str) -> dict[str, Any]:
@@ -81,43 +79,25 @@ MEASURE = """([scene, quality, count]) => {
 }"""
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    parser = parser_of("page_rate", __doc__)
-    parser.add_argument("--pictures", type=int, default=20, metavar="N", help="of each scene; default: 20")
-    parser.add_argument(
-        "--scenes", nargs="+", choices=SCENES, default=list(SCENES), metavar="NAME", help=f"of {', '.join(SCENES)}"
-    )
-    parser.add_argument("--size", type=int, nargs=2, default=SIZE, metavar=("W", "H"), help="pixels; default: 1280 720")
-    options = parser.parse_args(arguments)
-    if options.pictures < 1:
-        parser.error("the number of pictures is positive")
+def measure(options: Namespace) -> list[dict[str, Any]]:
+    """A picture of each scene is drawn again and again in each quality."""
     from playwright.sync_api import sync_playwright
 
-    executable = browser.find_chromium()
-    script = bundle().read_text(encoding="utf-8")
+    script, width, height = bundle().read_text(encoding="utf-8"), *options.size
     rows, renderers = [], set()
     with sync_playwright() as play:
-        chromium = play.chromium.launch(executable_path=executable, args=browser.launch_arguments())
+        chromium = play.chromium.launch(executable_path=browser.find_chromium(), args=browser.launch_arguments())
         version = chromium.version
-        page = chromium.new_page(viewport={"width": options.size[0], "height": options.size[1]})
+        page = chromium.new_page(viewport={"width": width, "height": height})
         page.set_content("<body style='margin:0'><div id='picture' style='width:100vw;height:100vh'></div></body>")
         page.add_script_tag(content=script)
-        for name, quality in watched([(name, quality) for name in options.scenes for quality in QUALITIES]):
+        for name, quality in watched([(name, quality) for name in options.only for quality in QUALITIES]):
             found = page.evaluate(MEASURE, [SCENES[name](), quality, options.pictures])
             renderers.add(found["renderer"])
             rows.append(_row(name, quality, found))
         chromium.close()
-    times = dict.fromkeys(("ms", "best_ms", "worst_ms", "rate", "first_s"), ".3g")
-    print_table(rows, {"scene": "", "quality": "", **times, "calls": "d", "triangles": "d", "bytes": "d"})
-    print(
-        f"\nms: median of a picture of {options.size[0]} x {options.size[1]}; rate: pictures a second; "
-        "first_s: until the first picture; bytes: what a picture of moved things gives to the graphics card"
-    )
     print(f"Chromium {version}, {', '.join(sorted(renderers))}; script: {len(script) / 1e3:.0f} kB")
-    drawn_by = {"chromium": version, "renderers": sorted(renderers), "size": options.size, "script_bytes": len(script)}
-    save_rows(options.json, "page_rate", rows, repeats=options.pictures, warm_up=1, **drawn_by)
-    return 0
+    return rows
 
 
 def _row(name: str, quality: str, found: dict[str, Any]) -> dict[str, Any]:
@@ -125,7 +105,3 @@ def _row(name: str, quality: str, found: dict[str, Any]) -> dict[str, Any]:
     times = {"ms": ms, "best_ms": min(found["times"]), "worst_ms": max(found["times"]), "rate": 1000.0 / ms}
     row = {"scene": name, "quality": quality, **times}
     return row | {"first_s": found["first"] / 1000.0} | {key: found[key] for key in ("triangles", "calls", "bytes")}
-
-
-if __name__ == "__main__":
-    sys.exit(run_command(main))

@@ -1,25 +1,20 @@
-"""The simulator as it is driven: ``python -m benchmarks.simulator_pictures [--only NAME] [--out DIR]``.
-
-Drives the prototype car through the pages of the simulator and takes their pictures with the instruments, whose rates
-are those of this machine while it is driven: each is printed, with the deadlines missed. Only a machine without other
-work shows what the program can do. Needs the extras ``simulator`` and ``pictures``.
-"""
+"""The simulator as it is driven through its pages: pictures with the instruments of this machine."""
 
 from __future__ import annotations
 
 import io
+import re
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ali3.files import whole_file
-from ali3.running import run_command
-from benchmarks.shared.command import parser_of, watched
-from benchmarks.shared.simulator_program import simulator
+from ali3.files import make_folder, whole_file
+from benchmarks.shared.command import watched
 from viewer import browser
 
 SIZE = (800, 450)  # pixels: the smallest at which the bar is one line
@@ -48,6 +43,25 @@ SHOTS = {
     "map": Shot("slalom", (("", 5.0), *((key, 0.7) for key in ("a", "d", "d", "a", "a", "d"))), "map"),
     "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("f", "p")),
 }
+
+
+@contextmanager
+def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
+    """Start the simulator; gives its address."""
+    command = [sys.executable, "-m", "ali3", "simulator", str(fmu), "--no-open", "--no-devices", *options]
+    host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    said = ""
+    try:
+        for line in host.stdout or ():
+            said += line
+            if found := re.search(r"http://\S+", line):
+                break
+        else:
+            raise RuntimeError(f"The simulator did not start: {said}")
+        yield found[0]
+    finally:
+        host.terminate()
+        host.communicate()
 
 
 def drive(page: Any, shot: Shot) -> None:
@@ -88,26 +102,17 @@ def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
     return dict(rates)
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Drive, draw, say where."""
-    parser = parser_of("simulator_pictures", __doc__, json=False)
-    parser.add_argument("--only", nargs="+", choices=SHOTS, default=list(SHOTS), metavar="NAME", help="default: all")
-    parser.add_argument("--out", type=Path, default=Path("out"), metavar="DIR", help="folder for results; default: out")
-    options = parser.parse_args(arguments)
-    options.out.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory() as folder:
+def take_all(names: Sequence[str], folder: Path) -> None:
+    """Build the car, drive, draw, say where and with which rates."""
+    make_folder(folder)
+    with TemporaryDirectory() as built:
         build = [sys.executable, "-m", "ali3", "build", "prototype", "--poses", "all", "--kind", "native"]
-        subprocess.run([*build, "--out", folder], check=True, stdout=subprocess.DEVNULL)
-        (fmu,) = Path(folder).glob("*.fmu")
-        for name in watched(options.only):
-            file = options.out / f"simulator_{name}.webp"
+        subprocess.run([*build, "--out", built], check=True, stdout=subprocess.DEVNULL)
+        (fmu,) = Path(built).glob("*.fmu")
+        for name in watched(names):
+            file = folder / f"simulator_{name}.webp"
             n = take(fmu, SHOTS[name], file)
             print(
                 f"{file}: at {n['time']:.1f} s {n['drawn']:.0f} pictures/s (longest {1e3 * n['longest']:.0f} ms), "
                 f"{n['missed']:.0f} deadlines missed, the longest step {1e3 * n['worst']:.2f} ms"
             )
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(run_command(main))

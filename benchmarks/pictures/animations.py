@@ -11,7 +11,8 @@ import numpy as np
 
 import mbs
 from ali3.scene.recording import Recording
-from benchmarks.car import driven_worlds, fidelity_runs, manoeuvres
+from benchmarks.car import fidelity_runs, manoeuvres
+from benchmarks.pictures import driven_worlds
 from hosts.driving.course_scenery import with_course
 from hosts.driving.courses import course_of
 from mbs.model.model import Model

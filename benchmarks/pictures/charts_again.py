@@ -10,10 +10,7 @@ from io import StringIO
 from pathlib import Path
 
 from ali3.chart_words import description_of
-from benchmarks import gauge_picture
-from benchmarks.car import limited_fall, rig_chart
-from benchmarks.real_time import falls
-from benchmarks.shared.command import save_chart
+from benchmarks.car.frame_pictures import draw_gauges
 from benchmarks.shared.figures import Again
 from hosts.fmu.built_fmu import fmu_of_scene
 from mbs.vehicle import load
@@ -47,15 +44,7 @@ def _first_command(file: Path) -> None:
 
 
 def _frame(car: str, file: Path) -> None:
-    gauge_picture.main(["--car", car, "--chart", str(file)])
-
-
-def _axles(file: Path) -> None:
-    rig_chart.draw({name: load(name) for name in ("hatchback", "prototype")}, file)
-
-
-def _fall(file: Path) -> None:
-    save_chart(limited_fall.chart(falls(_prototype())), file)
+    draw_gauges(load(car), str(file))
 
 
 def _travel(file: Path) -> None:
@@ -73,12 +62,10 @@ def _map(file: Path) -> None:
 
 
 DRAWN: dict[str, Callable[[Path], None]] = {
-    "axles.png": _axles,
     "double_lane_change.png": _first_command,
     "frame_gauges.png": partial(_frame, "prototype"),
     "hatchback_frame.png": partial(_frame, "hatchback"),
     "kinematics_hatchback.png": _travel,
-    "limited_fall.png": _fall,
     "proving_ground.png": _map,
 }
 """By name in docs/images, what draws it within seconds."""

@@ -1,4 +1,4 @@
-"""Steps per second of a car in Python and of its environments, beside bare FMPy: ``python -m benchmarks.plant``.
+"""Steps per second of a car in Python and of its environments, beside bare FMPy.
 
 Each environment of `hosts.plant` with the action 0: its FMU through FMPy alone, with the inputs and outputs of the
 environment; `hosts.plant.Car`; the environment; several by Gymnasium one after the other, in processes, and on threads.
@@ -9,7 +9,6 @@ time of each step, which a busy machine hardly changes; processor time is the me
 from __future__ import annotations
 
 import shutil
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
@@ -22,9 +21,7 @@ import numpy as np
 from fmpy.simulation import instantiate_fmu
 from gymnasium.vector import VectorEnv
 
-from ali3.running import run_command
-from benchmarks.shared.command import parser_of, save_rows, watched
-from benchmarks.shared.tables import print_table
+from benchmarks.shared.pages import Row, crossed
 from hosts.plant.environments import CarEnvironment
 
 ENVIRONMENTS = ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap")
@@ -39,29 +36,6 @@ COLUMNS = {
     "over_fmpy": ".2f",
     "us_of_processor": ".0f",
 }
-
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
-    parser = parser_of("plant", __doc__)
-    parser.add_argument("--several", type=int, default=8, metavar="N", help="environments together; default: 8")
-    parser.add_argument(
-        "--repeats", type=int, default=30, metavar="N", help="times that each way makes them; default: 30"
-    )
-    parser.add_argument("--steps", type=int, default=20, metavar="N", help="steps; default: 20")
-    options = parser.parse_args(arguments)
-    if min(options.several, options.repeats, options.steps) < 1:
-        parser.error("numbers of environments, repeats and steps are positive")
-
-    def work() -> int:
-        rows = []
-        for name in watched(ENVIRONMENTS):
-            rows += measure(name, options.several, options.repeats, options.steps)
-        print_table(rows, COLUMNS)
-        save_rows(options.json, "plant", rows, repeats=options.repeats, several=options.several, steps=options.steps)
-        return 0
-
-    return run_command(work)
 
 
 def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
@@ -171,5 +145,12 @@ def _several(made: VectorEnv[Any, Any, Any], way: str, last: dict[str, np.ndarra
     return lambda: made.reset(seed=0), advance
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def plant_blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Steps a second and microseconds of processor a step by way and environment."""
+
+    def cell(row: Row) -> str:
+        used = row["us_of_processor"]
+        return f"{row['steps_a_second']:.0f}" + ("" if used is None else f" ({used:.0f})")
+
+    names = [row | {"column": f"{row['environment']}, {row['step_ms']:g} ms"} for row in rows]
+    return {"plant": crossed(names, lambda r: r["way"], "column", cell, "steps a second (us of processor a step)")}

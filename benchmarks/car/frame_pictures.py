@@ -1,4 +1,4 @@
-"""The frame in the kerb test, deformed and coloured by stress: motion and pictures."""
+"""Pictures of frames: with their gauges; in the kerb test, deformed and coloured by stress."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.scene.recording import Recording
+from benchmarks.shared.command import pyplot, save_chart
 from mbs import Simulation, Trajectory, compile
 from mbs.flexible.frame import Frame
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.reduced_body import ReducedBody
-from mbs.scenes import kerb_test
-from mbs.vehicle import Fidelity
+from mbs.scenes import kerb_test, prototype_car
+from mbs.vehicle import Car, Fidelity
 from viewer.pictures import write_picture
 from viewer.video import write_mp4
 
@@ -25,6 +26,8 @@ ANIMATED = (7.6, 8.9)  # s, from before the front wheels leave the kerb until af
 SPEED = 0.24  # of the animation beside real time
 PERCENTILE = 99.5  # of the stresses, where the colours end: single joints would take all the range
 SHOWN = ("wheel", "spring", "damper")  # beside the frame
+NEAR = (0.5, 0.1)  # m: the names of gauges that are nearer would lie on each other
+VIEWS = ((0, 2, "z, m"), (0, 1, "y, m"))  # from the side, from above
 AT_REST = {"radius": 0.002, "color": "#bbbbbb"}  # of the lines where the frame is not deformed
 
 
@@ -40,9 +43,21 @@ class Motion:
     """Shape (n, elements, 2): largest normal stress at the ends of each element, Pa."""
 
 
-def kerb_run() -> Trajectory:
-    """The kerb test until the end of the animation."""
-    return Simulation(compile(kerb_test.build(Fidelity.DYNAMIC))).run(ANIMATED[1], kerb_test.STEP, progress=None)
+def kerb_pictures(folder: Path) -> None:
+    """Run the kerb test until the end of the animation, draw, and say where."""
+    car = prototype_car.car()
+    frame, _ = car.frame_section.tubular(car.folder).frame()
+    body = car.flexible_frame.reduced(Fidelity.DYNAMIC)
+    run: Trajectory = Simulation(compile(kerb_test.build(Fidelity.DYNAMIC))).run(
+        ANIMATED[1], kerb_test.STEP, progress=None
+    )
+    recording = run.recording()
+    (part,) = (recording.scene or {})["flexible"]
+    motion = motion_of(frame, body, run.t, np.column_stack([recording.columns[name] for name in part["amplitudes"]]))
+    rest, peak = motion.stress[0].max() / 1e6, motion.stress.max() / 1e6
+    print(f"largest normal stress {rest:.1f} MPa at rest, {peak:.1f} MPa in the test")
+    folder.mkdir(parents=True, exist_ok=True)
+    print(f"written: {', '.join(map(str, draw(recording, motion, folder)))}")
 
 
 def motion_of(frame: Frame, body: ReducedBody, t: Array, eta: Array, scale: float = SCALE) -> Motion:
@@ -77,3 +92,38 @@ def draw(recording: Recording, motion: Motion, folder: Path) -> list[Path]:
     begin, end = ANIMATED
     write_mp4(animation, shown, fps=12, size=(700, 450), speed=SPEED, begin=begin, end=end, options=options)
     return [picture, animation]
+
+
+def draw_gauges(car: Car, file: str) -> None:
+    """The frame of a car with its joints and gauges, from the side and from above."""
+    figure, axes = pyplot().subplots(2, 1, figsize=(8.6, 6.2), layout="constrained")
+    for (i, j, label), a in zip(VIEWS, axes, strict=True):
+        _frame_and_gauges(a, car, i, j)
+        a.set(aspect="equal", xlabel="x, m", ylabel=label)
+        a.margins(y=0.12)
+    axes[0].legend(loc="upper right", frameon=False)
+    save_chart(figure, Path(file))
+
+
+def _frame_and_gauges(a: Any, car: Car, i: int, j: int) -> None:
+    """Tubes, joints of the suspension, and gauges by name; from the side those of both sides are one."""
+    tubular = car.frame_section.tubular(car.folder)
+    frame, tubes = tubular.frame()
+    x = frame.positions
+    for beam in frame.beams:
+        ends = x[[beam.i, beam.j]]
+        a.plot(ends[:, i], ends[:, j], color="0.6", lw=1.2)
+    joints = np.array([car.flexible_frame.place(name) for name in car.flexible_frame.interfaces])
+    a.plot(joints[:, i], joints[:, j], "o", ms=4, color="tab:blue", label="joints of the suspension")
+    names: dict[tuple[float, float], list[str]] = {}
+    for gauge in tubular.strain_gauges(tubes):
+        beam = frame.beams[gauge.element]
+        place = (1.0 - gauge.xi) * x[beam.i] + gauge.xi * x[beam.j]
+        names.setdefault((round(float(place[i]), 3), round(float(place[j]), 3)), []).append(gauge.name)
+    if names:
+        a.plot(*np.array(list(names)).T, "s", ms=8, color="tab:red", label="strain gauges")
+    places = list(names)
+    for k, (place, found) in enumerate(names.items()):
+        beside = any(abs(place[0] - x0) < NEAR[0] and abs(place[1] - y0) < NEAR[1] for x0, y0 in places[:k])
+        style = {"xytext": (0, 9 if beside else -17), "textcoords": "offset points", "ha": "center", "color": "tab:red"}
+        a.annotate(", ".join(found), place, **style)

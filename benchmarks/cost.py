@@ -1,0 +1,96 @@
+"""What a step costs: ``python -m benchmarks.cost PART``: instructions, growth, worst steps, many cars a core."""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+from argparse import Namespace
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from benchmarks.car import lanes, real_time, scene_instructions
+from benchmarks.methods import growth
+from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.pages import Row
+
+
+def _instructions(options: Namespace) -> list[dict[str, Any]]:
+    scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
+    with tempfile.TemporaryDirectory() as folder:
+        program = scene_instructions.compiled(Path(folder))
+        return [scene_instructions.measure(scene, program, Path(folder)) for scene in watched(scenes)]
+
+
+def _dearer(rows: Sequence[Row], options: Namespace) -> list[str]:
+    if options.against is None:
+        return []
+    return scene_instructions.compared(rows, json.loads(options.against.read_text("utf-8"))["rows"])
+
+
+def _growth(options: Namespace) -> list[dict[str, Any]]:
+    windows, modes = (growth.WINDOWS[:5], growth.MODES[:2]) if options.quick else (growth.WINDOWS, growth.MODES)
+    repeats = 1 if options.quick else options.repeats
+    rows = [{"table": "windows", **row} for row in growth.measure(windows, repeats)]
+    return rows + [{"table": "chassis", **row} for row in growth.chassis(modes, repeats)]
+
+
+def _throughput(options: Namespace) -> list[dict[str, Any]]:
+    scenes = [scene for scene in lanes.SCENES if scene[0] in options.only]
+    return [row for scene in watched(scenes) for row in lanes.measure(*scene, rounds=options.rounds)]
+
+
+PARTS = {
+    "instructions": Part(
+        "iterations, factorizations and solves of the first steps of scenes, and instructions where valgrind is there",
+        _instructions,
+        scene_instructions.COLUMNS,
+        names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
+        options={"against": (Path, "rows that steps are compared with: over 3 % more is an error")},
+        pages=("speed.md",),
+        blocks=scene_instructions.instruction_blocks,
+        check=_dearer,
+    ),
+    "growth": Part(
+        "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",
+        _growth,
+        growth.COLUMNS,
+        options={"quick": (False, "N up to 20, one repeat"), "repeats": (growth.REPEATS, "timed runs of a row")},
+        pages=("speed_and_accuracy.md",),
+        blocks=growth.growth_blocks,
+        words=lambda rows: "\n\n".join(growth.growth_blocks(rows).values()),
+        chart=growth.draw,
+    ),
+    "real-time": Part(
+        "worst steps of wild driving by fidelity and step, without and with a limit of their iterations",
+        real_time.measure,
+        real_time.COLUMNS,
+        options={
+            "fmu": (Path, "a native FMU of a car; by default the prototype, built"),
+            "seconds": (10.0, "simulated, of each drive, s; an hour each takes a day"),
+            "fidelity": (real_time.FIDELITIES, "of the prototype"),
+            "step": (real_time.STEPS, "ms"),
+            "limit": ((), "of the iterations, in place of none and the usual ones"),
+            "seed": (1, "of the driver"),
+        },
+        pages=("speed.md",),
+        blocks=real_time.real_time_blocks,
+        words=lambda rows: real_time.WORDS,
+    ),
+    "throughput": Part(
+        "slightly different cars and mechanisms, one after the other, in lanes and in the widest lanes on all cores",
+        _throughput,
+        lanes.COLUMNS,
+        names=tuple(scene[0] for scene in lanes.SCENES),
+        options={"rounds": (3, "of which each part of a run counts by its least")},
+        pages=("speed.md",),
+        blocks=lanes.lane_blocks,
+    ),
+}
+
+main = partial(run, "cost", __doc__, PARTS)
+
+if __name__ == "__main__":
+    sys.exit(main())

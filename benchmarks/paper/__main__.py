@@ -1,0 +1,105 @@
+"""The paper's tables and figures, measured again: ``python -m benchmarks.paper PART``.
+
+Double four-bar (Table 1), PUMA (Table 2), four-bar with assembly defect (section 3.3, Figure 5), and the car on the
+kerb with the paper's size and time beside it (293 variables, 239 constraints, 65 modes; 2 iterations on average and 3
+at most; 48 s for the 15 s), by its smooth guide or by one that is made of measured accelerations.
+"""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from functools import partial
+from typing import Any
+
+import mbs
+from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
+from benchmarks.paper.measured_guides_chart import draw
+from benchmarks.references.assembly_defect import ORIGIN
+from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.warned import wrong_on_purpose
+from mbs.scenes import kerb_test
+from mbs.scenes import puma as puma_scene
+from mbs.vehicle import Fidelity
+
+QUICK = {"quick": (False, "a part of it, once")}
+
+
+@wrong_on_purpose()
+def _four_bar(options: Namespace) -> list[dict[str, Any]]:
+    windows = double_four_bar.WINDOWS[:2] if options.quick else double_four_bar.WINDOWS
+    return double_four_bar.measure_all(windows, options.repeats)
+
+
+def _puma(options: Namespace) -> list[dict[str, Any]]:
+    system, methods = mbs.compile(puma_scene.build()), puma.METHODS[:1] if options.quick else puma.METHODS
+    todo = [(method, h) for method in methods for h in puma.STEPS]
+    repeats = 1 if options.quick else puma.REPEATS
+    rows = [{"table": "methods", **puma.measure(system, *one, repeats)} for one in watched(todo)]
+    stages = [] if options.quick else puma.split(system, methods[0])
+    return rows + [{"table": "large steps in one stage", **row} for row in stages]
+
+
+@wrong_on_purpose()
+def _defect(options: Namespace) -> list[dict[str, Any]]:
+    cases, repeats = (assembly_defect.CASES[:1], 1) if options.quick else (assembly_defect.CASES, 3)
+    bars = [{"table": "bars", **assembly_defect.measure(case, repeats)[0]} for case in watched(cases)]
+    return bars + [{"table": "largest moments, N m", **assembly_defect.peaks(r)} for r in assembly_defect.RADII]
+
+
+def _kerb(options: Namespace) -> list[dict[str, Any]]:
+    todo = [(Fidelity.of(name), h) for name in options.only for h in options.steps]
+    return [kerb.measure(*one, options.repeats) for one in watched(todo)]
+
+
+PARTS = {
+    "four-bar": Part(
+        "the N-four-bar for ten seconds through ten singular positions, against the exact reduction to one angle",
+        _four_bar,
+        double_four_bar.COLUMNS,
+        options=QUICK | {"repeats": (double_four_bar.REPEATS, "timed runs of a row")},
+        pages=("speed_and_accuracy.md",),
+        blocks=double_four_bar.four_bar_blocks,
+        words=lambda rows: double_four_bar.four_bar_blocks(rows)["table 1"],
+        chart=double_four_bar.draw,
+    ),
+    "puma": Part(
+        "the PUMA 560 whose hand is pinned and released; where the error of large steps comes from",
+        _puma,
+        puma.COLUMNS,
+        options=QUICK,
+        pages=("speed_and_accuracy.md",),
+        blocks=puma.puma_blocks,
+    ),
+    "defect": Part(
+        "section forces of the four-bar with assembly defect, against geometrically exact beams",
+        _defect,
+        assembly_defect.COLUMNS,
+        options=QUICK,
+        pages=("flexible.md",),
+        blocks=lambda rows: {"defect": assembly_defect.defect_table([r for r in rows if r["table"] == "bars"])},
+        words=lambda rows: f"Against {ORIGIN}\nWith rigid bars: {assembly_defect.refusal()}",
+        chart=assembly_defect.draw,
+    ),
+    "kerb": Part(
+        "the car on the kerb: size, iterations, time; peaks of the bending moments and what is left of them",
+        _kerb,
+        kerb.COLUMNS,
+        names=kerb.FIDELITIES,
+        options={"steps": ((kerb_test.STEP,), "s"), "repeats": (3, "timed runs of a row")},
+    ),
+    "guides": Part(
+        "the same driven by four accelerometers, as in the paper's experiment; means over seeds",
+        lambda options: measured_guides.measure(options.seeds),
+        measured_guides.COLUMNS,
+        options={"seeds": (3, "noises of a row")},
+        pages=("flexible_car.md",),
+        blocks=measured_guides.guide_blocks,
+        chart=lambda rows, file: draw(file),
+    ),
+}
+
+main = partial(run, "paper", __doc__, PARTS)
+
+if __name__ == "__main__":
+    sys.exit(main())
