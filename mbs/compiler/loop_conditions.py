@@ -29,8 +29,8 @@ Welded = dict[int, Body]
 EXACT = 1e-13
 """Misfit of a drawing that is as exact as its numbers, parts of its size."""
 SAME_POINT = 1e-12
-"""Points of a body that are no farther apart, parts of the size, are one but for round-off and move together; points that
-an error of the drawing sets apart are corrected each."""
+"""Points of a body that are no farther apart, parts of the size, are one but for round-off and move together; points
+that an error of the drawing sets apart are corrected each."""
 
 BY_POINTS = np.hstack([-np.eye(3), np.zeros((3, 3)), np.eye(3), np.zeros((3, 3))])
 """Derivatives of the difference of two points by (point, turn) of both ends."""

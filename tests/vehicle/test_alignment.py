@@ -138,7 +138,7 @@ def test_angles_that_parameters_write_are_those_of_the_car_built_so(name):
     car = load(car_name)
     written = compile(car.model(fidelity=fidelity))
     built = compile(car.changed(ANGLES).model(fidelity=fidelity))
-    # At rest forces are known to the round-off of positions (decision 199), the start of a drive has another.
+    # At rest forces are known to the round-off of positions (decision 3), the start of a drive has another.
     for pose, most in ((None, 1e-8), (Pose(speed=20.0), 2e-6)):
         one, two, old = (
             Simulation(system, parameters=values, pose=pose).run(0.3, 0.005)

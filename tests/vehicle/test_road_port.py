@@ -107,7 +107,7 @@ def test_answers_of_a_copy_of_the_road_converge_to_the_closed_car(order: str, le
 def test_answers_for_the_end_of_the_step_that_they_hold_in_are_the_best(
     order: str, lead: float, speed: float, within: float
 ) -> None:
-    """At 25 m/s the waves are near the hop of the wheels: answers for its start are 2.2 % off (decision 219)."""
+    """At 25 m/s the waves are near the hop of the wheels: answers for its start are 2.2 % off (decision 91)."""
     before, asked = drive(0.002, order, lead - 1.0, speed), drive(0.002, order, lead, speed)
     assert asked["load"] < within
     assert asked["load"] < 0.35 * before["load"]
@@ -151,7 +151,7 @@ def test_between_answers_lies_their_mean_by_the_inverse_squares_of_the_distances
     place: float, slope_there: float, height_there: float, steep: float
 ) -> None:
     """A point of a body on a vertical guide rests on 0.2 m at x = -1 and 0.4 m at x = 1, as on the mean; slopes that
-    depart from the plane of both by 0.08, 0.1 and 0.12 are left with 0.71, 0.56 and 0.41 of that (decision 201).
+    depart from the plane of both by 0.08, 0.1 and 0.12 are left with 0.71, 0.56 and 0.41 of that (decision 91).
     """
     m = mbs.Model("between")
     body = m.body("body", mass=10.0, com=(place, 0.0, 1.0), inertia=(1.0, 1.0, 1.0))

@@ -1,5 +1,5 @@
 /* Answers on the road for the end of the step that they hold in: within the step the road goes there from the last ones,
- * so that neither end misses how it bends, see docs/decisions/0240. */
+ * so that neither end misses how it bends, see docs/decisions/0091. */
 #include <math.h>
 
 #include "slave.h"

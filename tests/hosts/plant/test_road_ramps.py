@@ -1,4 +1,4 @@
-"""Answers on the road for the end of a step: within the step the FMU goes there from the last ones (decision 240)."""
+"""Answers on the road for the end of a step: within the step the FMU goes there from the last ones (decision 91)."""
 
 from __future__ import annotations
 

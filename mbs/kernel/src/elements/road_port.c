@@ -1,7 +1,7 @@
 /* A road that other programs answer for: the plane through the point they were asked for, which they name with the
  * answer, so that it holds whenever it comes. Within a step a wheel goes on over the plane. Of several answers, as for
  * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for;
- * see docs/decisions/0201. */
+ * see docs/decisions/0091. */
 #include "road_port.h"
 
 #include "../../include/ali3.h"
