@@ -35,7 +35,7 @@ from benchmarks.methods import honesty, naive, stability, stability_margins
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
 from benchmarks.pictures.charts_again import charts
-from benchmarks.shared.command import watched, write_blocks
+from benchmarks.shared.command import watched
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
 from benchmarks.shared.pages import DOCS, table
 from benchmarks.shared.warned import wrong_on_purpose
@@ -312,10 +312,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     names = ", ".join((*WRITTEN, *MADE))
     parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {names}")
     parser.add_argument("--write", action="store_true", help=f"make all of {', '.join(WRITTEN)}, and write them")
-    parser.add_argument("--variables", action="store_true", help="write the tables of docs/variables.md alone")
+    parser.add_argument("--variables", action="store_true", help="print the tables of the cars' variables alone")
     options = parser.parse_args(arguments)
     if options.variables:
-        write_blocks(("variables.md",), variable_tables.blocks(variable_tables.tables()))
+        for name, text in variable_tables.blocks(variable_tables.tables()).items():
+            print(f"{name}\n\n{text}\n")
         return 0
     makers = {name: partial(make, options.write) for name, make in WRITTEN.items()}
     makers |= {} if options.write else MADE

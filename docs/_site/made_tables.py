@@ -4,15 +4,30 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import cache
 
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
+from benchmarks.car.variable_tables import blocks
+from benchmarks.car.variable_tables import tables as variable_tables
 from mbs.kernel.read_headers import sensor_table
 from mbs.vehicle.reference import tables
 
 MARK = re.compile(r"<!-- made with the site: (.+) -->\n")
-MAKERS: dict[str, Callable[[], str]] = {"car file": tables, "sensors": sensor_table}
+
+
+@cache
+def _variables() -> dict[str, str]:
+    return blocks(variable_tables())
+
+
+VARIABLES = ("car variables", "car inputs", "car parameters", "car outputs", "car constants")
+MAKERS: dict[str, Callable[[], str]] = {
+    "car file": tables,
+    "sensors": sensor_table,
+    **{name: lambda name=name: _variables()[name] for name in VARIABLES},
+}
 
 
 def with_tables(app: Sphinx, page: str, source: list[str]) -> None:
