@@ -11,6 +11,11 @@
 #include "../algebra/real.h"
 #include "element_types.h"
 
+/* A law that divides in a branch divides there only: a host may trap division by zero. Lanes divide in all branches. */
+#if defined(__clang__) && !defined(ALI3_WIDTH)
+#pragma clang fp exceptions(maytrap)
+#endif
+
 #define ALI3_MAX_SIGNALS 24    /* per element */
 
 typedef struct ali3_road ali3_road; /* road.h */
