@@ -1,13 +1,14 @@
 /* Drives an FMU with the traps of floating point on: a program with feenableexcept would be ended by the first one.
- *   traps LIBRARY RESOURCES_URI GUID INPUTS KINDS STEP FIDELITY OUTPUTS [ZERO]
+ *   traps LIBRARY RESOURCES_URI GUID INPUTS KINDS STEP OUTPUTS [ZERO | KINDREFERENCE=VALUE ...]
  * INPUTS: file of doubles, a row for each step. KINDS: a letter for each input, numbered from 0: r real, i whole.
- * FIDELITY: REFERENCE=NUMBER or -. OUTPUTS: FIRST-LAST, read after each step. ZERO: the
- * host divides by zero in each step. Prints the place in the library of each
- * instruction that raised invalid, division by zero or overflow, once, and how many steps were made. x86-64 Linux. */
+ * OUTPUTS: FIRST-LAST, read after each step. ZERO: the host divides by zero in each step. VALUE: of a parameter, before
+ * the start. Prints the place in the library of each instruction that raised invalid, division by zero or overflow,
+ * once, and how many steps were made. x86-64 Linux. */
 #define _GNU_SOURCE
 #include <fenv.h>
 #include <math.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <ucontext.h>
 
 #include "fmi2_library.h"
@@ -42,17 +43,22 @@ static void handle(int signal, void (*by)(int, siginfo_t *, void *)) {
   sigaction(signal, &action, NULL);
 }
 
+static void set(fmi2Component c, char kind, fmi2ValueReference reference, double value) {
+  const fmi2Integer whole = (fmi2Integer)value;
+  good(kind == 'i' ? fmu.set_whole(c, &reference, 1, &whole) : fmu.set(c, &reference, 1, &value), "set");
+}
+
 int main(int count, char **argument) {
   static const fmi2CallbackFunctions callbacks = {NULL, calloc, free, NULL, NULL};
   static double row[64], value[MOST_OUTPUTS];
   static fmi2ValueReference output[MOST_OUTPUTS];
-  if (count < 9) return 1;
+  if (count < 8) return 1;
   fmu = load_library(argument[1]);
   FILE *inputs = fopen(argument[4], "rb");
   const char *kinds = argument[5];
   const double h = strtod(argument[6], NULL);
   char *end;
-  const unsigned long first = strtoul(argument[8], &end, 10), n_outputs = strtoul(end + 1, NULL, 10) + 1 - first;
+  const unsigned long first = strtoul(argument[7], &end, 10), n_outputs = strtoul(end + 1, NULL, 10) + 1 - first;
   const size_t n = strlen(kinds);
   if (inputs == NULL || n > 64 || n_outputs > MOST_OUTPUTS) return 1;
   for (unsigned long k = 0; k < n_outputs; k++) output[k] = (fmi2ValueReference)(first + k);
@@ -61,19 +67,21 @@ int main(int count, char **argument) {
   feenableexcept(WATCHED);
   fmi2Component c = fmu.instantiate("trapped", fmi2CoSimulation, argument[3], argument[2], &callbacks, 0, 0);
   if (c == NULL) return 3;
-  const fmi2ValueReference fidelity = (fmi2ValueReference)strtoul(argument[7], &end, 10);
-  const fmi2Integer number = *end == '=' ? (fmi2Integer)strtol(end + 1, NULL, 10) : 0;
-  if (*end == '=') good(fmu.set_whole(c, &fidelity, 1, &number), "fidelity");
+  bool by_zero = false;
+  for (int k = 8; k < count; k++) {
+    const fmi2ValueReference reference = (fmi2ValueReference)strtoul(argument[k] + 1, &end, 10);
+    if (*end == '=')
+      set(c, argument[k][0], reference, strtod(end + 1, NULL));
+    else
+      by_zero = true;
+  }
   initialise(&fmu, c);
   good(fmu.get(c, output, n_outputs, value), "get");
   int k = 0;
   volatile double zero = 0.0, quotient = 0.0;
   for (; fread(row, sizeof *row, n, inputs) == n; k++) {
-    for (fmi2ValueReference i = 0; i < n; i++) {
-      const fmi2Integer whole = (fmi2Integer)row[i];
-      good(kinds[i] == 'i' ? fmu.set_whole(c, &i, 1, &whole) : fmu.set(c, &i, 1, &row[i]), "set");
-    }
-    if (count > 9) quotient = 1.0 / zero;
+    for (fmi2ValueReference i = 0; i < n; i++) set(c, kinds[i], i, row[i]);
+    if (by_zero) quotient = 1.0 / zero;
     good(fmu.step(c, k * h, h, 1), "step");
     good(fmu.get(c, output, n_outputs, value), "get");
   }

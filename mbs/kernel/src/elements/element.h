@@ -11,10 +11,7 @@
 #include "../algebra/real.h"
 #include "element_types.h"
 
-/* A law that divides in a branch divides there only: a host may trap division by zero. Lanes divide in all branches. */
-#if defined(__clang__) && !defined(ALI3_WIDTH)
-#pragma clang fp exceptions(maytrap)
-#endif
+ALI3_BRANCHES_AS_WRITTEN
 
 #define ALI3_MAX_SIGNALS 24    /* per element */
 

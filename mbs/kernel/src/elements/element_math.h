@@ -19,8 +19,7 @@ static inline real ali3_input_or_zero(const real *input, int32_t index) {
 static inline real ali3_slider_slope(truth sticks, real D, real trial, real bound, real reach) {
   const real size = ali3_abs(trial), none = {0};
   const truth stays = (reach > 0.0) & (size - bound > D * reach);
-  const real trials = ali3_where(sticks, ali3_same(1.0), size); /* of what sticks none, it may be 0 */
-  return ali3_where(sticks, D, ali3_where(stays, none, ALI3_SECANT_SHARE * D * (bound / trials)));
+  return ali3_where(sticks, D, ali3_where(stays, none, ALI3_SECANT_SHARE * D * (bound / size)));
 }
 
 /* Pieces of the law of a slider: it sticks, or slips to one side; one that holds nothing has none. */
@@ -35,7 +34,7 @@ static inline void ali3_slider_piece(uint32_t *piece, truth sticks, real trial, 
 /* Weight of the new rate in x_new = x_old + h ((1 - theta) x'_old + theta x'_new) for x' = -rate x + ...:
  * 1/2 (trapezoidal rule, order two) while it does not ring, then just enough more that x keeps its sign. */
 static inline real ali3_theta(double h, real rate) {
-  const real z = h * rate;
-  return 1.0 - 1.0 / ali3_where(z > 2.0, z, ali3_same(2.0));
+  real z = h * rate;
+  return ali3_where(z > 2.0, 1.0 - 1.0 / z, ali3_same(0.5));
 }
 #endif
