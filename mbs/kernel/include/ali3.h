@@ -254,8 +254,8 @@ ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
  * steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
 #define ALI3_SETTLING_WORK 8
 ALI3_API void ali3_count_work(ali3_instance *in, int64_t *left);
-/* After ali3_settle: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a direction;
- * of a body that turns by itself it does not become small. 0 after a start that did not settle. */
+/* After ali3_settle: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a
+ * direction; of a body that turns by itself it does not become small. 0 after a start that did not settle. */
 ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
