@@ -22,8 +22,8 @@ from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.variables import Variable
 from mbs.elements.road import ANSWER
 
-ELEMENTS = "org.ali3.elements"
-"""Type of the annotation of an array that holds the names its elements have in the other kinds, with blanks between."""
+ELEMENTS = "extra/org.ali3.elements/elements.txt"
+"""Where an FMU with arrays says what their elements are called in the other kinds."""
 
 
 def model_description_fmi3(
@@ -58,7 +58,7 @@ def model_description_fmi3(
     for place, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
         if place == time:
             _time(variables, time)
-        _variable(variables, reference, array, [table[k].name for k in array.items], types)
+        _variable(variables, reference, array, types)
     if time == len(arrays):
         _time(variables, time)
     for reference, text in enumerate(head.texts, start=len(arrays) + 1):
@@ -67,6 +67,15 @@ def model_description_fmi3(
         ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
     _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
     return to_bytes(root)
+
+
+def element_names(table: Sequence[Variable], arrays: Sequence[Array]) -> dict[str, bytes]:
+    """The file at `ELEMENTS`, none without arrays: a line for each, its name and those of its elements.
+
+    They stand beside the description, for FMI Library looks for the dimension of a variable before its annotations.
+    """
+    named = [[array.name, *(table[k].name for k in array.items)] for array in arrays if len(array.items) > 1]
+    return {ELEMENTS: "".join(" ".join(names) + "\n" for names in named).encode()} if named else {}
 
 
 def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
@@ -196,7 +205,6 @@ def _variable(
     parent: ElementTree.Element,
     reference: int,
     array: Array,
-    elements: Sequence[str],
     types: dict[str, dict[str, str]],
 ) -> None:
     v = array.of
@@ -209,10 +217,8 @@ def _variable(
         attributes["initial"] = "exact"
     attributes |= variable_attributes(v)
     element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
-    if len(elements) > 1:
-        notes = ElementTree.SubElement(element, "Annotations")
-        ElementTree.SubElement(notes, "Annotation", type=ELEMENTS).text = " ".join(elements)
-        ElementTree.SubElement(element, "Dimension", start=str(len(elements)))
+    if len(array.items) > 1:
+        ElementTree.SubElement(element, "Dimension", start=str(len(array.items)))
 
 
 def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Dependencies, texts: tuple[int, int]) -> None:

@@ -10,12 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ScalarVariable
-from lxml import etree
 
 from ali3.unit_definition import KINDS
 
-ANNOTATION = "org.ali3.elements"
-"""Type of the annotation of an array that holds the names of its elements, with blanks between them."""
+ELEMENTS = "extra/org.ali3.elements/elements.txt"
+"""File of an FMU with a line for each array: its name and those of its elements, with blanks between them."""
 
 TEXTS = ("String", "Binary")
 """Types whose start values are elements of XML."""
@@ -56,9 +55,8 @@ def constants_of(variables: Mapping[str, ScalarVariable]) -> dict[str, float]:
 def element_names(path: Path) -> dict[str, list[str]]:
     """Names of the elements of the arrays that say them, by the name of the array."""
     with zipfile.ZipFile(path) as archive:
-        root = etree.fromstring(archive.read("modelDescription.xml"))
-    found = root.iterfind(f"ModelVariables/*/Annotations/Annotation[@type='{ANNOTATION}']")
-    return {a.getparent().getparent().get("name"): (a.text or "").split() for a in found}
+        text = archive.read(ELEMENTS).decode() if ELEMENTS in archive.namelist() else ""
+    return {names[0]: names[1:] for line in text.splitlines() if (names := line.split())}
 
 
 def scalars(

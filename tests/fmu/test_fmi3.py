@@ -14,6 +14,8 @@ from fmpy.fmi1 import FMICallException
 
 from fmu_src.variables.arrays import arrays
 from fmu_src.variables.variables import Variable
+from hosts.fmu.fmu import Fmu
+from hosts.fmu.scalars import element_names
 from tests.fmu.host3 import STEP, Host3
 
 
@@ -106,6 +108,54 @@ def test_wrong_calls_are_errors_with_a_sentence(crane3: Host3) -> None:
     crane3.run(2)
 
 
+@pytest.mark.parametrize("scene", ["crane", "gearstick", "hopper"])
+def test_values_before_initialisation_are_start_values_or_what_was_set(build: Callable[..., Path], scene: str) -> None:
+    """Those of modelDescription.xml, of every type; outputs have none and are refused; again after a reset."""
+    host = Host3(build(scene, "fmi3"))
+    read = {"Float64": host.slave.getFloat64, "Int32": host.slave.getInt32, "String": host.slave.getString}
+    put = {"Float64": host.slave.setFloat64, "Int32": host.slave.setInt32}
+    known = [v for v in host.description.modelVariables if v.start is not None]
+    assert "parameter" in {v.causality for v in known}
+
+    def values() -> list[str | float]:
+        return [read[v.type]([v.valueReference])[0] for v in known]
+
+    starts = [v.start if v.type == "String" else float(v.start) for v in known]
+    begun = [x.decode() if isinstance(x, bytes) else x for x in values()]
+    assert begun == starts
+    for v in known:
+        if v.type in put and v.variability != "constant":
+            low, high = (float(b) if b is not None else None for b in (v.min, v.max))
+            value = low if low is not None and low != float(v.start) else high if high is not None else 1.0
+            put[v.type]([v.valueReference], [int(value) if v.type == "Int32" else value])
+            assert read[v.type]([v.valueReference]) == [value]
+    with pytest.raises(FMICallException):
+        host.get("solver.energy_error")
+    assert "'solver.energy_error' is an output without a start value" in host.messages[-1]
+    assert host.get("time") == [0.0]
+    host.slave.reset()
+    assert [x.decode() if isinstance(x, bytes) else x for x in values()] == starts
+
+
+def test_a_run_may_end_where_it_starts(build: Callable[..., Path]) -> None:
+    """Then no step fits; its state can be set again; an end before the start is refused."""
+    host = Host3(build("crane", "fmi3"))
+    with pytest.raises(FMICallException):
+        host.slave.enterInitializationMode(startTime=2.0, stopTime=1.0)
+    assert "lies before the start time 2 s" in host.messages[-1]
+    host.slave.reset()
+    host.slave.enterInitializationMode(startTime=2.0, stopTime=2.0)
+    host.slave.exitInitializationMode()
+    x = host.get("rod.x")
+    data = host.slave.serializeFMUState(host.slave.getFMUState())
+    host.slave.setFMUState(host.slave.deserializeFMUState(data))
+    assert host.get("time") == [2.0]
+    assert host.get("rod.x") == x
+    with pytest.raises(FMICallException):
+        host.slave.doStep(2.0, STEP)
+    assert "beyond the stop time" in host.messages[-1]
+
+
 def test_model_exchange_and_events_are_refused(build: Callable[..., Path]) -> None:
     host = Host3(build("crane", "fmi3"))
     with pytest.raises(Exception, match="nstantiate"):
@@ -121,6 +171,22 @@ def test_terminals_name_variables_that_are_there(build: Callable[..., Path]) -> 
     members = [m.attrib["variableName"] for m in root.iter("TerminalMemberVariable")]
     assert members
     assert set(members) <= variables
+
+
+def test_a_dimension_is_the_first_thing_in_its_variable(build: Callable[..., Path]) -> None:
+    """FMI Library passes over one behind annotations; the names of elements stand in a file beside the description."""
+    fmu, scalar = build("answered", "fmi3"), build("answered", "fmi3_scalar")
+    with zipfile.ZipFile(fmu) as archive:
+        variables = ElementTree.fromstring(archive.read("modelDescription.xml")).find("ModelVariables")
+    assert variables is not None
+    arrays = {v.attrib["name"]: v for v in variables if v.find("Dimension") is not None}
+    assert arrays
+    assert all([child.tag for child in v] == ["Dimension"] for v in arrays.values())
+    names = element_names(fmu)
+    assert {a: len(of) for a, of in names.items()} == {a: int(v[0].attrib["start"]) for a, v in arrays.items()}
+    with Fmu(fmu) as one, Fmu(scalar) as two:
+        assert list(one.variables) == list(two.variables)
+    assert element_names(scalar) == {}
 
 
 def test_a_host_that_offers_intermediate_updates_is_not_called_and_makes_short_steps_instead(build) -> None:

@@ -225,6 +225,7 @@ def test_stop_time_is_the_end(build: Callable[..., Path], host: HostMaker) -> No
     assert driven.call("setupExperiment") == ERROR
     driven.slave.reset()
     assert driven.call("setupExperiment", None, 1.0, 0.5) == ERROR
+    assert driven.call("setupExperiment", None, 1.0, 1.0) == OK
 
 
 def test_a_damaged_system_file_is_refused_with_a_reason(

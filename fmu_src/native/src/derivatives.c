@@ -63,7 +63,7 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   return SLAVE_OK;
 }
 
-/* Before the first step the outputs are those of the initial state, which is found again on both sides. */
+/* Before the first step the outputs are those of the initial state, which is found again, settled, on both sides. */
 static bool initial_change(slave *s, uint32_t reference, double seed, bool left_out, double *out) {
   const slave_table *t = &slave_the_table;
   const slave_variable *v = &t->variable[reference];
@@ -86,9 +86,17 @@ static bool initial_change(slave *s, uint32_t reference, double seed, bool left_
 static slave_status initial_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, bool left_out,
                                        double *out) {
   bool good = true;
+  double starts = 0.0;
+  for (size_t i = 0; i < n; i++) starts += seed[i] != 0.0 ? 2.0 : 0.0;
+  if (starts > 0.0 && slave_settling_steps(s) > slave_settling_left(s, starts))
+    return slave_say(s, SLAVE_ERROR,
+                     "The derivatives take %.0f starts that settle over %.0f inner steps each, and a call that has "
+                     "begun cannot be cancelled; it may make %.0f in each. Ask by fewer variables at once, or set "
+                     "'step_size' to more or the time that a start settles for to less.",
+                     starts, slave_settling_steps(s), fmax(slave_settling_left(s, starts), 0.0));
   for (size_t i = 0; i < n && good; i++) good = initial_change(s, known[i], seed[i], left_out, out);
-  /* the sensors of the state itself come back with the next initial state */
-  return slave_initialise(s) && good ? SLAVE_OK : SLAVE_ERROR;
+  slave_stale(s); /* the state itself comes back when it is asked for */
+  return good ? SLAVE_OK : SLAVE_ERROR;
 }
 
 static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, const double *seed, bool left_out,

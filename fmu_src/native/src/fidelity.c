@@ -64,6 +64,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     slave_fidelity_free(s, loaded);
     return false;
   }
+  ali3_count_work(loaded->kernel, &s->work_left);
   loaded->number = number;
   const ali3_sizes z = ali3_system_sizes(loaded->system);
   slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs.", (int)z.nq, (int)z.nc,

@@ -21,7 +21,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetOutputDerivatives)(fmi3Instance instance, const fmi3ValueReference vr[],
                                                            size_t n, const fmi3Int32 order[], fmi3Float64 value[],
                                                            size_t n_values) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetOutputDerivatives", FMI3_GET);
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetOutputDerivatives", FMI3_DERIVE);
   const bool given = n == 0 || (vr != NULL && order != NULL && value != NULL);
   if (face == NULL || !fmi3_given(face, "fmi3GetOutputDerivatives", given)) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
@@ -45,7 +45,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetDirectionalDerivative)(fmi3Instance inst
                                                                const fmi3ValueReference known[], size_t n_known,
                                                                const fmi3Float64 seed[], size_t n_seed,
                                                                fmi3Float64 sensitivity[], size_t n_sensitivity) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetDirectionalDerivative", FMI3_GET);
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetDirectionalDerivative", FMI3_DERIVE);
   const bool given = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
   if (face == NULL ||
       !fits(face, "fmi3GetDirectionalDerivative", unknown, n_unknown, n_sensitivity, known, n_known, n_seed, given))
@@ -59,7 +59,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetAdjointDerivative)(fmi3Instance instance
                                                            size_t n_unknown, const fmi3ValueReference known[],
                                                            size_t n_known, const fmi3Float64 seed[], size_t n_seed,
                                                            fmi3Float64 sensitivity[], size_t n_sensitivity) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetAdjointDerivative", FMI3_GET);
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetAdjointDerivative", FMI3_DERIVE);
   const bool given = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
   if (face == NULL ||
       !fits(face, "fmi3GetAdjointDerivative", unknown, n_unknown, n_seed, known, n_known, n_sensitivity, given))

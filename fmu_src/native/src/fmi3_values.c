@@ -2,13 +2,14 @@
 #include "fmi3_face.h"
 
 static double time_of(const slave *s) {
-  return s->calls.phase == SLAVE_INITIALISING ? s->calls.start_time : ali3_time(s->fidelity.kernel);
+  const bool before = (s->calls.phase & (SLAVE_INSTANTIATED | SLAVE_INITIALISING)) != 0;
+  return before ? s->calls.start_time : ali3_time(s->fidelity.kernel);
 }
 
 /* Time stands anywhere in a call and as often as the host likes; the variables between are read in one piece. */
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                  fmi3Float64 value[], size_t n_values) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_GET);
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_ANY);
   if (face == NULL || !fmi3_given(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   const fmi3ValueReference time = fmi3_the_table.time;
   if (!fmi3_counted(face, vr, n, n_values)) return fmi3Error;
@@ -35,7 +36,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fm
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetInt32)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                fmi3Int32 value[], size_t n_values) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetInt32", FMI3_GET);
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetInt32", FMI3_ANY);
   if (face == NULL || !fmi3_given(face, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_get_whole(face->s, face->items[0], n_values, value);
@@ -75,7 +76,7 @@ static fmi3Status other_type(fmi3Instance instance, const char *function, unsign
   FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Get##Type)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,      \
                                                   fmi3##Type value[], size_t n_values) {                               \
     (void)vr, (void)value, (void)n_values;                                                                             \
-    return other_type(instance, "fmi3Get" #Type, FMI3_GET, n);                                                         \
+    return other_type(instance, "fmi3Get" #Type, FMI3_ANY, n);                                                         \
   }                                                                                                                    \
   FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Set##Type)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,      \
                                                   const fmi3##Type value[], size_t n_values) {                         \
@@ -96,7 +97,7 @@ OTHER_TYPE(Boolean)
 /* Text variables come after all others. */
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetString)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                 fmi3String value[], size_t n_values) {
-  fmi3_face *face = fmi3_slave(instance, "fmi3GetString", FMI3_GET);
+  fmi3_face *face = fmi3_slave(instance, "fmi3GetString", FMI3_ANY);
   if (face == NULL || !fmi3_given(face, "fmi3GetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!as_many(face, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_get_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
@@ -113,7 +114,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetString)(fmi3Instance instance, const fmi
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetBinary)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                 size_t size[], fmi3Binary value[], size_t n_values) {
   (void)vr, (void)size, (void)value, (void)n_values;
-  return other_type(instance, "fmi3GetBinary", FMI3_GET, n);
+  return other_type(instance, "fmi3GetBinary", FMI3_ANY, n);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetBinary)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
@@ -125,7 +126,7 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetBinary)(fmi3Instance instance, const fmi
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetClock)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                                                fmi3Clock value[]) {
   (void)vr, (void)value;
-  return other_type(instance, "fmi3GetClock", FMI3_GET, n);
+  return other_type(instance, "fmi3GetClock", FMI3_ANY, n);
 }
 
 FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetClock)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,

@@ -67,6 +67,7 @@ static bool allocate(slave *s) {
     t->late[i].number = t->input + 2 * nu + i * each;
     t->late[i].parameter = t->late[i].number + each - np;
   }
+  ali3_snapshot_take(s->fidelity.kernel, t->other); /* one that can be set, until the other motion begins */
   return true;
 }
 

@@ -110,25 +110,29 @@ static ali3_status apply(slave *s) {
   return status == ALI3_OK ? ali3_initialise(s->fidelity.kernel, s->calls.start_time) : status;
 }
 
-/* Of a start that is found; *name: of the time that it takes. */
-static ali3_status settle(const slave *s, const char **name) {
-  const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < t->n_known; i++) {
-    if (t->variable[i].source != SLAVE_SETTLING || !(s->value[i] > 0.0)) continue;
-    *name = t->variable[i].name;
-    return ali3_settle(s->fidelity.kernel, s->value[i], s->value[s->step_reference]);
-  }
-  return ALI3_OK;
+/* Whether a start fits into what is left of the call; said if not. */
+static bool affordable(slave *s) {
+  const double steps = slave_settling_steps(s), left = slave_settling_left(s, 1.0);
+  if (steps <= left) return true;
+  slave_say(s, SLAVE_ERROR,
+            "The start would settle over %.0f inner steps of %g s, and a call that has begun cannot be cancelled; it "
+            "may make %.0f of them. Set '%.64s' to less, or 'step_size' to more.",
+            steps, s->value[s->step_reference], fmax(left, 0.0), steps > 0.0 ? slave_settling(s)->name : "");
+  return false;
 }
 
 bool slave_initialise(slave *s) {
   char text[SLAVE_TEXT / 2];
   slave_stale(s);
+  if (!affordable(s)) return false;
+  slave_work_of_start(s);
   if (!slave_fidelity_choose(s)) return false;
   slave_hold_normals(s);
-  const char *settling = NULL;
   ali3_status status = apply(s);
-  if (status == ALI3_OK) status = settle(s, &settling);
+  const slave_variable *settling = status == ALI3_OK ? slave_settling(s) : NULL;
+  if (settling != NULL)
+    status =
+        ali3_settle(s->fidelity.kernel, s->value[settling - slave_the_table.variable], s->value[s->step_reference]);
   s->calls.initialised = status == ALI3_OK;
   s->calls.capped_residual = 0.0;
   s->made.n = 0;
@@ -136,12 +140,14 @@ bool slave_initialise(slave *s) {
   s->outputs_fresh = false;
   if (status != ALI3_OK && settling != NULL) {
     if (status == ALI3_BAD_ARGUMENT)
-      slave_say(s, SLAVE_ERROR, "No body of this scene has a direction that can be held; set '%.64s' to 0.", settling);
+      slave_say(s, SLAVE_ERROR, "No body of this scene has a direction that can be held; set '%.64s' to 0.",
+                settling->name);
     else
       slave_say(s, SLAVE_ERROR,
-                "The start did not settle while its motion was held, as '%.64s' asks for: %s.%s Set it to 0, or "
-                "'step_size' to less.",
-                settling, ali3_status_text(status), status == ALI3_ROAD_LOST ? hint(s, status, text, sizeof text) : "");
+                "The start did not settle while its motion was held, as '%.64s' asks for: %s.%s Set it to %s.",
+                settling->name, slave_reason(s, status),
+                status == ALI3_ROAD_LOST ? hint(s, status, text, sizeof text) : "",
+                s->work_left <= 0 ? "less, or 'step_size' to more" : "0, or 'step_size' to less");
     return false;
   }
   if (status != ALI3_OK) {

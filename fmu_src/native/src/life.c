@@ -123,9 +123,8 @@ void slave_free(slave *s) {
 slave_status slave_setup(slave *s, double start_time, bool stop_defined, double stop_time) {
   if (!(fabs(start_time) < HUGE_VAL))
     return slave_say(s, SLAVE_ERROR, "The start time is %g s; a finite number is needed.", start_time);
-  if (stop_defined && !(stop_time > start_time))
-    return slave_say(s, SLAVE_ERROR, "The stop time %g s does not lie after the start time %g s.", stop_time,
-                     start_time);
+  if (stop_defined && !(stop_time >= start_time))
+    return slave_say(s, SLAVE_ERROR, "The stop time %g s lies before the start time %g s.", stop_time, start_time);
   s->calls.start_time = start_time;
   s->calls.stop_time = stop_defined ? stop_time : HUGE_VAL;
   slave_stale(s);

@@ -1,4 +1,4 @@
-/* Messages: categories, what a host asked to hear, and calls out of order. */
+/* Messages: categories, what a host asked to hear; where each call begins, and calls out of order. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -83,6 +83,7 @@ const char *slave_phase_name(slave_phase phase) {
 }
 
 bool slave_allowed(slave *s, const char *function, unsigned mask) {
+  slave_work_begins(s);
   if (s->calls.phase & mask) return true;
   slave_say(s, SLAVE_ERROR, "%s is not allowed %s.", function, slave_phase_name(s->calls.phase));
   return false;

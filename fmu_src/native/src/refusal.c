@@ -9,7 +9,8 @@ void slave_forget_refusal(slave *s) { s->refusal.count = 0; }
 bool slave_wants_end(const slave *s) { return s->refusal.count > 1; }
 
 /* Where no step_size helps: what does. */
-static const char *remedy(ali3_status status, bool jumped) {
+static const char *remedy(const slave *s, ali3_status status, bool jumped) {
+  if (status == ALI3_TOO_DEAR && s->work_left <= 0) return "Take shorter communication steps.";
   switch (status) {
   case ALI3_ROAD_LOST:
     return "The file of the road must be whole again, whatever the step_size.";
@@ -27,7 +28,7 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
                                const slave_variable *jumped) {
   slave_refusal *r = &s->refusal;
   const double h = s->value[s->step_reference];
-  const char *const instead = remedy(status, jumped != NULL);
+  const char *const instead = remedy(s, status, jumped != NULL);
   char jump[SLAVE_TEXT / 4] = "";
   r->count = r->count > 0 && r->time == time && r->step == step ? r->count + 1 : 1;
   r->time = time;
@@ -39,12 +40,12 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
   if (instead != NULL)
     return slave_say(s, r->count > 2 ? SLAVE_ERROR : SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s%s %s", time,
-                     step, r->count > 1 ? " again" : "", time, ali3_status_text(status), worst, jump, instead);
+                     step, r->count > 1 ? " again" : "", time, slave_reason(s, status), worst, jump, instead);
   if (r->count == 1)
     return slave_say(s, SLAVE_DISCARD,
                      "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s A smaller "
                      "step_size may pass: it is %g s and can be set before initialisation.",
-                     time, step, time, ali3_status_text(status), worst, h);
+                     time, step, time, slave_reason(s, status), worst, h);
   if (r->count == 2)
     return slave_say(
         s, SLAVE_DISCARD,

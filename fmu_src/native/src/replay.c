@@ -112,7 +112,7 @@ static slave_status add(slave *s, replay *r, double part, double weight, bool le
   ali3_status status = begin(s, r, part);
   if (status == ALI3_OK) status = run(s, r, beside, &contact);
   if (status != ALI3_OK)
-    return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s.", ali3_status_text(status));
+    return slave_say(s, SLAVE_ERROR, "The directional derivative could not be found: %s.", slave_reason(s, status));
   if (contact)
     return slave_say(s, SLAVE_ERROR,
                      "There is no directional derivative of this communication step: a contact with the road was made "
@@ -144,6 +144,11 @@ slave_status slave_step_derivative(slave *s, const double *direction, bool left_
   if (s->made.n == 0)
     return slave_say(s, SLAVE_ERROR,
                      "There is no communication step to differentiate; after initialisation it takes one step.");
+  if (2.0 * (double)s->made.n > slave_steps_left(s))
+    return slave_say(s, SLAVE_ERROR,
+                     "The derivatives make the %.0f inner steps of the communication step twice, and a call that has "
+                     "begun cannot be cancelled; it has %.0f. Take shorter communication steps.",
+                     (double)s->made.n, slave_steps_left(s));
   if (!allocate(s, &r)) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
   look(s, &r);
   aim(&r, direction);

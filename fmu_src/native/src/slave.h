@@ -198,6 +198,7 @@ struct slave {
   unsigned char *known;
   size_t step_reference, iterations_reference, lead_reference;
   size_t fidelity_reference; /* n_variables where there is no choice */
+  int64_t work_left; /* of the present call, see work.c */
 };
 
 /* log.c */
@@ -245,6 +246,16 @@ static inline void slave_stale(slave *s) {
   s->calls.initialised = 0;
   s->outputs_fresh = false;
 }
+
+/* work.c: the bound of a call; the kernel takes what it does off it */
+#define SLAVE_MOST_WORK 2000000 /* a million steps of one iteration each: half a minute of a rigid car */
+void slave_work_begins(slave *s);
+double slave_steps_left(const slave *s); /* inner steps of one iteration each */
+const slave_variable *slave_settling(const slave *s); /* the time that a start settles for; NULL: it does not */
+double slave_settling_steps(const slave *s); /* inner steps that settle a start */
+double slave_settling_left(const slave *s, double starts); /* how many so many starts may have each; below 0: none */
+void slave_work_of_start(slave *s);
+const char *slave_reason(const slave *s, ali3_status status); /* the text of the status, or that the bound is reached */
 
 /* initial.c */
 bool slave_initialise(slave *s);

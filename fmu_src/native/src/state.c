@@ -99,7 +99,7 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
       head.initialised > 1 || head.step_warned > SLAVE_LONGER_STEPS || head.energy_warned > 1 || head.mode_warned > 1 ||
       head.capped_warned > SLAVE_CAPPED_BADLY || head.sloped > 1 || head.zero != 0 || head.made_n < 0 ||
       !(head.made_h >= 0.0) || !(head.made_h < HUGE_VAL) || !(fabs(head.start_time) < HUGE_VAL) ||
-      !(head.stop_time > head.start_time) || !(head.capped_residual >= 0.0) || !(head.capped_residual < HUGE_VAL))
+      !(head.stop_time >= head.start_time) || !(head.capped_residual >= 0.0) || !(head.capped_residual < HUGE_VAL))
     return "their header is inconsistent";
   if (!head.initialised && head.phase > SLAVE_INITIALISING) return "their header is inconsistent";
   return NULL;

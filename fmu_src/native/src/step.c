@@ -9,7 +9,6 @@
 static const double TIME_TOLERANCE = 1e-6; /* s: a host adds up its time in floating point */
 static const double STEP_TOLERANCE = 1e-6; /* end points this near, in steps, are reached with the tuned step itself */
 static const double STEP_DEVIATION = 0.05;
-static const double MOST_STEPS = 1e6; /* in one call, which cannot be cancelled: about half a minute of a car */
 static const double CLOCK_TOLERANCE = 1e-3; /* neighbouring times are not farther apart than this share of a step */
 static const double LOOKS = 10.0; /* a second: at outputs that no host reads, for what they tell */
 
@@ -114,12 +113,12 @@ static bool possible(slave *s, double time, double step, double now) {
   else if (time + step > s->calls.stop_time + TIME_TOLERANCE)
     slave_say(s, SLAVE_ERROR, "The step from %g s over %g s goes beyond the stop time %g s.", time, step,
               s->calls.stop_time);
-  else if (step / s->value[s->step_reference] > MOST_STEPS)
+  else if (step / s->value[s->step_reference] > slave_steps_left(s))
     slave_say(
         s, SLAVE_ERROR,
         "The step of %g s has more than %g inner steps of %g s, and a step that has begun cannot be cancelled; take "
         "shorter communication steps.",
-        step, MOST_STEPS, s->value[s->step_reference]);
+        step, slave_steps_left(s), s->value[s->step_reference]);
   else if (!(time + step > time) || fabs(time) * DBL_EPSILON > CLOCK_TOLERANCE * s->value[s->step_reference])
     slave_say(
         s, SLAVE_ERROR,

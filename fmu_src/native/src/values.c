@@ -63,7 +63,11 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= t->n_variables)
       return slave_say(s, SLAVE_ERROR, "There is no variable with value reference %u.", (unsigned)reference[i]);
-    outputs = outputs || slave_is_output(reference[i]);
+    if (!slave_is_output(reference[i])) continue;
+    if (s->calls.phase == SLAVE_INSTANTIATED)
+      return slave_say(s, SLAVE_ERROR, "'%s' is an output without a start value; it is there in initialisation mode.",
+                       t->variable[reference[i]].name);
+    outputs = true;
   }
   if (outputs && !(slave_outputs(s) && left_out(s, reference, n))) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];

@@ -253,8 +253,13 @@ ALI3_API ali3_status ali3_initialise(ali3_instance *in, double t0);
  * ALI3_BAD_ARGUMENT, too, where no body has a direction. */
 #define ALI3_LONGEST_SETTLING 10.0
 ALI3_API ali3_status ali3_settle(ali3_instance *in, double duration, double h);
-/* After it: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a direction;
- * of a body that turns by itself it does not become small. 0 after a start that did not settle. */
+/* The parts that steps are made in from now on, their iterations, and for each step of ali3_settle ALI3_SETTLING_WORK, as
+ * its forces and accelerations are found anew, are taken off *left, which outlives the instance; where nothing is left
+ * steps and settlings end with ALI3_TOO_DEAR. NULL, as it begins: they have no bound together. */
+#define ALI3_SETTLING_WORK 8
+ALI3_API void ali3_count_work(ali3_instance *in, int64_t *left);
+/* After ali3_settle: the largest speed beside the held motion, m/s, of a point or, along the ground, of the end of a
+ * direction; of a body that turns by itself it does not become small. 0 after a start that did not settle. */
 ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */

@@ -57,6 +57,7 @@ struct ali3_instance {
   double changed; /* largest change of a judged force in the step, of ali3_divides; below 0: not known */
   bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count, iterations_before; /* of steps of h_last, and report.iterations where the present step began */
+  int64_t *work_left; /* of the caller's call, see ali3_count_work; or NULL */
   int64_t iterations_end; /* report.iterations where the present part must end, with a limit of the step's */
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; direction: one in the space of states */

@@ -7,6 +7,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* From here on in a file: what one instance computes in a branch is computed there only, also by the compiler, for a host
+ * may trap division by zero. Lanes compute all branches, WebAssembly has no traps. */
+#if defined(__clang__) && !defined(ALI3_WIDTH) && (defined(__x86_64__) || defined(__aarch64__))
+#define ALI3_BRANCHES_AS_WRITTEN _Pragma("clang fp exceptions(maytrap)")
+#else
+#define ALI3_BRANCHES_AS_WRITTEN
+#endif
+
 #ifdef ALI3_WIDTH
 typedef double real __attribute__((vector_size(8 * ALI3_WIDTH)));
 typedef int64_t truth __attribute__((vector_size(8 * ALI3_WIDTH)));
@@ -56,7 +64,7 @@ typedef double real;
 typedef bool truth;
 
 static inline real ali3_same(double x) { return x; }
-static inline real ali3_where(truth c, real a, real b) { return c ? a : b; }
+#define ali3_where(c, a, b) ((c) ? (a) : (b)) /* what is not chosen is not computed: it may divide by zero */
 static inline real ali3_add_unless(truth c, real x, real y) { return c ? x : x + y; }
 static inline truth ali3_not(truth c) { return !c; }
 static inline real ali3_abs(real x) { return fabs(x); }

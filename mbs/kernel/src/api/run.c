@@ -105,6 +105,7 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   for (int64_t k = 0; k < (int64_t)steps && status == ALI3_OK; k++) {
     status = ali3_step(in, h);
     if (status != ALI3_OK) break;
+    if (in->work_left != NULL) *in->work_left -= ALI3_SETTLING_WORK;
     ali3_put_back(in, &held);
     status = ali3_refresh(in);
   }

@@ -5,6 +5,10 @@
 #include "../state/parameters.h"
 #include "../state/work.h"
 
+void ali3_count_work(ali3_instance *in, int64_t *left) {
+  if (in != NULL) in->work_left = left;
+}
+
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
   const bool other = settings->method != in->settings.method;

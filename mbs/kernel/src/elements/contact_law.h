@@ -9,7 +9,7 @@
  *   (chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3. */
 #ifndef ALI3_CONTACT_LAW_H
 #define ALI3_CONTACT_LAW_H
-#include "../algebra/real.h"
+#include "element.h"
 
 typedef struct {
   real stiffness, progression; /* k, L */

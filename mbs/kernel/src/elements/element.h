@@ -11,6 +11,8 @@
 #include "../algebra/real.h"
 #include "element_types.h"
 
+ALI3_BRANCHES_AS_WRITTEN
+
 #define ALI3_MAX_SIGNALS 24    /* per element */
 
 typedef struct ali3_road ali3_road; /* road.h */

@@ -3,7 +3,7 @@
 #define ALI3_ROAD_H
 #include <stdint.h>
 
-#include "../algebra/real.h"
+#include "element.h"
 
 typedef struct ali3_road_file ali3_road_file; /* roads/road_file.h */
 

@@ -1,7 +1,7 @@
 /* TMeasy steady tyre characteristics (Hirschberg, Rill, Weinfurter, Vehicle System Dynamics 45(S1), 2007, 101-119). */
 #ifndef ALI3_TMEASY_H
 #define ALI3_TMEASY_H
-#include "../algebra/real.h"
+#include "element.h"
 
 typedef struct { /* one curve at the present load and friction; forces are divided by q = load / nominal load */
   real slope;                   /* initial slope dF/ds, N */

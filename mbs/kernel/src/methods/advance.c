@@ -33,13 +33,16 @@ enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
 static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t depth, int64_t iterations_end) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
-  if (in->report.iterations - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
+  const int64_t made_before = in->report.iterations;
+  if (made_before - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
+  if (in->work_left != NULL && *in->work_left <= 0) return ALI3_TOO_DEAR;
   in->halves_left = depth > 0 && depth < in->settings.max_halvings && !limited;
   in->may_divide = ali3_may_divide(in, depth);
   in->changed = -1.0;
   in->iterations_end = iterations_end;
   const int64_t divisions = in->report.divisions;
   const ali3_status status = ali3_divides_ahead(in, h) ? ALI3_UNRESOLVED : by_method(in, t, h);
+  if (in->work_left != NULL) *in->work_left -= 1 + in->report.iterations - made_before;
   if (status == ALI3_OK) in->t_now = t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, h);
   if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;

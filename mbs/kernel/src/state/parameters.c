@@ -1,10 +1,13 @@
 /* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads, armatures,
  * bodies and sensors, and the switches with which it starts. */
 #include "parameters.h"
+#include "../algebra/real.h"
 #include "../instance.h"
 #include "../system/loading.h"
 #include "axes.h"
 #include "masses.h"
+
+ALI3_BRANCHES_AS_WRITTEN
 
 /* What a parameter of a value writes to its target k. */
 double ali3_parameter_writes(const ali3_system *S, int64_t k, double value) {
