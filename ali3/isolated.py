@@ -1,34 +1,39 @@
-"""Work in processes of their own: one that crashes or hangs takes nothing with it.
+"""Work in processes of their own: one that crashes or hangs takes nothing with it, and leaves nothing.
 
-As a program it reads pickled work and tasks from its input and writes what is told and the results to its output; when
-the input is closed, because who asked has ended, it ends in the middle of a task too.
+Each has a folder, a session and descriptors of its own, and limits for time, memory and what it prints. It is told what
+to do by pickles, and answers by frames (`ali3.frames`): a library in it may write what it likes.
 """
 
 from __future__ import annotations
 
 import os
 import pickle
-import queue
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
-import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Generic, TypeAlias, TypeVar
 
-from ali3.children import how_ended, ignore_stopping
+from ali3.call_mark import last_call
+from ali3.children import how_ended
 from ali3.errors import UserError
+from ali3.frames import FrameError, read_frame
+from ali3.guard import LEFT
 from ali3.processes import module_command
-from ali3.running import sentence
 
+DONE, TOLD, ERROR = 0, 1, 2
+"""Kinds of frames: a result, what is told before it, the sentence of an error."""
 _START = 20.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
-_SAID = "said.txt"
-_MOST_SAID = 4000  # bytes
+_END = 10.0  # s in which a guard ends all that is left
+_MOST_SAID = 4000  # bytes that are kept
+_MOST_PRINTED = 200_000_000  # bytes
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -40,29 +45,128 @@ class Lost:
     """A task that has no result, because its process has ended."""
 
     how: str
-    """As the end of a sentence, see `how_ended`."""
+    """As the end of a sentence, see `how_ended`, with what the process was asked last."""
     late: bool = False
     """Whether it was ended at the time limit."""
+
+
+class _Process:
+    """One process: what is started, and what is ended with it."""
+
+    def __init__(self, work: bytes) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
+        self.flooded, self._lock = False, threading.Lock()
+        self._said = b""
+        life, self._life = os.pipe() if sys.platform == "linux" else (-1, -1)
+        try:
+            self.process = subprocess.Popen(
+                module_command("ali3.worker", str(self.folder), str(life)),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                cwd=self.folder,
+                env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder)),
+                pass_fds=(life,) if life >= 0 else (),
+                start_new_session=sys.platform != "win32",
+            )
+        except BaseException:
+            self._close_life()
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
+        finally:
+            if life >= 0:
+                os.close(life)
+        self._drain = threading.Thread(target=self._listen, daemon=True)
+        self._drain.start()
+        self.send(work)
+
+    def send(self, data: bytes) -> None:
+        """Write to it, unless it has ended; its output says so."""
+        assert self.process.stdin is not None
+        with suppress(OSError):
+            self.process.stdin.write(data)
+            self.process.stdin.flush()
+
+    @property
+    def answers(self) -> IO[bytes]:
+        assert self.process.stdout is not None
+        return self.process.stdout
+
+    def kill(self) -> None:
+        """End it, and all that it has started where the system tells what that is."""
+        if self._life >= 0:
+            self._close_life()  # its guard does it
+            return
+        if sys.platform != "win32":
+            with suppress(OSError):
+                os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.kill()
+
+    def end(self) -> tuple[str, str]:
+        """Wait for its end, or make it end; how it ended, with its last words, and what it was asked last."""
+        with suppress(subprocess.TimeoutExpired):
+            self.process.wait(1.0)  # its output is closed a moment before it has ended
+        self.kill()
+        try:
+            self.process.wait(_END)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        self._drain.join(1.0)
+        for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
+            with suppress(OSError):
+                stream.close()  # type: ignore[union-attr]
+        call, left = last_call(self.folder), self._left()
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if self.flooded:
+            how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
+        else:
+            how = how_ended(self.process.returncode, self._said.decode("utf-8", "replace"), call)
+        return how + (f"; {left} processes that it had started were ended too" if left else ""), call
+
+    def _left(self) -> int:
+        with suppress(OSError, ValueError):
+            return int((self.folder / LEFT).read_text(encoding="ascii")[:9])
+        return 0
+
+    def _close_life(self) -> None:
+        with self._lock:
+            life, self._life = self._life, -1
+        if life >= 0:
+            os.close(life)
+
+    def _listen(self) -> None:
+        """Keep the last of what it prints; one that prints without end is ended."""
+        assert self.process.stderr is not None
+        printed = 0
+        with suppress(OSError, ValueError):
+            while part := os.read(self.process.stderr.fileno(), 65536):
+                self._said = (self._said + part)[-_MOST_SAID:]
+                printed += len(part)
+                if printed > _MOST_PRINTED:
+                    self.flooded = True
+                    self.kill()
 
 
 class Isolated(Generic[T, R]):
     """A process that does one task after the other. After one that was lost, the next has a new process.
 
-    `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks, results, and what
-    is given to ``tell``; so it is of a module, not of the file that is run as a program.
+    `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
+    module, not of the file that is run as a program. `answer`, `told`: types of the result and of what is given to
+    ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute.
     """
 
-    def __init__(self, work: Callable[[T, Tell], R]) -> None:
+    def __init__(self, work: Callable[[T, Tell], R], answer: Any, told: Any = float) -> None:
         self._work = work
-        self._process: subprocess.Popen[bytes] | None = None
-        self._folder: tempfile.TemporaryDirectory[str] | None = None
+        self._types = {DONE: answer, TOLD: told, ERROR: str}
+        self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
 
     def do(self, task: T, tell: Tell = lambda word: None, limit: float | None = None) -> R | Lost:
         """Do a task and wait for it.
 
-        `tell`: called with what the work tells meanwhile; `limit`: in s, after which the process is ended. Raises
-        `UserError`: the work has raised one, or another error that `run_command` would show.
+        `tell`: called with what the work tells meanwhile; `limit`: in s without a word, after which the process is
+        ended. Raises `UserError`: the work has raised one, or another error that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
@@ -71,25 +175,23 @@ class Isolated(Generic[T, R]):
             late.set()
             process.kill()
 
-        timer = threading.Timer(min((limit or 0.0) + (_START if is_new else 0.0), _LONGEST), end)
-        if limit is not None:
-            timer.start()
+        process.send(data)
+        seconds = None if limit is None else limit + (_START if is_new else 0.0)
         try:
-            answer = self._answer(process, data, tell)
+            while (answer := self._answer(process, seconds, end)) is not None and answer[0] == TOLD:
+                tell(answer[1])
+                seconds = limit
         except BaseException:  # of `tell`, or Ctrl-C: what the process still says belongs to no other task
             process.kill()
             self._end()
             raise
-        finally:
-            timer.cancel()
-            if limit is not None:
-                timer.join()
-        if answer is None or late.is_set():
-            said = self._end()
-            if answer is None:
-                return Lost(f"took more than {limit:g} s", True) if late.is_set() else Lost(said)
+        if answer is None:
+            how, call = self._end()
+            return Lost(f"took more than {limit:g} s{call}", True) if late.is_set() else Lost(how)
+        if late.is_set():
+            self._end()
         kind, content = answer
-        if kind == "error":
+        if kind == ERROR:
             raise UserError(content)
         result: R = content
         return result
@@ -102,107 +204,34 @@ class Isolated(Generic[T, R]):
                 self._process.kill()
         self._end()
 
-    @staticmethod
-    def _answer(process: subprocess.Popen[bytes], data: bytes, tell: Tell) -> tuple[str, Any] | None:
-        assert process.stdin is not None
-        assert process.stdout is not None
-        with suppress(OSError):  # of one that has ended; its output says so
-            process.stdin.write(data)
-            process.stdin.flush()
-        while True:
-            try:
-                kind, content = pickle.load(process.stdout)
-            except (EOFError, pickle.UnpicklingError, OSError, ValueError):
-                return None
-            if kind != "told":
-                return kind, content
-            tell(content)
+    def _answer(self, process: _Process, limit: float | None, end: Callable[[], None]) -> tuple[int, Any] | None:
+        timer = threading.Timer(min(limit or 0.0, _LONGEST), end)
+        if limit is not None:
+            timer.start()
+        try:
+            return read_frame(process.answers, self._types)
+        except (EOFError, OSError, ValueError):
+            return None
+        except FrameError:
+            process.kill()
+            return None
+        finally:
+            timer.cancel()
+            if limit is not None:
+                timer.join()
 
-    def _started(self) -> tuple[subprocess.Popen[bytes], bool]:
+    def _started(self) -> tuple[_Process, bool]:
         work = pickle.dumps(self._work)
         with self._lock:
             if self._process is not None:
                 return self._process, False
-            # What a killed process has unpacked goes with the folder.
-            self._folder = tempfile.TemporaryDirectory(prefix="isolated-", ignore_cleanup_errors=True)
-            with Path(self._folder.name, _SAID).open("wb") as said:
-                self._process = process = subprocess.Popen(
-                    module_command("ali3.isolated"),
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    stderr=said,
-                    env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self._folder.name),
-                )
+            self._process = process = _Process(work)
             if self._closed:
                 process.kill()
-        assert process.stdin is not None
-        with suppress(OSError):
-            process.stdin.write(work)
-            process.stdin.flush()
         return process, True
 
-    def _end(self) -> str:
-        """Forget the process, which has ended or is made to; how it ended."""
+    def _end(self) -> tuple[str, str]:
+        """Forget the process, which has ended or is made to; how it ended, and at which call."""
         with self._lock:
-            process, self._process, folder, self._folder = self._process, None, self._folder, None
-        if process is None or folder is None:
-            return "was ended"
-        with suppress(subprocess.TimeoutExpired):
-            process.wait(1.0)  # its output is closed a moment before it has ended
-        process.kill()
-        process.wait()
-        for stream in (process.stdin, process.stdout):
-            with suppress(OSError):
-                stream.close()  # type: ignore[union-attr]
-        with suppress(OSError), folder:
-            said = Path(folder.name, _SAID).read_bytes()[-_MOST_SAID:]
-            return how_ended(process.returncode, said.decode("utf-8", "replace"))
-        return how_ended(process.returncode)
-
-
-def _serve() -> None:
-    """The life of a process: work, then tasks."""
-    sink = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what an FMU prints must not get between the answers
-    arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    threading.Thread(target=_receive, args=(os.fdopen(os.dup(0), "rb"), arrived), daemon=True).start()
-
-    def say(kind: str, content: Any) -> None:
-        sink.write(pickle.dumps((kind, content)))
-        sink.flush()
-
-    work = arrived.get()
-    while True:
-        task = arrived.get()
-        try:
-            say("done", work(task, lambda word: say("told", word)))
-        except Exception as error:
-            words = sentence(error)
-            if words is None:
-                raise
-            say("error", words)
-
-
-def _receive(source: IO[bytes], arrived: queue.SimpleQueue[Any]) -> None:
-    try:
-        while True:
-            arrived.put(pickle.load(source))
-    except EOFError:
-        os._exit(0)
-    except BaseException:
-        _fail()
-
-
-def _fail() -> None:
-    """End with the traceback at once: threads and libraries that are at work have no say."""
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
-
-
-if __name__ == "__main__":
-    ignore_stopping()
-    try:
-        _serve()
-    except BaseException:
-        _fail()
+            process, self._process = self._process, None
+        return ("was ended", "") if process is None else process.end()

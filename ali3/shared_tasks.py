@@ -17,15 +17,15 @@ R = TypeVar("R")
 
 
 def as_completed(
-    work: Callable[[T, Tell], R], tasks: Sequence[T], jobs: int, told: Callable[[int, Any], None]
+    work: Callable[[T, Tell], R], answer: Any, tasks: Sequence[T], jobs: int, told: Callable[[int, Any], None]
 ) -> Generator[tuple[int, R | Lost]]:
     """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
 
-    `work`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and what its work tells. Where
-    the iteration is left early, as by Ctrl-C, the processes are ended. Raises `UserError`: the work of a task has
-    raised one; no further task is begun.
+    `work`, `answer`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and the numbers its
+    work tells. Where the iteration is left early, as by Ctrl-C, the processes are ended. Raises `UserError`: the work
+    of a task has raised one; no further task is begun.
     """
-    workers: list[Isolated[T, R]] = [Isolated(work) for _ in range(max(1, min(jobs, len(tasks))))]
+    workers: list[Isolated[T, R]] = [Isolated(work, answer) for _ in range(max(1, min(jobs, len(tasks))))]
     try:
         yield from as_completed_by(workers, tasks, told)
     finally:

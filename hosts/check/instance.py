@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
 from fmpy import extract, read_model_description
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -24,9 +25,25 @@ class Finding:
     """One line of the verdict."""
 
     check: str
-    verdict: str
-    """``good``, ``note`` or ``bad``."""
+    verdict: Literal["good", "note", "bad"]
+    """``note``: what the standard leaves open, with its clause."""
     words: str
+
+
+@dataclass(frozen=True)
+class Check:
+    """A check, and what its loss says of the FMU."""
+
+    name: str
+    find: Callable[[Subject], Finding]
+    calls: bool = True
+    """Whether it calls functions of the FMU."""
+    crash: Literal["note", "bad"] = "bad"
+    """If its process ends: a note where the check makes calls that the standard does not allow."""
+    late: Literal["note", "bad"] = "bad"
+    """If it takes too long: a note where the standard allows that."""
+    clause: str = ""
+    """Of FMI, where one of them is a note."""
 
 
 @dataclass
@@ -52,6 +69,10 @@ class Subject:
     def three(self) -> bool:
         """Whether it is FMI 3.0."""
         return str(self.description.fmiVersion).startswith("3")
+
+    def clause(self, two: str, three: str) -> str:
+        """The clause that a verdict rests on, of the version of FMI that this is."""
+        return f"(FMI {'3.0' if self.three else '2.0'}, {three if self.three else two})"
 
     @property
     def outputs(self) -> list[ScalarVariable]:

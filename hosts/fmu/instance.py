@@ -14,6 +14,7 @@ from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
+from ali3.call_mark import marked
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
 
@@ -75,10 +76,10 @@ class Instance:
             told(int(status), (category or b"").decode("utf-8", "replace"), text)
 
         if self.three:
-            self.slave: Any = FMU3Slave(**arguments)
+            self.slave: Any = _marked(marked("dlopen", FMU3Slave)(**arguments))
             self._instantiate(said, logMessage=log)
             return
-        self.slave = FMU2Slave(**arguments)
+        self.slave = _marked(marked("dlopen", FMU2Slave)(**arguments))
         self._callbacks = fmi2CallbackFunctions()
         self._callbacks.logger = fmi2CallbackLoggerTYPE(log)
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
@@ -224,6 +225,14 @@ class Instance:
             self.restore(state)
         finally:
             self.free_state(state)
+
+
+def _marked(slave: Any) -> Any:
+    """A slave of FMPy whose functions leave their names, where the process is to."""
+    for name in dir(slave):
+        if name.startswith(("fmi2", "fmi3")):
+            setattr(slave, name, marked(name, getattr(slave, name)))
+    return slave
 
 
 class _Arrays:
