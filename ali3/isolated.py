@@ -27,9 +27,9 @@ from ali3.frames import FrameError, read_frame
 from ali3.guard import LEFT
 from ali3.processes import module_command
 
-DONE, TOLD, ERROR = 0, 1, 2
-"""Kinds of frames: a result, what is told before it, the sentence of an error."""
-_START = 20.0  # s in which Python and its packages have begun, on a busy machine
+DONE, TOLD, ERROR, READY = 0, 1, 2, 3
+"""Kinds of frames: a result, what is told before it, the sentence of an error, that work has come and may begin."""
+_START = 60.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
 _END = 10.0  # s in which a guard ends all that is left
 _MOST_SAID = 4000  # bytes that are kept
@@ -60,7 +60,7 @@ class _Process:
         life, self._life = os.pipe() if sys.platform == "linux" else (-1, -1)
         try:
             self.process = subprocess.Popen(
-                module_command("ali3.worker", str(self.folder), str(life)),
+                module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd())),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
@@ -158,7 +158,7 @@ class Isolated(Generic[T, R]):
 
     def __init__(self, work: Callable[[T, Tell], R], answer: Any, told: Any = float) -> None:
         self._work = work
-        self._types = {DONE: answer, TOLD: told, ERROR: str}
+        self._types = {DONE: answer, TOLD: told, ERROR: str, READY: None}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
 
@@ -176,10 +176,11 @@ class Isolated(Generic[T, R]):
             process.kill()
 
         process.send(data)
-        seconds = None if limit is None else limit + (_START if is_new else 0.0)
+        seconds = _START if is_new else limit
         try:
-            while (answer := self._answer(process, seconds, end)) is not None and answer[0] == TOLD:
-                tell(answer[1])
+            while (answer := self._answer(process, seconds, end)) is not None and answer[0] in (TOLD, READY):
+                if answer[0] == TOLD:
+                    tell(answer[1])
                 seconds = limit
         except BaseException:  # of `tell`, or Ctrl-C: what the process still says belongs to no other task
             process.kill()
@@ -187,7 +188,7 @@ class Isolated(Generic[T, R]):
             raise
         if answer is None:
             how, call = self._end()
-            return Lost(f"took more than {limit:g} s{call}", True) if late.is_set() else Lost(how)
+            return Lost(f"took more than {seconds:g} s{call}", True) if late.is_set() else Lost(how)
         if late.is_set():
             self._end()
         kind, content = answer

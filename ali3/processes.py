@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 _prefix: str | None = None
+_began: Path | None = None
 
 
 def memory_words() -> str:
@@ -18,6 +19,22 @@ def memory_words() -> str:
     if most == resource.RLIM_INFINITY:
         return ""
     return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
+
+
+def begin_for(folder: Path) -> None:
+    """This process works for one that is in another folder."""
+    global _began
+    _began = folder
+
+
+def path_of_caller(text: str) -> str:
+    """A text that names a file relative to the folder of who asked, as an absolute path; another as it is."""
+    if _began is None or not Path(text).suffix:
+        return text
+    try:
+        return str(_began / text) if (_began / text).is_file() else text
+    except (OSError, ValueError):
+        return text
 
 
 def command_name(name: str) -> str:

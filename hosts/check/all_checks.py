@@ -15,7 +15,10 @@ from hosts.check.instance import Check, Finding, Subject, open_subject
 from hosts.check.portability import PORTABILITY_CHECKS
 from hosts.common.numbers import Value
 
-CHECKS: tuple[Check, ...] = (*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS)
+CHECKS: tuple[Check, ...] = tuple(
+    sorted((*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS), key=lambda check: check.crash == "note")
+)
+"""Last those whose calls are not allowed: what these do to the memory of an FMU is no fault of a later check."""
 
 
 @dataclass

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.errors import reason
@@ -88,6 +89,7 @@ class Subject:
 
 _REAL = ("Real", "Float64")
 _WHOLE = ("Integer", "Int32")
+_DISCARD, _TERMINATED = 2, 3
 
 
 def count_of(variable: ScalarVariable) -> int:
@@ -101,7 +103,7 @@ class Instance(instance.Instance):
     def __init__(
         self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
     ) -> None:
-        self.subject = subject
+        self.subject, self.ended = subject, False
         self.messages: list[str] = []
         super().__init__(
             subject.by_elements,
@@ -116,6 +118,36 @@ class Instance(instance.Instance):
         """Set what is to be set and leave initialisation."""
         self.initialise({self.subject.places[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
         return self
+
+    def advance(self, time: float, step: float) -> bool:
+        """A step; whether it was made, and not where the FMU asks to end before, as it may."""
+        if self.ended:
+            return False
+        try:
+            answer = self.slave.doStep(time, step)
+        except FMICallException as error:
+            if self.three or error.status != _DISCARD or not self._asks_to_end():
+                raise
+            self.ended = True
+            return False
+        self.ended = bool(answer[1]) if self.three else False
+        return True
+
+    def _asks_to_end(self) -> bool:
+        try:
+            return bool(self.slave.getBooleanStatus(_TERMINATED))
+        except FMICallException:
+            return False
+
+    def reset(self) -> None:
+        """Back to before `start`."""
+        super().reset()
+        self.ended = False
+
+    def restore_bytes(self, content: bytes) -> None:
+        """Go on from a state of `state_bytes`."""
+        super().restore_bytes(content)
+        self.ended = False
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
         """Values of real variables, then those of whole ones; arrays flattened."""
@@ -135,11 +167,12 @@ class Instance(instance.Instance):
         self.set({self.subject.places[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0) -> list[list[float]]:
-        """Outputs after each step."""
+        """Outputs after each step, up to the end that the FMU asks for."""
         h = self.subject.step
-        rows = []
+        rows: list[list[float]] = []
         for k in range(begin, begin + steps):
-            self.slave.doStep(k * h, h)
+            if not self.advance(k * h, h):
+                break
             rows.append(self.get(self.subject.outputs))
         return rows
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from ctypes import byref, c_bool, c_double, c_int, c_void_p
 from xml.etree import ElementTree
 
@@ -109,8 +110,12 @@ def time_anywhere(subject: Subject) -> Finding:
         values = instance.slave.getFloat64(references)
     except Exception as error:
         return Finding("time", "bad", f"cannot be read with other variables, or twice: {error}")
-    good = abs(values[0] - 2.0 * subject.step) < 1e-9 and values[0] == values[-1]
-    return Finding("time", "good" if good else "bad", "beside other variables and twice" if good else f"reads {values}")
+    if abs(values[0] - 2.0 * subject.step) < 1e-9 and values[0] == values[-1]:
+        return Finding("time", "good", "beside other variables and twice")
+    words = (
+        f"reads {values[0]:.9g} s and {values[-1]:.9g} s after a step to {2.0 * subject.step:.9g} s (FMI 3.0, 4.2.1)"
+    )
+    return Finding("time", "bad", words)
 
 
 def dependencies(subject: Subject) -> Finding:
@@ -171,9 +176,10 @@ def careless_calls(subject: Subject) -> Finding:
         pass
     early = Instance(subject)
     real = [v for v in subject.outputs if v.type == "Real"][:1]
-    calls = [("an unknown log category", lambda: early.slave.setDebugLogging(True, ["logNoSuchThing"]))]
-    if real:
-        calls.append(("values before initialisation", lambda: early.get(real)))
+    calls: list[tuple[str, Callable[[], object]]] = [
+        ("an unknown log category", lambda: early.slave.setDebugLogging(True, ["logNoSuchThing"])),
+        *([("values before initialisation", lambda: early.get(real))] if real else []),
+    ]
     for what, call in calls:
         try:
             call()
@@ -267,13 +273,11 @@ def _step_status(instance: Instance, time: float, step: float) -> int:
     """Status of a step, a warning too, which FMPy passes over."""
     slave, begin, length = instance.slave, c_double(time), c_double(step)
     if not instance.three:
-        step = marked("fmi2DoStep", slave.dll.fmi2DoStep)
-        return int(step(c_void_p(slave.component), begin, length, c_int(1)))
-    step, pointers = (
-        marked("fmi3DoStep", slave.dll.fmi3DoStep),
-        [*(byref(c_bool()) for _ in range(3)), byref(c_double())],
-    )
-    return int(step(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
+        two = marked("fmi2DoStep", slave.dll.fmi2DoStep)
+        return int(two(c_void_p(slave.component), begin, length, c_int(1)))
+    three = marked("fmi3DoStep", slave.dll.fmi3DoStep)
+    pointers = [*(byref(c_bool()) for _ in range(3)), byref(c_double())]
+    return int(three(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
 
 
 PORTABILITY_CHECKS = (

@@ -34,8 +34,10 @@ class Crew:
 
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:
         self._stretches = list(stretches)
-        member = _Member(LoadedFmu(path, aliases, step), stretches)
-        self._workers: list[Isolated[_Task, Result]] = [Isolated(member) for _ in range(min(jobs, len(stretches)))]
+        member = _Member(LoadedFmu(path.absolute(), aliases, step), stretches)
+        self._workers: list[Isolated[_Task, Result]] = [
+            Isolated(member, Result) for _ in range(min(jobs, len(stretches)))
+        ]
 
     def drive(self, values: Mapping[str, Value] | None, can_reset: bool | None) -> list[Result]:
         """Drive all stretches; results in their order. Raises `HostError`: a process has ended."""

@@ -15,6 +15,7 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.call_mark import marked
+from ali3.processes import path_of_caller
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
 
@@ -130,7 +131,7 @@ class Instance:
 
     def _type(self, kind: str) -> Callable[[Any], Any]:
         if kind in ("Boolean", "String"):
-            return _truth if kind == "Boolean" else str
+            return _truth if kind == "Boolean" else path_of_caller
         return float if self._suffix(kind) in ("Real", "Float64", "Float32") else int
 
     def _read(self, place: Place) -> list[Any]:

@@ -17,7 +17,7 @@ class IsolatedBench:
 
     def __init__(self, work: Work, path: Path) -> None:
         self._limit = work.time_limit
-        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path))
+        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path.absolute()), Outcome)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         outcome = self._bench.do((job, values, seed), limit=self._limit)

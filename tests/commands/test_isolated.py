@@ -126,8 +126,10 @@ def test_an_error_ends_the_others_at_once() -> None:
 
 @posix
 def test_processes_end_with_the_program_in_the_middle_of_a_task() -> None:
-    text = "from ali3.isolated import Isolated; from tests.commands.test_isolated import Counter; Isolated(Counter(), int)."
-    program = subprocess.Popen([sys.executable, "-c", f"{text}do('hang')"], cwd=Path(__file__).parents[2])
+    text = "from ali3.isolated import Isolated; from tests.commands.test_isolated import Counter; "
+    program = subprocess.Popen(
+        [sys.executable, "-c", f"{text}Isolated(Counter(), int).do('hang')"], cwd=Path(__file__).parents[2]
+    )
     end = time.monotonic() + 60.0
     while not (children := psutil.Process(program.pid).children(recursive=True)) and time.monotonic() < end:
         time.sleep(0.05)
