@@ -48,6 +48,8 @@ class Lost:
     """As the end of a sentence, see `how_ended`, with what the process was asked last."""
     late: bool = False
     """Whether it was ended at the time limit."""
+    kept: Any = None
+    """What `keep` of `Isolated.do` found in its folder."""
 
 
 class _Process:
@@ -102,8 +104,12 @@ class _Process:
                 os.killpg(self.process.pid, signal.SIGKILL)
         self.process.kill()
 
-    def end(self) -> tuple[str, str]:
-        """Wait for its end, or make it end; how it ended, with its last words, and what it was asked last."""
+    def end(self, keep: Callable[[Path], Any]) -> tuple[str, str, Any, int]:
+        """Wait for its end, or make it end.
+
+        How it ended, with its last words; what it was asked last; what is kept; how many processes that it had started
+        were ended with it.
+        """
         with suppress(subprocess.TimeoutExpired):
             self.process.wait(1.0)  # its output is closed a moment before it has ended
         self.kill()
@@ -116,13 +122,13 @@ class _Process:
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             with suppress(OSError):
                 stream.close()  # type: ignore[union-attr]
-        call, left = last_call(self.folder), self._left()
+        call, left, kept = last_call(self.folder), self._left(), keep(self.folder)
         shutil.rmtree(self.folder, ignore_errors=True)
         if self.flooded:
             how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
         else:
             how = how_ended(self.process.returncode, self._said.decode("utf-8", "replace"), call)
-        return how + (f"; {left} processes that it had started were ended too" if left else ""), call
+        return how, call, kept, left
 
     def _left(self) -> int:
         with suppress(OSError, ValueError):
@@ -161,12 +167,21 @@ class Isolated(Generic[T, R]):
         self._types = {DONE: answer, TOLD: told, ERROR: str, READY: None}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
+        self.left = 0
+        """Processes that its processes had started and that were ended with them."""
 
-    def do(self, task: T, tell: Tell = lambda word: None, limit: float | None = None) -> R | Lost:
+    def do(
+        self,
+        task: T,
+        tell: Tell = lambda word: None,
+        limit: float | None = None,
+        keep: Callable[[Path], Any] = lambda folder: None,
+    ) -> R | Lost:
         """Do a task and wait for it.
 
         `tell`: called with what the work tells meanwhile; `limit`: in s without a word, after which the process is
-        ended. Raises `UserError`: the work has raised one, or another error that `run_command` would show.
+        ended; `keep`: takes from the folder of a process that has ended what is to be kept. Raises `UserError`: the
+        work has raised one, or another error that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
@@ -187,8 +202,8 @@ class Isolated(Generic[T, R]):
             self._end()
             raise
         if answer is None:
-            how, call = self._end()
-            return Lost(f"took more than {seconds:g} s{call}", True) if late.is_set() else Lost(how)
+            how, call, kept = self._end(keep)
+            return Lost(f"took more than {seconds:g} s{call}", True, kept) if late.is_set() else Lost(how, False, kept)
         if late.is_set():
             self._end()
         kind, content = answer
@@ -231,8 +246,12 @@ class Isolated(Generic[T, R]):
                 process.kill()
         return process, True
 
-    def _end(self) -> tuple[str, str]:
-        """Forget the process, which has ended or is made to; how it ended, and at which call."""
+    def _end(self, keep: Callable[[Path], Any] = lambda folder: None) -> tuple[str, str, Any]:
+        """Forget the process, which has ended or is made to; how it ended, at which call, and what is kept of it."""
         with self._lock:
             process, self._process = self._process, None
-        return ("was ended", "") if process is None else process.end()
+        if process is None:
+            return "was ended", "", None
+        how, call, kept, left = process.end(keep)
+        self.left += left
+        return how, call, kept

@@ -216,6 +216,9 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
             verdict: Literal["good", "bad"] = "bad" if finding.verdict == "bad" else "good"
             cases.append(Case(fmu.stem, check.name, verdict, finding.words, time.perf_counter() - begin))
             without += [other.name for other in left_out(finding)]
+    if process.left:
+        words = f"{process.left} that it had started were ended with it"
+        print(f"{_MARKS['note']:>4}  {'processes':<{_WIDTH}}  {words}")
     if without:
         print(f"{_MARKS['note']:>4}  {'not done':<{_WIDTH}}  {len(without)} checks, which call functions of the FMU")
     bad = sum(case.verdict == "bad" for case in cases)

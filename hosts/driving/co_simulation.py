@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,8 @@ from hosts.driving.run_checks import check_columns
 from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import StepRefusedError
+
+_BETWEEN = 0.1  # s between two words on the progress
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -66,6 +69,7 @@ def run(
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
     every: int = 1,
     last: bool = False,
+    kept: Path | None = None,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
@@ -81,7 +85,7 @@ def run(
     driver : Pilot, optional
         Overrules the inputs it acts on, which are those of its first act.
     progress : callable
-        Called with the number of finished steps from time to time.
+        Called with the number of finished steps ten times a second, unless steps are longer.
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
@@ -89,6 +93,8 @@ def run(
         the others where the driver uses one.
     last : bool
         Whether the last step has a row in any case, which then comes sooner than the others.
+    kept : Path, optional
+        See `RecordedRows`.
 
     Returns
     -------
@@ -123,8 +129,9 @@ def run(
         np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight]),
         every,
         steps,
+        kept,
     )
-    begin = clock.perf_counter()
+    begin = due = clock.perf_counter()
     for k in range(steps):
         t = k * step
         wanted = manoeuvre.at(t, whole)
@@ -133,10 +140,10 @@ def run(
             if not all(map(math.isfinite, acts.values())):
                 raise HostError(_not_finite(t, acts, senses))
             wanted |= acts
-        now = [wanted[n] for n in used]
+        values = [wanted[n] for n in used]
         if used:
-            set_inputs(now)
-        rows.begin(now)
+            set_inputs(values)
+        rows.begin(values)
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
             changes = [then[n] - wanted[n] for n in straight]
@@ -149,20 +156,21 @@ def run(
             break
         senses.read()
         rows.end()
-        if rows.done % 50 == 0:
+        if (now := clock.perf_counter()) >= due:
+            due = now + _BETWEEN
             progress(rows.done)
         if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin
     jumps = missed_jumps(manoeuvre, step, straight, whole, acts)
     progress(rows.done)
-    recorded, values = rows.close(last)
+    recorded, table = rows.close(last)
     names = inputs + outputs
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
         step * np.array(recorded, dtype=np.float64),
-        values,
+        table,
         wall,
         rows.done * step,
         int(rows.refused),

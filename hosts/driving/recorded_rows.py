@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +14,26 @@ from hosts.driving.senses import Senses
 
 ROUND_OFF = 1e-9
 """Of a value that is reached at the end of a step and set again for the next; more is a jump."""
+
+
+def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
+    """Memory for a table, which is that of a file where one is given and the disk has the room for it."""
+    if file is not None and all(shape):
+        with file.open("w+b") as made, suppress(OSError):
+            getattr(os, "posix_fallocate", lambda *_: None)(made.fileno(), 0, 8 * shape[0] * shape[1])
+            return np.memmap(made, np.float64, "w+", shape=shape)
+    return np.empty(shape)
+
+
+def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:
+    """Rows that a process wrote before its end, of shape (n, columns)."""
+    with suppress(OSError, ValueError):
+        whole = np.memmap(file, np.float64, "r")
+        table: NDArray[np.float64] = whole[: len(whole) // columns * columns].reshape(-1, columns)
+        count = float(table[0, 0])
+        if 0.0 <= count <= len(table) - 1.0:
+            return np.array(table[1 : 1 + int(count)])
+    return np.empty((0, columns))
 
 
 class RecordedRows:
@@ -30,6 +53,8 @@ class RecordedRows:
         Steps from row to row.
     most : int
         Steps of the whole run.
+    kept : Path, optional
+        A file in which the rows are written at once, as `kept_rows` reads them.
 
     Attributes
     ----------
@@ -52,12 +77,16 @@ class RecordedRows:
         sizes: NDArray[np.float64],
         every: int,
         most: int,
+        kept: Path | None = None,
     ) -> None:
         self._senses, self._held, self._before = senses, held, held
         self._used, self._straight, self._sizes = list(used), list(straight), sizes
         self._every, self._changes = every, list[float]()
-        self._values = np.empty((most // every + 2, len(held) + len(senses)))
+        table = _table((most // every + 3, len(held) + len(senses)), kept)
+        self._count, self._values = table[0], table[1:]  # in a file, for who reads it after the end of this process
         self._values[0, len(held) :] = senses.whole()
+        self._values[0, : len(held)] = held
+        self._count[:1] = 1.0
         self.done, self.refused = 0, False
         self.jumps: dict[int, list[float]] = {}
         self.lost = np.zeros(len(held), bool)
@@ -92,7 +121,9 @@ class RecordedRows:
         """The step was made, and its outputs were read."""
         self.done += 1
         if self.done % self._every == 0:
-            self._values[self.done // self._every] = self._row()
+            row = self.done // self._every
+            self._values[row] = self._row()
+            self._count[:1] = row + 1.0
 
     def _row(self) -> list[float]:
         return [*self._held, *self._senses.whole()]

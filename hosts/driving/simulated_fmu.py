@@ -11,6 +11,7 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.variables import Variable
 
 
@@ -27,6 +28,8 @@ class SimulatedFmu(Protocol):
     description: ModelDescription
     variables: dict[str, ScalarVariable]
     messages: list[str]
+    aliases: Aliases | None
+    """Through which it is seen."""
 
     @property
     def table(self) -> VariableTable: ...

@@ -144,10 +144,7 @@ def _of_result(result: Result, job: Job) -> Outcome:
     """Whether the run came to its end with numbers."""
     missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
-    wrong = ~np.isfinite(result.values)
-    if wrong.any():
-        row, place = np.argwhere(wrong)[0]
-        what = f"'{result.names[place]}' is {result.values[row, place]} at {result.time[row]:g} s."
+    if what := result.not_finite():
         end.status, end.reason = FAILED, f"The output {what}"
     elif result.failed_steps:
         words = f": {result.messages[-1]}" if result.messages else "."
