@@ -37,6 +37,7 @@ _MOST_PRINTED = 200_000_000  # bytes
 
 T = TypeVar("T")
 R = TypeVar("R")
+S = TypeVar("S")
 Tell: TypeAlias = Callable[[Any], None]
 
 
@@ -49,7 +50,7 @@ class Lost:
     late: bool = False
     """Whether it was ended at the time limit."""
     kept: Any = None
-    """What `keep` of `Isolated.do` found in its folder."""
+    """What `keep` of `Isolated.do` found in its store."""
 
 
 class _Process:
@@ -59,20 +60,26 @@ class _Process:
         self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
         self.flooded, self._lock = False, threading.Lock()
         self._said = b""
-        life, self._life = os.pipe() if sys.platform == "linux" else (-1, -1)
+        life, self._life, self._memory = -1, -1, -1
+        self.store = self.folder / "store"
+        if sys.platform == "linux":
+            life, self._life = os.pipe()
+            self._memory = os.memfd_create("store")
+            self.store = Path(f"/proc/self/fd/{self._memory}")
+        passed = (life, self._memory) if life >= 0 else ()
         try:
             self.process = subprocess.Popen(
-                module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd())),
+                module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store)),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 cwd=self.folder,
                 env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder)),
-                pass_fds=(life,) if life >= 0 else (),
+                pass_fds=passed,
                 start_new_session=sys.platform != "win32",
             )
         except BaseException:
-            self._close_life()
+            self._close()
             shutil.rmtree(self.folder, ignore_errors=True)
             raise
         finally:
@@ -122,7 +129,8 @@ class _Process:
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             with suppress(OSError):
                 stream.close()  # type: ignore[union-attr]
-        call, left, kept = last_call(self.folder), self._left(), keep(self.folder)
+        call, left, kept = last_call(self.folder), self._left(), keep(self.store)
+        self._close()
         shutil.rmtree(self.folder, ignore_errors=True)
         if self.flooded:
             how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
@@ -134,6 +142,12 @@ class _Process:
         with suppress(OSError, ValueError):
             return int((self.folder / LEFT).read_text(encoding="ascii")[:9])
         return 0
+
+    def _close(self) -> None:
+        self._close_life()
+        memory, self._memory = self._memory, -1
+        if memory >= 0:
+            os.close(memory)
 
     def _close_life(self) -> None:
         with self._lock:
@@ -175,12 +189,12 @@ class Isolated(Generic[T, R]):
         task: T,
         tell: Tell = lambda word: None,
         limit: float | None = None,
-        keep: Callable[[Path], Any] = lambda folder: None,
+        keep: Callable[[Path], Any] = lambda store: None,
     ) -> R | Lost:
         """Do a task and wait for it.
 
         `tell`: called with what the work tells meanwhile; `limit`: in s without a word, after which the process is
-        ended; `keep`: takes from the folder of a process that has ended what is to be kept. Raises `UserError`: the
+        ended; `keep`: takes what is to be kept from the `store` of a process that has ended. Raises `UserError`: the
         work has raised one, or another error that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
@@ -211,6 +225,10 @@ class Isolated(Generic[T, R]):
             raise UserError(content)
         result: R = content
         return result
+
+    def stored(self, read: Callable[[Path], S]) -> S | None:
+        """What a function reads from the store of the process, see `ali3.processes.store`."""
+        return None if self._process is None else read(self._process.store)
 
     def close(self) -> None:
         """End the process, also in the middle of a task, which another thread may wait for; it is then lost."""
@@ -246,7 +264,7 @@ class Isolated(Generic[T, R]):
                 process.kill()
         return process, True
 
-    def _end(self, keep: Callable[[Path], Any] = lambda folder: None) -> tuple[str, str, Any]:
+    def _end(self, keep: Callable[[Path], Any] = lambda store: None) -> tuple[str, str, Any]:
         """Forget the process, which has ended or is made to; how it ended, at which call, and what is kept of it."""
         with self._lock:
             process, self._process = self._process, None

@@ -7,6 +7,7 @@ from pathlib import Path
 
 _prefix: str | None = None
 _began: Path | None = None
+_store: Path | None = None
 
 
 def memory_words() -> str:
@@ -21,10 +22,15 @@ def memory_words() -> str:
     return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
 
 
-def begin_for(folder: Path) -> None:
-    """This process works for one that is in another folder."""
-    global _began
-    _began = folder
+def begin_for(folder: Path, place: Path) -> None:
+    """This process works for one that is in another folder, and has a store at a place."""
+    global _began, _store
+    _began, _store = folder, place
+
+
+def store() -> Path | None:
+    """A file for what is still to be there if this process ends; None where nobody would read it."""
+    return _store
 
 
 def path_of_caller(text: str) -> str:

@@ -27,7 +27,7 @@ def _serve(folder: Path) -> None:
     from ali3.running import sentence
 
     begin_marks(folder)
-    begin_for(Path(sys.argv[3]))
+    begin_for(Path(sys.argv[3]), Path(sys.argv[4]))
     sink = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what an FMU prints must not get between the answers
     arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()

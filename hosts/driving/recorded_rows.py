@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -17,22 +16,23 @@ ROUND_OFF = 1e-9
 
 
 def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
-    """Memory for a table, which is that of a file where one is given and the disk has the room for it."""
-    if file is not None and all(shape):
-        with file.open("w+b") as made, suppress(OSError):
-            getattr(os, "posix_fallocate", lambda *_: None)(made.fileno(), 0, 8 * shape[0] * shape[1])
-            return np.memmap(made, np.float64, "w+", shape=shape)
-    return np.empty(shape)
+    """Memory for a table, which is that of a file where one is given."""
+    if file is None or not all(shape):
+        return np.empty(shape)
+    file.touch()
+    with file.open("r+b") as made:
+        made.truncate(8 * shape[0] * shape[1])
+        return np.asarray(np.memmap(made, np.float64, "r+", shape=shape))
 
 
 def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:
-    """Rows that a process wrote before its end, of shape (n, columns)."""
+    """Rows that a process wrote, of shape (n, columns); none where it has spoilt them."""
     with suppress(OSError, ValueError):
-        whole = np.memmap(file, np.float64, "r")
-        table: NDArray[np.float64] = whole[: len(whole) // columns * columns].reshape(-1, columns)
+        whole = np.memmap(file, np.float64, "c")
+        table: NDArray[np.float64] = np.asarray(whole[: len(whole) // columns * columns].reshape(-1, columns))
         count = float(table[0, 0])
         if 0.0 <= count <= len(table) - 1.0:
-            return np.array(table[1 : 1 + int(count)])
+            return table[1 : 1 + int(count)]
     return np.empty((0, columns))
 
 
@@ -84,9 +84,7 @@ class RecordedRows:
         self._every, self._changes = every, list[float]()
         table = _table((most // every + 3, len(held) + len(senses)), kept)
         self._count, self._values = table[0], table[1:]  # in a file, for who reads it after the end of this process
-        self._values[0, len(held) :] = senses.whole()
-        self._values[0, : len(held)] = held
-        self._count[:1] = 1.0
+        self._write(0)
         self.done, self.refused = 0, False
         self.jumps: dict[int, list[float]] = {}
         self.lost = np.zeros(len(held), bool)
@@ -121,12 +119,13 @@ class RecordedRows:
         """The step was made, and its outputs were read."""
         self.done += 1
         if self.done % self._every == 0:
-            row = self.done // self._every
-            self._values[row] = self._row()
-            self._count[:1] = row + 1.0
+            self._write(self.done // self._every)
 
-    def _row(self) -> list[float]:
-        return [*self._held, *self._senses.whole()]
+    def _write(self, row: int) -> None:
+        into, inputs = self._values[row], len(self._held)
+        into[:inputs] = self._held
+        into[inputs:] = self._senses.whole()
+        self._count[:1] = row + 1.0
 
     def close(self, last: bool) -> tuple[list[int], NDArray[np.float64]]:
         """The steps that have a row, and the rows. `last`: whether the last step has one in any case."""
@@ -134,6 +133,6 @@ class RecordedRows:
         if last and self.done % self._every:
             if self.refused:
                 self.jumps[len(rows)] = self._before.tolist()
-            self._values[len(rows)] = self._row()
+            self._write(len(rows))
             rows.append(self.done)
         return rows, self._values[: len(rows)]

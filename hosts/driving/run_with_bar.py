@@ -5,7 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from ali3.bars import bar as bar_of
 from ali3.isolated import Isolated, Lost
+from ali3.processes import store
 from hosts.common.errors import LostProcessError
 from hosts.driving.co_simulation import run
 from hosts.driving.ground_marks import marked
@@ -27,7 +28,6 @@ from hosts.fmu.fmu import Fmu
 
 PATIENCE = 300.0
 """s that a step, a start or an end may take."""
-_ROWS = "rows"
 _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
 
 
@@ -42,7 +42,8 @@ class _Drive:
         manoeuvre, step, driver, every = task
         with Fmu(self.path) as opened:
             fmu = opened if self.aliases is None else seen_through(opened, self.aliases)
-            return run(fmu, manoeuvre, step, driver, tell, every=every, last=True, kept=Path(_ROWS).absolute())
+            result = run(fmu, manoeuvre, step, driver, tell, every=every, last=True, kept=store())
+        return replace(result, values=result.values[:0])  # the rows are in the store
 
 
 def run_with_bar(
@@ -56,16 +57,20 @@ def run_with_bar(
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     begin = clock.perf_counter()
     process: Isolated[_Task, Result] = Isolated(_Drive(fmu.path.absolute(), fmu.aliases), Result)
+    columns = len(fmu.names("input")) + len(fmu.names("output"))
     with closing(process), bar_of(total=steps, desc=what, unit="step") as bar:
         done = process.do(
             (manoeuvre, step, driver, every),
             lambda done: bar.update(int(done) - bar.n),
             PATIENCE,
-            lambda folder: kept_rows(folder / _ROWS, len(fmu.names("input")) + len(fmu.names("output"))),
+            lambda place: kept_rows(place, columns),
         )
         if isinstance(done, Lost):
             done = _rest(fmu, manoeuvre, step * every, done, clock.perf_counter() - begin)
         else:
+            rows = process.stored(lambda place: kept_rows(place, columns))
+            assert rows is not None
+            done = replace(done, values=rows[: len(done.time)])
             bar.update(steps - bar.n if not done.failed_steps else 0)
     if process.left:
         done.messages.append(f"{process.left} processes that it had started were ended with it.")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -19,6 +20,7 @@ from ali3.processes import path_of_caller
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
 
+_WARNING = 1
 State: TypeAlias = ctypes.c_void_p
 """A state that an FMU has saved, in its memory."""
 
@@ -232,8 +234,23 @@ def _marked(slave: Any) -> Any:
     """A slave of FMPy whose functions leave their names, where the process is to."""
     for name in dir(slave):
         if name.startswith(("fmi2", "fmi3")):
-            setattr(slave, name, marked(name, getattr(slave, name)))
+            function = getattr(slave.dll, name)
+            # Those with a status are called as FMPy does, without its two frames of Python in between.
+            call = _checked(name, function) if function.restype is ctypes.c_int else getattr(slave, name)
+            setattr(slave, name, marked(name, call))
     return slave
+
+
+def _checked(name: str, function: Callable[..., int]) -> Callable[..., int]:
+    """A function of an FMU that raises `FMICallException` where its status is no warning."""
+
+    def call(*arguments: Any) -> int:
+        status = function(*arguments)
+        if status > _WARNING:
+            raise FMICallException(function=name, status=status)
+        return status
+
+    return call
 
 
 class _Arrays:

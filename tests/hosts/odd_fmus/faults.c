@@ -51,10 +51,11 @@ static fmi2Status advance(small *s, double end) {
     break;
   case EAT:
     for (long k = 0; k < 1000000; k++) {
-      char *block = malloc(100000000);
+      volatile char *block = malloc(100000000);
       if (!block)
         return fmi2Error;
-      memset(block, 1, 100000000);
+      for (long i = 0; i < 100000000; i += 4096)
+        block[i] = 1;
     }
     break;
   case WRITE: {
