@@ -8,12 +8,13 @@ from typing import Any
 
 from ali3.isolated import Isolated, Lost
 from ali3.shared_tasks import as_completed_by
-from hosts.common.errors import HostError
+from hosts.common.errors import LostProcessError
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.stretches import Stretch
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.own_process import PATIENCE
 
 _Task = tuple[int, dict[str, Value], bool | None]
 
@@ -36,20 +37,26 @@ class Crew:
         self._stretches = list(stretches)
         member = _Member(LoadedFmu(path.absolute(), aliases, step), stretches)
         self._workers: list[Isolated[_Task, Result]] = [
-            Isolated(member, Result) for _ in range(min(jobs, len(stretches)))
+            Isolated(member, Result) for _ in range(max(1, min(jobs, len(stretches))))
         ]
 
+    def drive_first(self, can_reset: bool) -> Result:
+        """Drive the first stretch, each time by the same process."""
+        return self._result(0, self._workers[0].do((0, {}, can_reset), limit=PATIENCE))
+
+    def _result(self, number: int, result: Result | Lost) -> Result:
+        if not isinstance(result, Lost):
+            return result
+        fewer = " --jobs 1 takes less memory." if len(self._workers) > 1 else ""
+        begin = self._stretches[number].begin
+        raise LostProcessError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")
+
     def drive(self, values: Mapping[str, Value] | None, can_reset: bool | None) -> list[Result]:
-        """Drive all stretches; results in their order. Raises `HostError`: a process has ended."""
+        """Drive all stretches; results in their order. Raises `LostProcessError`: a process has ended."""
         tasks: list[_Task] = [(k, dict(values or {}), can_reset) for k in range(len(self._stretches))]
         results: dict[int, Result] = {}
         for k, result in as_completed_by(self._workers, tasks):
-            if isinstance(result, Lost):
-                raise HostError(
-                    f"The process that drove the window from {self._stretches[k].begin:g} s {result.how}. --jobs 1 "
-                    "drives all in one process and takes less memory."
-                )
-            results[k] = result
+            results[k] = self._result(k, result)
         return [results[k] for k in range(len(tasks))]
 
     def close(self) -> None:

@@ -25,9 +25,8 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.own_process import PATIENCE
 
-PATIENCE = 300.0
-"""s that a step, a start or an end may take."""
 _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
 
 
