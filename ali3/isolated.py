@@ -59,6 +59,7 @@ class _Process:
     def __init__(self, work: bytes) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
         self.flooded, self._lock = False, threading.Lock()
+        self.number: int | None = None
         self._said = b""
         life, self._life, self._memory = -1, -1, -1
         self.store = self.folder / "store"
@@ -178,7 +179,7 @@ class Isolated(Generic[T, R]):
 
     def __init__(self, work: Callable[[T, Tell], R], answer: Any, told: Any = float) -> None:
         self._work = work
-        self._types = {DONE: answer, TOLD: told, ERROR: str, READY: None}
+        self._types = {DONE: answer, TOLD: told, ERROR: str, READY: int}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
         self.left = 0
@@ -210,6 +211,8 @@ class Isolated(Generic[T, R]):
             while (answer := self._answer(process, seconds, end)) is not None and answer[0] in (TOLD, READY):
                 if answer[0] == TOLD:
                     tell(answer[1])
+                else:
+                    process.number = answer[1]
                 seconds = limit
         except BaseException:  # of `tell`, or Ctrl-C: what the process still says belongs to no other task
             process.kill()
@@ -225,6 +228,21 @@ class Isolated(Generic[T, R]):
             raise UserError(content)
         result: R = content
         return result
+
+    @property
+    def pid(self) -> int | None:
+        """Number of the process that works; None where there is none, or it has not begun."""
+        return None if self._process is None else self._process.number
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder of the process that works, which goes with it."""
+        return None if self._process is None else self._process.folder
+
+    def send(self, word: Any) -> None:
+        """Say more to the process, which takes it by `ali3.processes.received` in the middle of its task."""
+        if self._process is not None:
+            self._process.send(pickle.dumps(word))
 
     def stored(self, read: Callable[[Path], S]) -> S | None:
         """What a function reads from the store of the process, see `ali3.processes.store`."""

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 _prefix: str | None = None
 _began: Path | None = None
 _store: Path | None = None
+_next_word: Callable[[], Any] | None = None
 
 
 def memory_words() -> str:
@@ -22,10 +25,16 @@ def memory_words() -> str:
     return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
 
 
-def begin_for(folder: Path, place: Path) -> None:
-    """This process works for one that is in another folder, and has a store at a place."""
-    global _began, _store
-    _began, _store = folder, place
+def begin_for(folder: Path, place: Path, next_word: Callable[[], Any]) -> None:
+    """This process works for one that is in another folder, has a store at a place, and hears more by a function."""
+    global _began, _store, _next_word
+    _began, _store, _next_word = folder, place, next_word
+
+
+def received() -> Any:
+    """What the process that asks sends in the middle of a task; waits for it."""
+    assert _next_word is not None, "a process of `ali3.isolated`"
+    return _next_word()
 
 
 def store() -> Path | None:

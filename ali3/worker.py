@@ -27,13 +27,13 @@ def _serve(folder: Path) -> None:
     from ali3.running import sentence
 
     begin_marks(folder)
-    begin_for(Path(sys.argv[3]), Path(sys.argv[4]))
     sink = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what an FMU prints must not get between the answers
     arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_receive, args=(os.fdopen(os.dup(0), "rb"), arrived), daemon=True).start()
+    begin_for(Path(sys.argv[3]), Path(sys.argv[4]), arrived.get)
     work = arrived.get()
-    write_frame(sink, READY, None)
+    write_frame(sink, READY, os.getpid())
     while True:
         task = arrived.get()
         try:
