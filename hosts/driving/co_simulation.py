@@ -60,6 +60,11 @@ def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, flo
     return f"At {time:.4g} s the driver asks for {act}{sense}."
 
 
+def columns_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> tuple[list[str], list[str]]:
+    """Inputs, with the parameters that the manoeuvre changes, and outputs: the columns of a run."""
+    return fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs], fmu.names("output")
+
+
 def run(
     fmu: SimulatedFmu,
     manoeuvre: Manoeuvre,
@@ -103,8 +108,7 @@ def run(
     """
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
-    inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
-    outputs = fmu.names("output")
+    inputs, outputs = columns_of(fmu, manoeuvre)
     whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
     senses = Senses(fmu, outputs, every == 1)
 

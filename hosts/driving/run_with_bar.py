@@ -15,9 +15,9 @@ from ali3.bars import bar as bar_of
 from ali3.isolated import Isolated, Lost
 from ali3.processes import store
 from hosts.common.errors import LostProcessError
-from hosts.driving.co_simulation import run
+from hosts.driving.co_simulation import columns_of, run
 from hosts.driving.ground_marks import marked
-from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.recorded_rows import kept_rows
 from hosts.driving.result import Result
@@ -56,18 +56,18 @@ def run_with_bar(
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     begin = clock.perf_counter()
     process: Isolated[_Task, Result] = Isolated(_Drive(fmu.path.absolute(), fmu.aliases), Result)
-    columns = len(fmu.names("input")) + len(fmu.names("output"))
+    names = [name for part in columns_of(fmu, with_names_of(manoeuvre, fmu.variables)) for name in part]
     with closing(process), bar_of(total=steps, desc=what, unit="step") as bar:
         done = process.do(
             (manoeuvre, step, driver, every),
             lambda done: bar.update(int(done) - bar.n),
             PATIENCE,
-            lambda place: kept_rows(place, columns),
+            lambda place: kept_rows(place, len(names)),
         )
         if isinstance(done, Lost):
-            done = _rest(fmu, manoeuvre, step * every, done, clock.perf_counter() - begin)
+            done = _rest(names, fmu, manoeuvre, step * every, done, clock.perf_counter() - begin)
         else:
-            rows = process.stored(lambda place: kept_rows(place, columns))
+            rows = process.stored(lambda place: kept_rows(place, len(names)))
             assert rows is not None
             done = replace(done, values=rows[: len(done.time)])
             bar.update(steps - bar.n if not done.failed_steps else 0)
@@ -76,9 +76,10 @@ def run_with_bar(
     return marked(done, driver)
 
 
-def _rest(fmu: SimulatedFmu, manoeuvre: Manoeuvre, interval: float, lost: Lost, wall: float) -> Result:
+def _rest(
+    names: list[str], fmu: SimulatedFmu, manoeuvre: Manoeuvre, interval: float, lost: Lost, wall: float
+) -> Result:
     """What is there of a run whose process has ended."""
-    names = fmu.names("input") + fmu.names("output")
     rows = lost.kept
     if not len(rows):
         raise LostProcessError(f"The process of the FMU {lost.how}; no row was recorded.")

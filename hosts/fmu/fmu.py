@@ -107,6 +107,7 @@ class Fmu(Closing, NamedScalars):
         path = self.path
         folder, own = Path(tempfile.mkdtemp(prefix="fmu_")), os.getpid()  # which it goes with, not with forked ones
         self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else shutil.rmtree(folder, True))
+        self._folder = folder
         try:
             unpack(path, folder)
             self._loaded = Instance(self.description, folder, path.stem, self._log)
