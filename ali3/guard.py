@@ -24,14 +24,15 @@ _PATIENCE = 5.0  # s until processes are gone that were killed
 def begin_guard(life: int, folder: Path) -> None:
     """Go on in a new process; the old one stays as its guard, ends with it, and as it did.
 
-    `life`: a pipe that ends when the process is to; `folder`: of the process, which goes where nobody else removes it.
+    `life`: a pipe that says a word, or ends, when the process is to end; `folder`: of the process, which goes where
+    nobody else removes it.
     Elsewhere than on Linux the process goes on without a guard.
     """
     if sys.platform != "linux":
         return
     control = ctypes.CDLL(None).prctl
     control(_SUBREAPER, 1, 0, 0, 0)
-    parent, guard = os.getppid(), os.getpid()
+    guard = os.getpid()
     process = os.fork()
     if process == 0:
         control(_PARENT_DEATH, signal.SIGKILL, 0, 0, 0)
@@ -50,13 +51,18 @@ def begin_guard(life: int, folder: Path) -> None:
     if left:
         with suppress(OSError):
             (folder / LEFT).write_text(str(left), encoding="ascii")
-    if os.getppid() != parent:
+    if _is_orphan(life):
         shutil.rmtree(folder, ignore_errors=True)
     code = os.waitstatus_to_exitcode(status)
     if code < 0:
         signal.signal(-code, signal.SIG_DFL) if -code not in (signal.SIGKILL, signal.SIGSTOP) else None
         os.kill(os.getpid(), -code)
     os._exit(code)
+
+
+def _is_orphan(life: int) -> bool:
+    """Whether the pipe has ended without the word that is written before it is closed."""
+    return bool(select.select([life], [], [], 0.0)[0]) and not os.read(life, 1)
 
 
 def _wait(process: int, life: int) -> None:

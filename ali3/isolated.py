@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +22,8 @@ from typing import IO, Any, Generic, TypeAlias, TypeVar
 
 from ali3.call_mark import last_call
 from ali3.children import how_ended
+from ali3.confinement import confined, is_confined
+from ali3.confinement import environment as confined_environment
 from ali3.errors import UserError
 from ali3.frames import FrameError, read_frame
 from ali3.guard import LEFT
@@ -56,7 +58,7 @@ class Lost:
 class _Process:
     """One process: what is started, and what is ended with it."""
 
-    def __init__(self, work: bytes) -> None:
+    def __init__(self, work: bytes, reads: Iterable[Path]) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
         self.flooded, self._lock = False, threading.Lock()
         self.number: int | None = None
@@ -68,14 +70,20 @@ class _Process:
             self._memory = os.memfd_create("store")
             self.store = Path(f"/proc/self/fd/{self._memory}")
         passed = (life, self._memory) if life >= 0 else ()
+        command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
+        environment = os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
+        self._confined = is_confined()
+        if self._confined:
+            command = confined(command, self.folder, reads)
+            environment = confined_environment(dict(os.environ), self.folder)
         try:
             self.process = subprocess.Popen(
-                module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store)),
+                command,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 cwd=self.folder,
-                env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder)),
+                env=environment,
                 pass_fds=passed,
                 start_new_session=sys.platform != "win32",
             )
@@ -136,7 +144,9 @@ class _Process:
         if self.flooded:
             how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
         else:
-            how = how_ended(self.process.returncode, self._said.decode("utf-8", "replace"), call)
+            code = self.process.returncode
+            code = 128 - code if self._confined and code > 128 else code  # as bubblewrap tells signals
+            how = how_ended(code, self._said.decode("utf-8", "replace"), call)
         return how, call, kept, left
 
     def _left(self) -> int:
@@ -154,6 +164,8 @@ class _Process:
         with self._lock:
             life, self._life = self._life, -1
         if life >= 0:
+            with suppress(OSError):
+                os.write(life, b"x")  # else its guard takes this process for dead
             os.close(life)
 
     def _listen(self) -> None:
@@ -174,11 +186,15 @@ class Isolated(Generic[T, R]):
 
     `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
     module, not of the file that is run as a program. `answer`, `told`: types of the result and of what is given to
-    ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute.
+    ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute. `reads`: files of
+    the user that it may read where processes are confined.
     """
 
-    def __init__(self, work: Callable[[T, Tell], R], answer: Any, told: Any = float) -> None:
+    def __init__(
+        self, work: Callable[[T, Tell], R], answer: Any, told: Any = float, reads: Iterable[Path] = ()
+    ) -> None:
         self._work = work
+        self._reads = [file.absolute() for file in reads]
         self._types = {DONE: answer, TOLD: told, ERROR: str, READY: int}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
@@ -277,7 +293,7 @@ class Isolated(Generic[T, R]):
         with self._lock:
             if self._process is not None:
                 return self._process, False
-            self._process = process = _Process(work)
+            self._process = process = _Process(work, self._reads)
             if self._closed:
                 process.kill()
         return process, True

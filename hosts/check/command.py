@@ -14,6 +14,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
@@ -28,6 +29,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
 from hosts.fmu.fmu_file import fmu_file
+from hosts.fmu.own_process import files_of
 
 if TYPE_CHECKING:
     from hosts.check.instance import Finding
@@ -65,6 +67,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--junit", type=Path, metavar="FILE", help="write the verdict there too, of the check or of --reference"
     )
     add_setting_options(parser)
+    add_option(parser, "--confined")
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
     add_option(table, "--show-parameters")
     table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all, with what is set, to this file")
@@ -136,6 +139,10 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"{of_check[0]} is of the check alone.")
     if options.junit is not None and (table or options.soak):
         raise HostError(f"--junit does not go with {others[0]}.")
+    if options.confined and (table or options.soak):
+        raise HostError(f"--confined does not go with {others[0]}.")
+    if options.confined:
+        confine()
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak
@@ -204,7 +211,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
         raise HostError(f"--time-limit is {limit:g} s; it must be positive.")
     without: list[str] = []
     checker = Checker(fmu.absolute(), _STEPS if options.steps is None else options.steps, start)
-    with closing(Isolated(checker, Finding)) as process:
+    with closing(Isolated(checker, Finding, reads=(fmu, *files_of(start)))) as process:
         for place, check in enumerate(CHECKS):
             if check.name in without:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions are missing"))

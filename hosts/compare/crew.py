@@ -14,7 +14,7 @@ from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.stretches import Stretch
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.own_process import PATIENCE
+from hosts.fmu.own_process import PATIENCE, files_of
 
 _Task = tuple[int, dict[str, Value], bool | None]
 
@@ -35,9 +35,10 @@ class Crew:
 
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:
         self._stretches = list(stretches)
+        reads = [path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
         member = _Member(LoadedFmu(path.absolute(), aliases, step), stretches)
         self._workers: list[Isolated[_Task, Result]] = [
-            Isolated(member, Result) for _ in range(max(1, min(jobs, len(stretches))))
+            Isolated(member, Result, reads=reads) for _ in range(max(1, min(jobs, len(stretches))))
         ]
 
     def drive_first(self, can_reset: bool) -> Result:

@@ -16,7 +16,7 @@ from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.own_process import in_own_process
+from hosts.fmu.own_process import files_of, in_own_process
 
 ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
 _POINTS = 21  # of the curve between both locks
@@ -46,7 +46,9 @@ def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle
     FMU whose column or frame gives turns its wheels by less than `angle` then, as the car does.
     """
     steering = np.linspace(-1.0, 1.0, _POINTS)
-    found = in_own_process(_turned, (path.absolute(), aliases, dict(start), steering), NDArray[np.float64])
+    found = in_own_process(
+        _turned, (path.absolute(), aliases, dict(start), steering), NDArray[np.float64], [path, *files_of(start)]
+    )
     rises = np.diff(found)
     if not (rises > 0.0).all():
         raise HostError(f"{path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")

@@ -13,7 +13,7 @@ from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.own_process import in_own_process
+from hosts.fmu.own_process import files_of, in_own_process
 
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"
@@ -100,7 +100,9 @@ def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]
 
     `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not tell its place.
     """
-    return in_own_process(_reference_point, (fmu_path.absolute(), aliases, dict(start)), tuple[float, float])
+    return in_own_process(
+        _reference_point, (fmu_path.absolute(), aliases, dict(start)), tuple[float, float], [fmu_path, *files_of(start)]
+    )
 
 
 def _reference_point(

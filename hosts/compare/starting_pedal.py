@@ -25,7 +25,7 @@ def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], 
     `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
     is not enough.
     """
-    pedals = in_own_process(_pedals_of, (path.absolute(), aliases, list(stretches), step), list[float | None])
+    pedals = in_own_process(_pedals_of, (path.absolute(), aliases, list(stretches), step), list[float | None], [path])
     return [s if pedal is None else _started(s, pedal) for s, pedal in zip(stretches, pedals, strict=True)]
 
 

@@ -25,7 +25,7 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.own_process import PATIENCE
+from hosts.fmu.own_process import PATIENCE, files_of
 
 _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
 
@@ -55,7 +55,8 @@ def run_with_bar(
     """
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     begin = clock.perf_counter()
-    process: Isolated[_Task, Result] = Isolated(_Drive(fmu.path.absolute(), fmu.aliases), Result)
+    work, reads = _Drive(fmu.path.absolute(), fmu.aliases), (fmu.path, *files_of(manoeuvre.start))
+    process: Isolated[_Task, Result] = Isolated(work, Result, reads=reads)
     names = [name for part in columns_of(fmu, with_names_of(manoeuvre, fmu.variables)) for name in part]
     with closing(process), bar_of(total=steps, desc=what, unit="step") as bar:
         done = process.do(

@@ -11,6 +11,7 @@ from ali3.errors import UserError
 from ali3.isolated import Isolated, Lost
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu.own_process import files_of
 from hosts.simulator.car_process import Order, run_car
 
 _START_SECONDS = 300.0
@@ -28,7 +29,7 @@ class Process:
         self.ended = ""
         self._asked = False
         self._said: queue.SimpleQueue[str] = queue.SimpleQueue()
-        self._process: Isolated[Order, None] = Isolated(run_car, None, str)
+        self._process: Isolated[Order, None] = Isolated(run_car, None, str, (order.fmu, *files_of(order.start)))
         self._life = threading.Thread(target=self._live, args=(order,), name="car watch", daemon=True)
         self._life.start()
         try:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ali3.isolated import Isolated, Lost
 from hosts.common.numbers import Value
+from hosts.fmu.own_process import files_of
 from hosts.study.job import Job
 from hosts.study.one_run import Bench, Task
 from hosts.study.work import FAILED, Outcome, Work
@@ -17,7 +18,9 @@ class IsolatedBench:
 
     def __init__(self, work: Work, path: Path) -> None:
         self._limit = work.time_limit
-        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path.absolute()), Outcome)
+        started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
+        reads = [path, *(file for values in started for file in files_of(values))]
+        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path.absolute()), Outcome, reads=reads)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         outcome = self._bench.do((job, values, seed), limit=self._limit)

@@ -29,11 +29,12 @@ _DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
-def odd_fmu(name: str, folder: Path) -> Path:
-    """The FMU of a C file of this folder, compiled for this machine."""
+def odd_fmu(name: str, folder: Path, *defines: str) -> Path:
+    """The FMU of a C file of this folder, compiled for this machine. `defines`: ``NAME=VALUE`` for the compiler."""
     library = folder / f"{name}{fmpy.sharedLibraryExtension}"
     what = f"the FMU {name}"
-    build.compile_c([HERE / f"{name}.c"], build.host_target(), library, include=(HERE, _HEADERS), what=what)
+    include = (HERE, _HEADERS)
+    build.compile_c([HERE / f"{name}.c"], build.host_target(), library, include=include, defines=defines, what=what)
     fmu = folder / f"{name}.fmu"
     with zipfile.ZipFile(fmu, "w") as archive:
         archive.writestr("modelDescription.xml", _DESCRIPTION.format(name=name))
