@@ -28,6 +28,7 @@ from ali3.errors import UserError
 from ali3.frames import FrameError, read_frame
 from ali3.guard import LEFT
 from ali3.processes import module_command
+from ali3.words import shortened
 
 DONE, TOLD, ERROR, READY = 0, 1, 2, 3
 """Kinds of frames: a result, what is told before it, the sentence of an error, that work has come and may begin."""
@@ -62,6 +63,7 @@ class _Process:
         self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
         self.flooded, self._lock = False, threading.Lock()
         self.number: int | None = None
+        self.unread = ""
         self._said = b""
         life, self._life, self._memory = -1, -1, -1
         self.store = self.folder / "store"
@@ -141,7 +143,9 @@ class _Process:
         call, left, kept = last_call(self.folder), self._left(), keep(self.store)
         self._close()
         shutil.rmtree(self.folder, ignore_errors=True)
-        if self.flooded:
+        if self.unread:
+            how = self.unread
+        elif self.flooded:
             how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
         else:
             code = self.process.returncode
@@ -191,7 +195,11 @@ class Isolated(Generic[T, R]):
     """
 
     def __init__(
-        self, work: Callable[[T, Tell], R], answer: Any, told: Any = float, reads: Iterable[Path] = ()
+        self,
+        work: Callable[[T, Tell], R],
+        answer: Any,
+        told: Any = float,
+        reads: Iterable[Path] = (),
     ) -> None:
         self._work = work
         self._reads = [file.absolute() for file in reads]
@@ -280,7 +288,8 @@ class Isolated(Generic[T, R]):
             return read_frame(process.answers, self._types)
         except (EOFError, OSError, ValueError):
             return None
-        except FrameError:
+        except FrameError as error:
+            process.unread = f"gave an answer that cannot be read: {shortened(str(error))}"
             process.kill()
             return None
         finally:

@@ -171,6 +171,7 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
     from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do
+    from hosts.fmu.own_process import PATIENCE
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
@@ -181,7 +182,7 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        with closing(as_completed(do, TestRecord | Reason, tasks, jobs, progress)) as done:
+        with closing(as_completed(do, TestRecord | Reason, tasks, jobs, progress, PATIENCE)) as done:
             for place, outcome in done:
                 progress(place, 1.0)
                 words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome

@@ -82,6 +82,7 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
     from ali3.bars import bar as bar_of
     from ali3.isolated import Lost
     from ali3.shared_tasks import as_completed
+    from hosts.fmu.own_process import PATIENCE
     from hosts.soak.drive import Failure, Outcome, drive
 
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
@@ -92,7 +93,7 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
             outcomes[place].simulated = min(seconds, tasks[place].seconds)
             bar.update(min(int(sum(outcome.simulated for outcome in outcomes)), total) - bar.n)
 
-        with closing(as_completed(drive, Outcome, tasks, jobs, progress)) as done:
+        with closing(as_completed(drive, Outcome, tasks, jobs, progress, PATIENCE)) as done:
             for place, outcome in done:
                 if isinstance(outcome, Lost):
                     seconds, words = outcomes[place].simulated, f"The process of the drive {outcome.how}."

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ali3.isolated import Isolated, Lost
 from hosts.common.numbers import Value
-from hosts.fmu.own_process import files_of
+from hosts.fmu.own_process import PATIENCE, files_of
 from hosts.study.job import Job
 from hosts.study.one_run import Bench, Task
 from hosts.study.work import FAILED, Outcome, Work
@@ -23,11 +23,12 @@ class IsolatedBench:
         self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path.absolute()), Outcome, reads=reads)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        outcome = self._bench.do((job, values, seed), limit=self._limit)
+        outcome = self._bench.do((job, values, seed), limit=PATIENCE if self._limit is None else self._limit)
         if not isinstance(outcome, Lost):
             return outcome
         if outcome.late:
-            return Outcome(FAILED, f"The run {outcome.how} (time_limit).", wall=self._limit or 0.0)
+            which = "" if self._limit is None else " (time_limit)"
+            return Outcome(FAILED, f"The run {outcome.how}{which}.", wall=self._limit or 0.0)
         return Outcome(FAILED, f"The process of the run {outcome.how}.")
 
     def close(self) -> None:
