@@ -10,9 +10,9 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.old_options import add_old_names
-from ali3.confinement import confine
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
 from hosts.common.errors import HostError
