@@ -229,7 +229,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     if without:
         print(f"{_MARKS['note']:>4}  {'not done':<{_WIDTH}}  {len(without)} checks, which call functions of the FMU")
     bad = sum(case.verdict == "bad" for case in cases)
-    print(f"\n{fmu}: {f'{bad} bad' if bad else 'nothing bad found'}")
+    print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
     return 1 if bad else 0
 
 

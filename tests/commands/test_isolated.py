@@ -164,3 +164,21 @@ def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_
     with pytest.raises(UserError, match="The value is 3"):
         list(as_completed_by([worker], ["wrong", "hang"]))
     assert not psutil.pid_exists(ids[0])
+
+
+def talkative(task: float, tell: Tell) -> int:
+    for k in range(8):
+        time.sleep(task)
+        tell(k)
+    return 8
+
+
+def test_the_limit_is_a_time_without_a_word() -> None:
+    worker: Isolated[float, int] = Isolated(talkative, int)
+    try:
+        heard: list[float] = []
+        assert worker.do(0.2, heard.append, limit=1.0) == 8
+        assert heard == list(range(8))
+        assert worker.do(1000.0, heard.append, limit=0.2) == Lost("took more than 0.2 s", late=True)
+    finally:
+        worker.close()
