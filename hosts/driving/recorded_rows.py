@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -32,7 +33,8 @@ def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:
         table: NDArray[np.float64] = np.asarray(whole[: len(whole) // columns * columns].reshape(-1, columns))
         count = float(table[0, 0])
         if 0.0 <= count <= len(table) - 1.0:
-            return table[1 : 1 + int(count)]
+            rows = table[1 : 1 + int(count)]
+            return rows.copy() if sys.platform == "win32" else rows  # where a mapped file cannot be removed
     return np.empty((0, columns))
 
 

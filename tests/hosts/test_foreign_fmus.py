@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import resource
 import socket
 import subprocess
 import sys
@@ -21,6 +20,7 @@ from hosts.run.command import main
 from tests.hosts.odd_fmus import odd_fmu
 from tests.in_process import run
 
+resource = pytest.importorskip("resource")
 LEAVE, CRASH, NOT_A_NUMBER, MOVE, PRINT, FORK, CLOSE, EAT, WRITE = range(1, 10)
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="guards, signals, folders of Linux")]
 
