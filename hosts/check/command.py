@@ -18,7 +18,6 @@ from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
-from ali3.isolated import Isolated, Lost
 from ali3.old_options import add_old_names
 from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.reading import no_file
@@ -29,7 +28,6 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
 from hosts.fmu.fmu_file import fmu_file
-from hosts.fmu.own_process import files_of
 
 if TYPE_CHECKING:
     from hosts.check.instance import Finding
@@ -193,8 +191,10 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
+    from ali3.isolated import Isolated, Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
     from hosts.check.instance import Finding
+    from hosts.fmu.own_process import files_of
 
     if not fmu.is_file():
         raise HostError(no_file(fmu))

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.variables import Variable
+
+if TYPE_CHECKING:
+    from hosts.fmu.aliases.alias import Aliases
 
 
 class VariableTable(Protocol):
