@@ -4,8 +4,7 @@
 #include "small.h"
 
 static fmi2Status advance(small *s, double end) {
-  if (end > 0.025)
-    raise(SIGSEGV);
+  if (end > 0.025) raise(SIGSEGV);
   s->time = s->y = end;
   return fmi2OK;
 }

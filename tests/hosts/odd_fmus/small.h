@@ -47,8 +47,7 @@ fmi2Status fmi2Reset(fmi2Component c) {
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Real v[]) {
   for (size_t k = 0; k < n; k++) {
-    if (r[k] > 1)
-      return fmi2Error;
+    if (r[k] > 1) return fmi2Error;
     v[k] = r[k] ? ((small *)c)->y : ((small *)c)->u;
   }
   return fmi2OK;
@@ -56,29 +55,27 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, 
 
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Real v[]) {
   for (size_t k = 0; k < n; k++) {
-    if (r[k])
-      return fmi2Error;
+    if (r[k]) return fmi2Error;
     ((small *)c)->u = v[k];
   }
   return fmi2OK;
 }
 
-#define NONE(name, type)                                                                                             \
-  fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference r[], size_t n, type v[]) {                      \
-    (void)c, (void)r, (void)v;                                                                                       \
-    return n ? fmi2Error : fmi2OK;                                                                                   \
-  }                                                                                                                  \
-  fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference r[], size_t n, const type v[]) {                \
-    (void)c, (void)r, (void)v;                                                                                       \
-    return n ? fmi2Error : fmi2OK;                                                                                   \
+#define NONE(name, type)                                                                                               \
+  fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference r[], size_t n, type v[]) {                        \
+    (void)c, (void)r, (void)v;                                                                                         \
+    return n ? fmi2Error : fmi2OK;                                                                                     \
+  }                                                                                                                    \
+  fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference r[], size_t n, const type v[]) {                  \
+    (void)c, (void)r, (void)v;                                                                                         \
+    return n ? fmi2Error : fmi2OK;                                                                                     \
   }
 NONE(Integer, fmi2Integer)
 NONE(Boolean, fmi2Boolean)
 NONE(String, fmi2String)
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
-  if (!*state)
-    *state = malloc(sizeof(small));
+  if (!*state) *state = malloc(sizeof(small));
   memcpy(*state, c, sizeof(small));
   return fmi2OK;
 }
@@ -139,10 +136,10 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean
 
 fmi2Status fmi2CancelStep(fmi2Component c) { return c ? fmi2Error : fmi2OK; }
 
-#define STATUS(name, type)                                                                                           \
-  fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *v) {                                    \
-    (void)c, (void)kind, (void)v;                                                                                    \
-    return fmi2Discard;                                                                                              \
+#define STATUS(name, type)                                                                                             \
+  fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *v) {                                      \
+    (void)c, (void)kind, (void)v;                                                                                      \
+    return fmi2Discard;                                                                                                \
   }
 STATUS(Status, fmi2Status)
 STATUS(RealStatus, fmi2Real)
