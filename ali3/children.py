@@ -39,19 +39,19 @@ def ignore_stopping() -> None:
         signal.signal(number, signal.SIG_IGN)
 
 
-def how_ended(code: int | None, said: str = "") -> str:
+def how_ended(code: int | None, said: str = "", call: str = "") -> str:
     """How a process has ended that was to go on, as the end of a sentence, such as ``crashed (SIGSEGV)``.
 
     `code`: as `subprocess` and `multiprocessing` give it; `said`: what it wrote to its standard error; the last line is
-    quoted.
+    quoted; `call`: during what, such as `` in fmi2DoStep at 0.1 s``.
     """
     last = (said.strip().splitlines() or [""])[-1]
-    words = f": {last}" if last else ""
+    words = f"{call}: {last}" if last else call
     if code is not None and code < 0:
         known = {int(number): number.name for number in signal.Signals}
         name = known.get(-code, f"signal {-code}")
         if name == "SIGKILL":  # no program does that to itself
-            return "was killed (SIGKILL), by a user or by the system for want of memory"
+            return f"was killed (SIGKILL){call}, by a user or by the system for want of memory"
         return f"crashed ({name}){words}" if name in _CRASHES else f"was ended by {name}{words}"
     if sys.platform == "win32" and code is not None and code >= _WINDOWS_CRASH:
         return f"crashed (0x{code:08X}){words}"

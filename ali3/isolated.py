@@ -1,37 +1,46 @@
-"""Work in processes of their own: one that crashes or hangs takes nothing with it.
+"""Work in processes of their own: one that crashes or hangs takes nothing with it, and leaves nothing.
 
-As a program it reads pickled work and tasks from its input and writes what is told and the results to its output; when
-the input is closed, because who asked has ended, it ends in the middle of a task too.
+Each has a folder, a session and descriptors of its own, and limits for time, memory and what it prints. It is told what
+to do by pickles, and answers by frames (`ali3.frames`): a library in it may write what it likes.
 """
 
 from __future__ import annotations
 
 import os
 import pickle
-import queue
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
-import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Generic, TypeAlias, TypeVar
 
-from ali3.children import how_ended, ignore_stopping
+from ali3.call_mark import last_call
+from ali3.children import how_ended
+from ali3.confinement import confined, is_confined
+from ali3.confinement import environment as confined_environment
 from ali3.errors import UserError
+from ali3.frames import FrameError, read_frame
+from ali3.guard import LEFT
 from ali3.processes import module_command
-from ali3.running import sentence
+from ali3.words import shortened
 
-_START = 20.0  # s in which Python and its packages have begun, on a busy machine
+DONE, TOLD, ERROR, READY = 0, 1, 2, 3
+"""Kinds of frames: a result, what is told before it, the sentence of an error, that work has come and may begin."""
+_START = 60.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
-_SAID = "said.txt"
-_MOST_SAID = 4000  # bytes
+_END = 10.0  # s in which a guard ends all that is left
+_MOST_SAID = 4000  # bytes that are kept
+_MOST_PRINTED = 200_000_000  # bytes
 
 T = TypeVar("T")
 R = TypeVar("R")
+S = TypeVar("S")
 Tell: TypeAlias = Callable[[Any], None]
 
 
@@ -40,29 +49,178 @@ class Lost:
     """A task that has no result, because its process has ended."""
 
     how: str
-    """As the end of a sentence, see `how_ended`."""
+    """As the end of a sentence, see `how_ended`, with what the process was asked last."""
     late: bool = False
     """Whether it was ended at the time limit."""
+    kept: Any = None
+    """What `keep` of `Isolated.do` found in its store."""
+
+
+class _Process:
+    """One process: what is started, and what is ended with it."""
+
+    def __init__(self, work: bytes, reads: Iterable[Path]) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
+        self.flooded, self._lock = False, threading.Lock()
+        self.number: int | None = None
+        self.unread = ""
+        self._said = b""
+        life, self._life, self._memory = -1, -1, -1
+        self.store = self.folder / "store"
+        if sys.platform == "linux":
+            life, self._life = os.pipe()
+            self._memory = os.memfd_create("store")
+            self.store = Path(f"/proc/self/fd/{self._memory}")
+        passed = (life, self._memory) if life >= 0 else ()
+        command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
+        environment = os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
+        self._confined = is_confined()
+        if self._confined:
+            command = confined(command, self.folder, reads)
+            environment = confined_environment(dict(os.environ), self.folder)
+        try:
+            self.process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                cwd=self.folder,
+                env=environment,
+                pass_fds=passed,
+                start_new_session=sys.platform != "win32",
+            )
+        except BaseException:
+            self._close()
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
+        finally:
+            if life >= 0:
+                os.close(life)
+        self._drain = threading.Thread(target=self._listen, daemon=True)
+        self._drain.start()
+        self.send(work)
+
+    def send(self, data: bytes) -> None:
+        """Write to it, unless it has ended; its output says so."""
+        assert self.process.stdin is not None
+        with suppress(OSError):
+            self.process.stdin.write(data)
+            self.process.stdin.flush()
+
+    @property
+    def answers(self) -> IO[bytes]:
+        assert self.process.stdout is not None
+        return self.process.stdout
+
+    def kill(self) -> None:
+        """End it, and all that it has started where the system tells what that is."""
+        if self._life >= 0:
+            self._close_life()  # its guard does it
+            return
+        if sys.platform != "win32":
+            with suppress(OSError):
+                os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.kill()
+
+    def end(self, keep: Callable[[Path], Any]) -> tuple[str, str, Any, int]:
+        """Wait for its end, or make it end.
+
+        How it ended, with its last words; what it was asked last; what is kept; how many processes that it had started
+        were ended with it.
+        """
+        with suppress(subprocess.TimeoutExpired):
+            self.process.wait(1.0)  # its output is closed a moment before it has ended
+        self.kill()
+        try:
+            self.process.wait(_END)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        self._drain.join(1.0)
+        for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
+            with suppress(OSError):
+                stream.close()  # type: ignore[union-attr]
+        call, left, kept = last_call(self.folder), self._left(), keep(self.store)
+        self._close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+        if self.unread:
+            how = self.unread
+        elif self.flooded:
+            how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
+        else:
+            code = self.process.returncode
+            code = 128 - code if self._confined and code > 128 else code  # as bubblewrap tells signals
+            how = how_ended(code, self._said.decode("utf-8", "replace"), call)
+        return how, call, kept, left
+
+    def _left(self) -> int:
+        with suppress(OSError, ValueError):
+            return int((self.folder / LEFT).read_text(encoding="ascii")[:9])
+        return 0
+
+    def _close(self) -> None:
+        self._close_life()
+        memory, self._memory = self._memory, -1
+        if memory >= 0:
+            os.close(memory)
+
+    def _close_life(self) -> None:
+        with self._lock:
+            life, self._life = self._life, -1
+        if life >= 0:
+            with suppress(OSError):
+                os.write(life, b"x")  # else its guard takes this process for dead
+            os.close(life)
+
+    def _listen(self) -> None:
+        """Keep the last of what it prints; one that prints without end is ended."""
+        assert self.process.stderr is not None
+        printed = 0
+        with suppress(OSError, ValueError):
+            while part := os.read(self.process.stderr.fileno(), 65536):
+                self._said = (self._said + part)[-_MOST_SAID:]
+                printed += len(part)
+                if printed > _MOST_PRINTED:
+                    self.flooded = True
+                    self.kill()
 
 
 class Isolated(Generic[T, R]):
     """A process that does one task after the other. After one that was lost, the next has a new process.
 
-    `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks, results, and what
-    is given to ``tell``; so it is of a module, not of the file that is run as a program.
+    `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
+    module, not of the file that is run as a program. `answer`, `told`: types of the result and of what is given to
+    ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute. `reads`: files of
+    the user that it may read where processes are confined.
     """
 
-    def __init__(self, work: Callable[[T, Tell], R]) -> None:
+    def __init__(
+        self,
+        work: Callable[[T, Tell], R],
+        answer: Any,
+        told: Any = float,
+        reads: Iterable[Path] = (),
+    ) -> None:
         self._work = work
-        self._process: subprocess.Popen[bytes] | None = None
-        self._folder: tempfile.TemporaryDirectory[str] | None = None
+        self._reads = [file.absolute() for file in reads]
+        self._types = {DONE: answer, TOLD: told, ERROR: str, READY: int}
+        self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
+        self.left = 0
+        """Processes that its processes had started and that were ended with them."""
 
-    def do(self, task: T, tell: Tell = lambda word: None, limit: float | None = None) -> R | Lost:
+    def do(
+        self,
+        task: T,
+        tell: Tell = lambda word: None,
+        limit: float | None = None,
+        keep: Callable[[Path], Any] = lambda store: None,
+    ) -> R | Lost:
         """Do a task and wait for it.
 
-        `tell`: called with what the work tells meanwhile; `limit`: in s, after which the process is ended. Raises
-        `UserError`: the work has raised one, or another error that `run_command` would show.
+        `tell`: called with what the work tells meanwhile; `limit`: in s without a word, after which the process is
+        ended; `keep`: takes what is to be kept from the `store` of a process that has ended. Raises `UserError`: the
+        work has raised one, or another error that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
@@ -71,28 +229,48 @@ class Isolated(Generic[T, R]):
             late.set()
             process.kill()
 
-        timer = threading.Timer(min((limit or 0.0) + (_START if is_new else 0.0), _LONGEST), end)
-        if limit is not None:
-            timer.start()
+        process.send(data)
+        seconds = _START if is_new else limit
         try:
-            answer = self._answer(process, data, tell)
+            while (answer := self._answer(process, seconds, end)) is not None and answer[0] in (TOLD, READY):
+                if answer[0] == TOLD:
+                    tell(answer[1])
+                else:
+                    process.number = answer[1]
+                seconds = limit
         except BaseException:  # of `tell`, or Ctrl-C: what the process still says belongs to no other task
             process.kill()
             self._end()
             raise
-        finally:
-            timer.cancel()
-            if limit is not None:
-                timer.join()
-        if answer is None or late.is_set():
-            said = self._end()
-            if answer is None:
-                return Lost(f"took more than {limit:g} s", True) if late.is_set() else Lost(said)
+        if answer is None:
+            how, call, kept = self._end(keep)
+            return Lost(f"took more than {seconds:g} s{call}", True, kept) if late.is_set() else Lost(how, False, kept)
+        if late.is_set():
+            self._end()
         kind, content = answer
-        if kind == "error":
+        if kind == ERROR:
             raise UserError(content)
         result: R = content
         return result
+
+    @property
+    def pid(self) -> int | None:
+        """Number of the process that works; None where there is none, or it has not begun."""
+        return None if self._process is None else self._process.number
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder of the process that works, which goes with it."""
+        return None if self._process is None else self._process.folder
+
+    def send(self, word: Any) -> None:
+        """Say more to the process, which takes it by `ali3.processes.received` in the middle of its task."""
+        if self._process is not None:
+            self._process.send(pickle.dumps(word))
+
+    def stored(self, read: Callable[[Path], S]) -> S | None:
+        """What a function reads from the store of the process, see `ali3.processes.store`."""
+        return None if self._process is None else read(self._process.store)
 
     def close(self) -> None:
         """End the process, also in the middle of a task, which another thread may wait for; it is then lost."""
@@ -102,107 +280,39 @@ class Isolated(Generic[T, R]):
                 self._process.kill()
         self._end()
 
-    @staticmethod
-    def _answer(process: subprocess.Popen[bytes], data: bytes, tell: Tell) -> tuple[str, Any] | None:
-        assert process.stdin is not None
-        assert process.stdout is not None
-        with suppress(OSError):  # of one that has ended; its output says so
-            process.stdin.write(data)
-            process.stdin.flush()
-        while True:
-            try:
-                kind, content = pickle.load(process.stdout)
-            except (EOFError, pickle.UnpicklingError, OSError, ValueError):
-                return None
-            if kind != "told":
-                return kind, content
-            tell(content)
+    def _answer(self, process: _Process, limit: float | None, end: Callable[[], None]) -> tuple[int, Any] | None:
+        timer = threading.Timer(min(limit or 0.0, _LONGEST), end)
+        if limit is not None:
+            timer.start()
+        try:
+            return read_frame(process.answers, self._types)
+        except (EOFError, OSError, ValueError):
+            return None
+        except FrameError as error:
+            process.unread = f"gave an answer that cannot be read: {shortened(str(error))}"
+            process.kill()
+            return None
+        finally:
+            timer.cancel()
+            if limit is not None:
+                timer.join()
 
-    def _started(self) -> tuple[subprocess.Popen[bytes], bool]:
+    def _started(self) -> tuple[_Process, bool]:
         work = pickle.dumps(self._work)
         with self._lock:
             if self._process is not None:
                 return self._process, False
-            # What a killed process has unpacked goes with the folder.
-            self._folder = tempfile.TemporaryDirectory(prefix="isolated-", ignore_cleanup_errors=True)
-            with Path(self._folder.name, _SAID).open("wb") as said:
-                self._process = process = subprocess.Popen(
-                    module_command("ali3.isolated"),
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    stderr=said,
-                    env=os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), self._folder.name),
-                )
+            self._process = process = _Process(work, self._reads)
             if self._closed:
                 process.kill()
-        assert process.stdin is not None
-        with suppress(OSError):
-            process.stdin.write(work)
-            process.stdin.flush()
         return process, True
 
-    def _end(self) -> str:
-        """Forget the process, which has ended or is made to; how it ended."""
+    def _end(self, keep: Callable[[Path], Any] = lambda store: None) -> tuple[str, str, Any]:
+        """Forget the process, which has ended or is made to; how it ended, at which call, and what is kept of it."""
         with self._lock:
-            process, self._process, folder, self._folder = self._process, None, self._folder, None
-        if process is None or folder is None:
-            return "was ended"
-        with suppress(subprocess.TimeoutExpired):
-            process.wait(1.0)  # its output is closed a moment before it has ended
-        process.kill()
-        process.wait()
-        for stream in (process.stdin, process.stdout):
-            with suppress(OSError):
-                stream.close()  # type: ignore[union-attr]
-        with suppress(OSError), folder:
-            said = Path(folder.name, _SAID).read_bytes()[-_MOST_SAID:]
-            return how_ended(process.returncode, said.decode("utf-8", "replace"))
-        return how_ended(process.returncode)
-
-
-def _serve() -> None:
-    """The life of a process: work, then tasks."""
-    sink = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what an FMU prints must not get between the answers
-    arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    threading.Thread(target=_receive, args=(os.fdopen(os.dup(0), "rb"), arrived), daemon=True).start()
-
-    def say(kind: str, content: Any) -> None:
-        sink.write(pickle.dumps((kind, content)))
-        sink.flush()
-
-    work = arrived.get()
-    while True:
-        task = arrived.get()
-        try:
-            say("done", work(task, lambda word: say("told", word)))
-        except Exception as error:
-            words = sentence(error)
-            if words is None:
-                raise
-            say("error", words)
-
-
-def _receive(source: IO[bytes], arrived: queue.SimpleQueue[Any]) -> None:
-    try:
-        while True:
-            arrived.put(pickle.load(source))
-    except EOFError:
-        os._exit(0)
-    except BaseException:
-        _fail()
-
-
-def _fail() -> None:
-    """End with the traceback at once: threads and libraries that are at work have no say."""
-    traceback.print_exc()
-    sys.stderr.flush()
-    os._exit(1)
-
-
-if __name__ == "__main__":
-    ignore_stopping()
-    try:
-        _serve()
-    except BaseException:
-        _fail()
+            process, self._process = self._process, None
+        if process is None:
+            return "was ended", "", None
+        how, call, kept, left = process.end(keep)
+        self.left += left
+        return how, call, kept

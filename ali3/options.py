@@ -129,6 +129,9 @@ SHARED: dict[str, Option] = {
         "road under a car: a road file, the name of one in the FMU (plane.road, kerb.road, rough.road, split.road, "
         "washboard.road), or what 'ali3 road' makes one of",
     ),
+    "--confined": Option(
+        "", "run the FMU without network, home and other files: by bubblewrap, on Linux; else nothing is run"
+    ),
     "--world": Option("NAME|FILE", "a world, by its name or the file of its description"),
 }
 

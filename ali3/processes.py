@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 _prefix: str | None = None
+_began: Path | None = None
+_store: Path | None = None
+_next_word: Callable[[], Any] | None = None
 
 
 def memory_words() -> str:
@@ -18,6 +23,33 @@ def memory_words() -> str:
     if most == resource.RLIM_INFINITY:
         return ""
     return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
+
+
+def begin_for(folder: Path, place: Path, next_word: Callable[[], Any]) -> None:
+    """This process works for one that is in another folder, has a store at a place, and hears more by a function."""
+    global _began, _store, _next_word
+    _began, _store, _next_word = folder, place, next_word
+
+
+def received() -> Any:
+    """What the process that asks sends in the middle of a task; waits for it."""
+    assert _next_word is not None, "a process of `ali3.isolated`"
+    return _next_word()
+
+
+def store() -> Path | None:
+    """A file for what is still to be there if this process ends; None where nobody would read it."""
+    return _store
+
+
+def path_of_caller(text: str) -> str:
+    """A text that names a file relative to the folder of who asked, as an absolute path; another as it is."""
+    if _began is None or not Path(text).suffix:
+        return text
+    try:
+        return str(_began / text) if (_began / text).is_file() else text
+    except (OSError, ValueError):
+        return text
 
 
 def command_name(name: str) -> str:
@@ -39,7 +71,6 @@ def module_command(module: str, *arguments: str) -> list[str]:
 
     ``python -m`` would look into the current folder first, where files of the user may have any name.
     """
-    start = (
-        f"import sys; sys.path[:] = {sys.path!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
-    )
+    places = [str(Path(place).absolute()) for place in sys.path]  # the new Python may begin in another folder
+    start = f"import sys; sys.path[:] = {places!r}; import runpy; runpy.run_module({module!r}, None, '__main__', True)"
     return [sys.executable, "-c", start, *arguments]

@@ -38,7 +38,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
         words = sentence(error, errors)
         if words is None:
             raise
-        return _end(f"error: {shortened(words)}", WRONG_USE)
+        return _end(f"error: {shortened(words)}", getattr(error, "status", WRONG_USE))
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:

@@ -17,24 +17,32 @@ R = TypeVar("R")
 
 
 def as_completed(
-    work: Callable[[T, Tell], R], tasks: Sequence[T], jobs: int, told: Callable[[int, Any], None]
+    work: Callable[[T, Tell], R],
+    answer: Any,
+    tasks: Sequence[T],
+    jobs: int,
+    told: Callable[[int, Any], None],
+    limit: float | None = None,
 ) -> Generator[tuple[int, R | Lost]]:
     """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
 
-    `work`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and what its work tells. Where
-    the iteration is left early, as by Ctrl-C, the processes are ended. Raises `UserError`: the work of a task has
-    raised one; no further task is begun.
+    `work`, `answer`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and the numbers its
+    work tells; `limit`: see `Isolated.do`. Where the iteration is left early, as by Ctrl-C, the processes are ended.
+    Raises `UserError`: the work of a task has raised one; no further task is begun.
     """
-    workers: list[Isolated[T, R]] = [Isolated(work) for _ in range(max(1, min(jobs, len(tasks))))]
+    workers: list[Isolated[T, R]] = [Isolated(work, answer) for _ in range(max(1, min(jobs, len(tasks))))]
     try:
-        yield from as_completed_by(workers, tasks, told)
+        yield from as_completed_by(workers, tasks, told, limit)
     finally:
         for worker in workers:
             worker.close()
 
 
 def as_completed_by(
-    workers: Sequence[Isolated[T, R]], tasks: Sequence[T], told: Callable[[int, Any], None] = lambda place, word: None
+    workers: Sequence[Isolated[T, R]],
+    tasks: Sequence[T],
+    told: Callable[[int, Any], None] = lambda place, word: None,
+    limit: float | None = None,
 ) -> Generator[tuple[int, R | Lost]]:
     """As `as_completed`, by processes that go on to exist at its end."""
     idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()
@@ -45,7 +53,7 @@ def as_completed_by(
     def one(place: int) -> R | Lost:
         worker = idle.get()
         try:
-            return worker.do(tasks[place], lambda word: arrived.put((place, None, word)))
+            return worker.do(tasks[place], lambda word: arrived.put((place, None, word)), limit)
         finally:
             idle.put(worker)
 

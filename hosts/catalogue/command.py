@@ -107,7 +107,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
         print(f"{options.limits}: not judged are limits of tests that --tests leaves out: {others}", flush=True)
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
-    fmus = [fmu_file(path) for path in options.fmus]
+    fmus = [fmu_file(path).absolute() for path in options.fmus]
     cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
@@ -166,7 +166,10 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
     from ali3.isolated import Lost
     from ali3.shared_tasks import as_completed
     from hosts.catalogue.kept import keep
+    from hosts.catalogue.perform import Reason
+    from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do
+    from hosts.fmu.own_process import PATIENCE
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
@@ -177,7 +180,7 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        with closing(as_completed(do, tasks, jobs, progress)) as done:
+        with closing(as_completed(do, TestRecord | Reason, tasks, jobs, progress, PATIENCE)) as done:
             for place, outcome in done:
                 progress(place, 1.0)
                 words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome

@@ -1,47 +1,66 @@
-"""All checks of an FMU, as work for a process: a broken FMU may take it down."""
+"""All checks of an FMU, each a task for a process, which a broken FMU may take down."""
 
 from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from ali3.isolated import Lost
 from ali3.processes import memory_words
+from hosts.check.behaviour import BEHAVIOUR_CHECKS
+from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS
+from hosts.check.instance import Check, Finding, Subject, open_subject
+from hosts.check.portability import PORTABILITY_CHECKS
 from hosts.common.numbers import Value
 
-if TYPE_CHECKING:
-    from hosts.check.instance import Finding, Subject
+CHECKS: tuple[Check, ...] = tuple(
+    sorted((*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS), key=lambda check: check.crash == "note")
+)
+"""Last those whose calls are not allowed: what these do to the memory of an FMU is no fault of a later check."""
 
 
-def check(task: tuple[Path, int, Mapping[str, Value]], tell: Callable[[Finding], None]) -> int:
-    """Do all checks.
+@dataclass
+class Checker:
+    """Does the check of a number in `CHECKS`; the FMU is unpacked once in each process.
 
-    `task`: the FMU, communication steps per run, and what is set in each instance before it starts; `tell`: called with
-    each finding at once. Returns how many findings are bad.
+    `fmu`: absolute; `steps`: communication steps per run; `start`: what is set in each instance before it starts.
     """
-    from hosts.check.behaviour import BEHAVIOUR_CHECKS
-    from hosts.check.documents import DOCUMENT_CHECKS
-    from hosts.check.instance import open_subject
-    from hosts.check.portability import PORTABILITY_CHECKS
 
-    fmu, steps, start = task
-    bad = 0
-    with tempfile.TemporaryDirectory(prefix="fmu_", ignore_cleanup_errors=True) as folder:
-        subject = open_subject(fmu, Path(folder), steps, start)
-        for name, function in (*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS):
-            finding = _one(name, function, subject)
-            bad += finding.verdict == "bad"
-            tell(finding)
-    return bad
+    fmu: Path
+    steps: int
+    start: Mapping[str, Value]
+    _subject: list[Subject] = field(default_factory=list)
+
+    def __call__(self, number: int, tell: Callable[[float], None]) -> Finding:
+        if not self._subject:
+            folder = Path(tempfile.mkdtemp(prefix="fmu_"))  # goes with the folder of the process
+            self._subject.append(open_subject(self.fmu, folder, self.steps, self.start))
+        return done(CHECKS[number], self._subject[0])
 
 
-def _one(name: str, function: Callable[[Subject], Finding], subject: Subject) -> Finding:
-    from hosts.check.instance import Finding
-
+def done(check: Check, subject: Subject) -> Finding:
+    """What a check finds; an error in it is bad."""
     try:
-        return function(subject)
+        return check.find(subject)
     except (ModuleNotFoundError, MemoryError):
         raise
     except Exception as error:
-        return Finding(name, "bad", f"ended with {type(error).__name__}: {error}{memory_words()}")
+        return Finding(check.name, "bad", f"ended with {type(error).__name__}: {error}{memory_words()}")
+
+
+def lost(check: Check, loss: Lost, limit: float) -> Finding:
+    """What it says of an FMU that a check took its process down, or did not come back in a time, s."""
+    verdict = check.late if loss.late else check.crash
+    open_by = f" ({check.clause})" if verdict == "note" else ""
+    if loss.late:
+        return Finding(check.name, verdict, f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s")
+    return Finding(check.name, verdict, f"the process {loss.how}{open_by}")
+
+
+def left_out(finding: Finding) -> list[Check]:
+    """Checks that cannot be done after what one has found: those that call functions where one of these is missing."""
+    if finding.check == FUNCTIONS and finding.verdict == "bad":
+        return [check for check in CHECKS if check.calls]
+    return []

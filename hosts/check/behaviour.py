@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
-from hosts.check.instance import Finding, Instance, Subject
+from hosts.check.instance import Check, Finding, Instance, Subject
 
 # Two ways of dividing time differ by the error of the method.
 _SUBSTEP_SHARE = 0.05
+NOT_ALLOWED = "FMI does not allow its calls, and says not what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
+_ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
+_WRONG_TOKEN = "a wrong GUID"
 
 
 def runs(subject: Subject) -> Finding:
@@ -16,7 +20,11 @@ def runs(subject: Subject) -> Finding:
     if not all(math.isfinite(v) for row in rows for v in row):
         return Finding("runs", "bad", "an output is not finite")
     moving = sum(min(column) < max(column) for column in zip(*rows, strict=True))
-    return Finding("runs", "good", f"{subject.steps} steps of {subject.step:g} s, {moving} outputs move")
+    words = f"{len(rows)} steps of {subject.step:g} s, {moving} outputs move"
+    if len(rows) < subject.steps:
+        words += f"; it asks to end then, which it may {subject.clause('4.2.3', '4.2.1')}"
+        return Finding("runs", "note", words)
+    return Finding("runs", "good", words)
 
 
 def repeats(subject: Subject) -> Finding:
@@ -35,15 +43,14 @@ def resets(subject: Subject) -> Finding:
     """A reset instance is a new one."""
     instance = Instance(subject).start()
     first = instance.run(subject.steps)
-    instance.slave.reset()
+    instance.reset()
     same = instance.start().run(subject.steps) == first
     return Finding("reset", "good" if same else "bad", "as at the first start" if same else "not as at the first start")
 
 
 def states(subject: Subject) -> Finding:
-    """Roll back, another instance through bytes, altered bytes."""
-    face = subject.description.coSimulation
-    if not (face.canGetAndSetFMUstate and face.canSerializeFMUstate):
+    """Roll back, another instance through bytes."""
+    if not _has_states(subject):
         return Finding("states", "note", "cannot be saved and restored")
     half = max(1, subject.steps // 2)
     instance = Instance(subject).start()
@@ -55,6 +62,21 @@ def states(subject: Subject) -> Finding:
     other.restore_bytes(data)
     if instance.run(half, half) != first or other.run(half, half) != first:
         return Finding("states", "bad", "a restored state goes on differently")
+    return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
+
+
+def _has_states(subject: Subject) -> bool:
+    face = subject.description.coSimulation
+    return bool(face.canGetAndSetFMUstate and face.canSerializeFMUstate)
+
+
+def altered_states(subject: Subject) -> Finding:
+    """Whether bytes of a state with one bit changed are refused."""
+    if not _has_states(subject):
+        return Finding("altered states", "good", "there are none")
+    instance, other = Instance(subject).start(), Instance(subject)
+    instance.run(max(1, subject.steps // 2))
+    data = instance.state_bytes()
     taken = 0
     for k in range(16):
         altered = bytearray(data)
@@ -65,8 +87,8 @@ def states(subject: Subject) -> Finding:
         except Exception:
             continue
     if taken:
-        return Finding("states", "note", f"exact, {len(data)} bytes; {taken} of 16 altered states were taken")
-    return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes; altered ones are refused")
+        return Finding("altered states", "note", f"{taken} of 16 were taken ({_ALTERED})")
+    return Finding("altered states", "good", "16 of 16 are refused")
 
 
 def refusals(subject: Subject) -> Finding:
@@ -86,7 +108,7 @@ def refusals(subject: Subject) -> Finding:
         if instance is None or not warned or len(instance.messages) == before:
             taken.append(what)
 
-    expect("a wrong GUID", None, lambda: Instance(subject, "{wrong}"))
+    expect(_WRONG_TOKEN, None, lambda: Instance(subject, "{wrong}"))
     early = Instance(subject)
     expect("a step before initialisation", early, lambda: early.slave.doStep(0.0, subject.step))
     if subject.inputs:
@@ -97,7 +119,12 @@ def refusals(subject: Subject) -> Finding:
     getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
     if taken:
-        return Finding("refusals", "bad", f"accepted without a message: {', '.join(taken)}")
+        words = f"accepted without a message: {', '.join(taken)}"
+        if _WRONG_TOKEN in taken and not subject.three:
+            return Finding("refusals", "bad", f"{words} (FMI 2.0, 2.1.5: the GUID must be the one inside)")
+        return Finding(
+            "refusals", "note", f"{words}; FMI does not say what an FMU does {subject.clause('4.2.4', '2.3.1')}"
+        )
     if silent:
         return Finding("refusals", "note", f"refused without a message: {', '.join(silent)}")
     return Finding("refusals", "good", "wrong GUID, order, NaN and references are refused, with messages")
@@ -112,12 +139,13 @@ def other_steps(subject: Subject) -> Finding:
     k = 0
     while time < end - 1e-9:
         step = min(subject.step * (0.7, 1.0, 2.5)[k % 3], end - time)
-        instance.slave.doStep(time, step)
+        if not instance.advance(time, step):
+            break
         time, k = time + step, k + 1
     last = instance.get(subject.outputs)
     moving = [(a, b, max(c) - min(c)) for a, b, c in zip(last, fine[-1], zip(*fine, strict=True), strict=True)]
     near = sum(abs(a - b) <= _SUBSTEP_SHARE * span + 1e-9 for a, b, span in moving)
-    verdict = "good" if all(math.isfinite(v) for v in last) else "bad"
+    verdict: Literal["good", "bad"] = "good" if all(math.isfinite(v) for v in last) else "bad"
     words = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
     return Finding("steps of any size", verdict, words)
 
@@ -135,11 +163,12 @@ def many(subject: Subject) -> Finding:
 
 
 BEHAVIOUR_CHECKS = (
-    ("runs", runs),
-    ("repeats", repeats),
-    ("reset", resets),
-    ("states", states),
-    ("refusals", refusals),
-    ("steps of any size", other_steps),
-    ("many instances", many),
+    Check("runs", runs),
+    Check("repeats", repeats),
+    Check("reset", resets),
+    Check("states", states),
+    Check("altered states", altered_states, crash="note", late="note", clause=_ALTERED),
+    Check("refusals", refusals, crash="note", late="note", clause=NOT_ALLOWED),
+    Check("steps of any size", other_steps),
+    Check("many instances", many),
 )

@@ -14,6 +14,8 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from ali3.confinement import confine
+from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.isolated import Isolated, Lost
@@ -21,7 +23,6 @@ from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.reading import no_file
 from ali3.running import run_command
 from ali3.words import shortened
-from hosts.check.all_checks import check
 from hosts.check.junit import Case, write_junit
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -36,6 +37,8 @@ _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _WIDTH = 22
 _MOST_STEPS = 100_000
 _STEPS = 50
+_TIME_LIMIT = 20.0  # s for a check
+_OF_CHECK = ("steps", "time_limit")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
 _OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "out", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
@@ -56,9 +59,13 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--steps", type=_steps, metavar="N", help=f"communication steps per run of a check; default: {_STEPS}"
     )
     parser.add_argument(
+        "--time-limit", type=number, metavar="S", help=f"seconds that a check may take; default: {_TIME_LIMIT:g}"
+    )
+    parser.add_argument(
         "--junit", type=Path, metavar="FILE", help="write the verdict there too, of the check or of --reference"
     )
     add_setting_options(parser)
+    add_option(parser, "--confined")
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
     add_option(table, "--show-parameters")
     table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all, with what is set, to this file")
@@ -125,10 +132,14 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(others) > 1:
         raise HostError(f"{others[0]} does not go with {others[-1]}.")
-    if options.steps is not None and others:
-        raise HostError("--steps is of the check alone.")
+    if (of_check := given_of(parser, options, _OF_CHECK)) and others:
+        raise HostError(f"{of_check[0]} is of the check alone.")
     if options.junit is not None and (table or options.soak):
         raise HostError(f"--junit does not go with {others[0]}.")
+    if options.confined and (table or options.soak):
+        raise HostError(f"--confined does not go with {others[0]}.")
+    if options.confined:
+        confine()
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak
@@ -149,7 +160,7 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     try:
         if reference:
             return _against(fmu, options, cases)
-        return _outside(fmu, _STEPS if options.steps is None else options.steps, wishes(options), cases)
+        return _outside(fmu, options, cases)
     except BaseException as error:  # Ctrl-C too: what was looked at until then is no verdict
         if not any(case.verdict == "error" for case in cases):
             cases.append(Case(fmu.stem, "ali3 check", "error", str(error) or type(error).__name__))
@@ -181,35 +192,45 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
     return settings_of(Variables(described(fmu)), given)
 
 
-def _outside(fmu: Path, steps: int, given: Wishes, cases: list[Case]) -> int:
-    """The checks in a process of their own, which a broken FMU may take down."""
+def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
+    """The checks in a process of their own; one that a check takes down is replaced for the others."""
+    from hosts.check.all_checks import CHECKS, Checker, left_out, lost
+    from hosts.check.instance import Finding
+    from hosts.fmu.own_process import files_of
+
     if not fmu.is_file():
         raise HostError(no_file(fmu))
     if not zipfile.is_zipfile(fmu):
         raise HostError(f"{fmu} is not an FMU (not a zip archive).")
     start: Mapping[str, Value] = {}
-    if given:
+    if given := wishes(options):
         settings = _settings(fmu, given)
         start = settings.start
         for name, words in settings.rows():
             print(f" set  {name:<{_WIDTH}}  {words}", flush=True)
-    begin = time.perf_counter()
-
-    def tell(finding: Finding) -> None:
-        nonlocal begin
-        print_finding(finding)
-        verdict: Literal["good", "bad"] = "bad" if finding.verdict == "bad" else "good"
-        now = time.perf_counter()
-        cases.append(Case(fmu.stem, finding.check, verdict, finding.words, now - begin))
-        begin = now
-
-    with closing(Isolated(check)) as process:
-        bad = process.do((fmu, steps, start), tell)
-    if isinstance(bad, Lost):
-        cases.append(Case(fmu.stem, "stays alive", "bad", f"the process that ran the next check {bad.how}"))
-        print(f"{_MARKS['bad']:>4}  {'stays alive':<{_WIDTH}}  the process that ran the next check {bad.how}")
-        print(f"\n{fmu}: bad")
-        return 1
+    limit = _TIME_LIMIT if options.time_limit is None else options.time_limit
+    if not limit > 0.0:
+        raise HostError(f"--time-limit is {limit:g} s; it must be positive.")
+    without: list[str] = []
+    checker = Checker(fmu.absolute(), _STEPS if options.steps is None else options.steps, start)
+    with closing(Isolated(checker, Finding, reads=(fmu, *files_of(start)))) as process:
+        for place, check in enumerate(CHECKS):
+            if check.name in without:
+                cases.append(Case(fmu.stem, check.name, "skipped", "functions are missing"))
+                continue
+            begin = time.perf_counter()
+            result = process.do(place, limit=limit)
+            finding = lost(check, result, limit) if isinstance(result, Lost) else result
+            print_finding(finding)
+            verdict: Literal["good", "bad"] = "bad" if finding.verdict == "bad" else "good"
+            cases.append(Case(fmu.stem, check.name, verdict, finding.words, time.perf_counter() - begin))
+            without += [other.name for other in left_out(finding)]
+    if process.left:
+        words = f"{process.left} that it had started were ended with it"
+        print(f"{_MARKS['note']:>4}  {'processes':<{_WIDTH}}  {words}")
+    if without:
+        print(f"{_MARKS['note']:>4}  {'not done':<{_WIDTH}}  {len(without)} checks, which call functions of the FMU")
+    bad = sum(case.verdict == "bad" for case in cases)
     print(f"\n{fmu}: {'nothing bad found' if not bad else f'{bad} bad'}")
     return 1 if bad else 0
 

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from fmpy import platform, supported_platforms
+import ctypes
+
+from fmpy import platform, platform_tuple, sharedLibraryExtension, supported_platforms
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
-from hosts.check.instance import Finding, Subject
+from ali3.call_mark import marked
+from ali3.columns import some_of
+from hosts.check.instance import Check, Finding, Subject
+
+FUNCTIONS = "functions"
 
 
 def description(subject: Subject) -> Finding:
@@ -22,6 +30,35 @@ def binaries(subject: Subject) -> Finding:
     found = supported_platforms(str(subject.path))
     words = ", ".join(found) or "none"
     return Finding("binaries", "good" if platform in found else "bad", words)
+
+
+def functions(subject: Subject) -> Finding:
+    """Whether the library can be loaded and has all functions of the standard, under their names."""
+    face = subject.description.coSimulation.modelIdentifier
+    library = (
+        subject.folder
+        / "binaries"
+        / (platform_tuple if subject.three else platform)
+        / f"{face}{sharedLibraryExtension}"
+    )
+    try:
+        loaded = marked("dlopen", ctypes.CDLL)(str(library))
+    except OSError as error:
+        return Finding(FUNCTIONS, "bad", f"the library cannot be loaded: {error}")
+    kind, prefix = (FMU3Slave, "fmi3") if subject.three else (FMU2Slave, "fmi2")
+    wanted = [name for name in dir(kind) if name.startswith(prefix)]
+    missing = [name for name in wanted if not hasattr(loaded, name)]
+    clause = subject.clause("2.3", "2.5")
+    if not missing:
+        return Finding(FUNCTIONS, "good", f"the library has all {len(wanted)}")
+    if hasattr(loaded, f"{face}_{missing[0]}"):
+        return Finding(
+            FUNCTIONS,
+            "bad",
+            f"they begin with the prefix {face}_, which those of sources and static libraries have, not those of a "
+            f"shared library {subject.clause('2.1.1', '2.2.2')}",
+        )
+    return Finding(FUNCTIONS, "bad", f"{len(missing)} of {len(wanted)} are missing: {some_of(missing)} {clause}")
 
 
 def execution_tool(subject: Subject) -> Finding:
@@ -65,10 +102,11 @@ def folders(subject: Subject) -> Finding:
 
 
 DOCUMENT_CHECKS = (
-    ("model description", description),
-    ("binaries", binaries),
-    ("stands alone", execution_tool),
-    ("size", size),
-    ("units", units),
-    ("documentation, sources", folders),
+    Check("model description", description, calls=False),
+    Check("binaries", binaries, calls=False),
+    Check(FUNCTIONS, functions, calls=False),
+    Check("stands alone", execution_tool, calls=False),
+    Check("size", size, calls=False),
+    Check("units", units, calls=False),
+    Check("documentation, sources", folders, calls=False),
 )

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
 from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.errors import reason
@@ -24,9 +26,25 @@ class Finding:
     """One line of the verdict."""
 
     check: str
-    verdict: str
-    """``good``, ``note`` or ``bad``."""
+    verdict: Literal["good", "note", "bad"]
+    """``note``: what the standard leaves open, with its clause."""
     words: str
+
+
+@dataclass(frozen=True)
+class Check:
+    """A check, and what its loss says of the FMU."""
+
+    name: str
+    find: Callable[[Subject], Finding]
+    calls: bool = True
+    """Whether it calls functions of the FMU."""
+    crash: Literal["note", "bad"] = "bad"
+    """If its process ends: a note where the check makes calls that the standard does not allow."""
+    late: Literal["note", "bad"] = "bad"
+    """If it takes too long: a note where the standard allows that."""
+    clause: str = ""
+    """Of FMI, where one of them is a note."""
 
 
 @dataclass
@@ -53,6 +71,10 @@ class Subject:
         """Whether it is FMI 3.0."""
         return str(self.description.fmiVersion).startswith("3")
 
+    def clause(self, two: str, three: str) -> str:
+        """The clause that a verdict rests on, of the version of FMI that this is."""
+        return f"(FMI {'3.0' if self.three else '2.0'}, {three if self.three else two})"
+
     @property
     def outputs(self) -> list[ScalarVariable]:
         """Outputs that are real or whole numbers, the real ones first."""
@@ -67,6 +89,7 @@ class Subject:
 
 _REAL = ("Real", "Float64")
 _WHOLE = ("Integer", "Int32")
+_DISCARD, _TERMINATED = 2, 3
 
 
 def count_of(variable: ScalarVariable) -> int:
@@ -80,7 +103,7 @@ class Instance(instance.Instance):
     def __init__(
         self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
     ) -> None:
-        self.subject = subject
+        self.subject, self.ended = subject, False
         self.messages: list[str] = []
         super().__init__(
             subject.by_elements,
@@ -95,6 +118,36 @@ class Instance(instance.Instance):
         """Set what is to be set and leave initialisation."""
         self.initialise({self.subject.places[n]: x for n, x in self.subject.start.items()}, start_time, stop_time)
         return self
+
+    def advance(self, time: float, step: float) -> bool:
+        """A step; whether it was made, and not where the FMU asks to end before, as it may."""
+        if self.ended:
+            return False
+        try:
+            answer = self.slave.doStep(time, step)
+        except FMICallException as error:
+            if self.three or error.status != _DISCARD or not self._asks_to_end():
+                raise
+            self.ended = True
+            return False
+        self.ended = bool(answer[1]) if self.three else False
+        return True
+
+    def _asks_to_end(self) -> bool:
+        try:
+            return bool(self.slave.getBooleanStatus(_TERMINATED))
+        except FMICallException:
+            return False
+
+    def reset(self) -> None:
+        """Back to before `start`."""
+        super().reset()
+        self.ended = False
+
+    def restore_bytes(self, content: bytes) -> None:
+        """Go on from a state of `state_bytes`."""
+        super().restore_bytes(content)
+        self.ended = False
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
         """Values of real variables, then those of whole ones; arrays flattened."""
@@ -114,11 +167,12 @@ class Instance(instance.Instance):
         self.set({self.subject.places[variable.name]: value})
 
     def run(self, steps: int, begin: int = 0) -> list[list[float]]:
-        """Outputs after each step."""
+        """Outputs after each step, up to the end that the FMU asks for."""
         h = self.subject.step
-        rows = []
+        rows: list[list[float]] = []
         for k in range(begin, begin + steps):
-            self.slave.doStep(k * h, h)
+            if not self.advance(k * h, h):
+                break
             rows.append(self.get(self.subject.outputs))
         return rows
 

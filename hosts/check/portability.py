@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import threading
 from collections import Counter
+from collections.abc import Callable
 from ctypes import byref, c_bool, c_double, c_int, c_void_p
 from xml.etree import ElementTree
 
-from hosts.check.instance import Finding, Instance, Subject, count_of
+from ali3.call_mark import marked
+from hosts.check.behaviour import NOT_ALLOWED
+from hosts.check.instance import Check, Finding, Instance, Subject, count_of
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
 _LICENCES = ("license.txt", "license.html", "license.spdx")
 _FAR = 1e16
 _INNER_STEPS = 1e9
-_PATIENCE = 20.0
+_NO_LIMIT = "FMI sets no time for a step: FMI 2.0, 4.2.2, and FMI 3.0, 4.2.1"
 _OK, _ERROR, _SHORT_STEP = 0, 3, 0.5
 _DISCARD, _TRIES, _COARSE, _STRONG = 2, 40, 10, 100.0
-_DO_STEP_STATUS = 0
 
 
 def one_spelling(subject: Subject) -> Finding:
@@ -26,7 +27,8 @@ def one_spelling(subject: Subject) -> Finding:
     twice = [name for name, count in Counter(map(_plain, spelt)).items() if count > 1]
     if twice:
         both = " and ".join(f"'{name}'" for name in spelt if _plain(name) == twice[0])
-        return Finding("unit names", "bad", f"one unit under two names: {both}")
+        words = f"one unit under two names: {both}; FMI asks for different names only"
+        return Finding("unit names", "note", f"{words} {subject.clause('2.2.2', '2.4.3')}")
     return Finding("unit names", "good", f"{len(spelt)}, each under one name")
 
 
@@ -42,7 +44,8 @@ def whole_numbers(subject: Subject) -> Finding:
         if v.type in ("Real", "Float64") and v.name.rpartition(".")[2] in _COUNTS
     ]
     if found:
-        return Finding("whole numbers", "bad", f"{len(found)} counts or levels are real numbers, such as {found[0]}")
+        words = f"{len(found)} counts or levels are real numbers, such as {found[0]}; FMI leaves the type open"
+        return Finding("whole numbers", "note", f"{words} {subject.clause('2.2.7', '2.4.7')}")
     return Finding("whole numbers", "good", "counts and levels are integers")
 
 
@@ -66,7 +69,8 @@ def about_the_file(subject: Subject) -> Finding:
     if len(initial) > 8 and all(len(d) == len(initial[0]) > 1 for d in initial):
         words.append("every initial output is said to depend on everything")
     if words:
-        return Finding("about the file", "bad", "; ".join(words))
+        clause = subject.clause("2.2.1, 2.2.7, 2.3", "2.4.1, 2.4.7, 2.5.1")
+        return Finding("about the file", "note", f"{'; '.join(words)}; all of it is optional {clause}")
     left_out = sum(u.dependencies is None for u in unknowns)
     told = (
         f"{left_out} of {len(unknowns)} initial outputs depend on all that is set"
@@ -86,10 +90,10 @@ def build_files(subject: Subject) -> Finding:
     named = description.exists() and any(
         e.get("name") == "m" for e in ElementTree.parse(description).getroot().iter("Library")
     )
-    words = (
-        "names the mathematical library" if named else "the sources use the mathematical library, which is not named"
-    )
-    return Finding("build description", "good" if named else "bad", words)
+    if named:
+        return Finding("build description", "good", "names the mathematical library")
+    words = "the sources use the mathematical library, which is not named; FMI does not say that it must be"
+    return Finding("build description", "note", f"{words} {subject.clause('2.3', '2.4.10')}")
 
 
 def time_anywhere(subject: Subject) -> Finding:
@@ -106,8 +110,12 @@ def time_anywhere(subject: Subject) -> Finding:
         values = instance.slave.getFloat64(references)
     except Exception as error:
         return Finding("time", "bad", f"cannot be read with other variables, or twice: {error}")
-    good = abs(values[0] - 2.0 * subject.step) < 1e-9 and values[0] == values[-1]
-    return Finding("time", "good" if good else "bad", "beside other variables and twice" if good else f"reads {values}")
+    if abs(values[0] - 2.0 * subject.step) < 1e-9 and values[0] == values[-1]:
+        return Finding("time", "good", "beside other variables and twice")
+    words = (
+        f"reads {values[0]:.9g} s and {values[-1]:.9g} s after a step to {2.0 * subject.step:.9g} s (FMI 3.0, 4.2.1)"
+    )
+    return Finding("time", "bad", words)
 
 
 def dependencies(subject: Subject) -> Finding:
@@ -150,12 +158,16 @@ def quiet_steps(subject: Subject) -> Finding:
         return Finding("quiet steps", "good", "only the one step size is allowed")
     status = _step_status(Instance(subject).start(), 0.0, _SHORT_STEP * subject.step)
     if status != _OK:
-        return Finding("quiet steps", "bad", f"half the default step is answered with status {status}")
+        words = f"half the default step is answered with status {status}, which FMI leaves to the FMU"
+        return Finding("quiet steps", "note", f"{words} {subject.clause('2.1.3', '2.2.4')}")
     return Finding("quiet steps", "good", "half the default step is no warning")
 
 
 def careless_calls(subject: Subject) -> Finding:
-    """An empty name, an unknown log category, values too early, a step beyond the end: refused; the status reported."""
+    """An empty name, an unknown log category, values too early, a step beyond the end: refused.
+
+    FMI says of the last alone what an FMU has to do; that of FMI 3.0 gives start values before its initialisation.
+    """
     taken = []
     try:
         Instance(subject, name="")
@@ -163,28 +175,32 @@ def careless_calls(subject: Subject) -> Finding:
     except Exception:
         pass
     early = Instance(subject)
-    real = [v for v in subject.outputs if v.type in ("Real", "Float64")][:1]
-    for what, call in (
-        ("values before initialisation", lambda: early.get(real)),
+    real = [v for v in subject.outputs if v.type == "Real"][:1]
+    calls: list[tuple[str, Callable[[], object]]] = [
         ("an unknown log category", lambda: early.slave.setDebugLogging(True, ["logNoSuchThing"])),
-    ):
+        *([("values before initialisation", lambda: early.get(real))] if real else []),
+    ]
+    for what, call in calls:
         try:
             call()
             taken.append(what)
         except Exception:
             continue
-    ended = Instance(subject).start(stop_time=2.0 * subject.step)
-    if _step_status(ended, 0.0, 3.0 * subject.step) < _ERROR:
-        taken.append("a step beyond the stop time")
-    if not subject.three:
-        try:
-            if ended.slave.getStatus(_DO_STEP_STATUS) != _ERROR:
-                taken.append("fmi2GetStatus returns another status than the last step had")
-        except Exception:
-            taken.append("fmi2GetStatus does not return the status of the last step")
     if taken:
-        return Finding("careless calls", "bad", f"accepted without a message: {', '.join(taken)}")
-    return Finding("careless calls", "good", "empty names, unknown categories, early reads and late steps are refused")
+        words = f"accepted without a message: {', '.join(taken)}; FMI does not say what an FMU does"
+        return Finding("careless calls", "note", f"{words} {subject.clause('2.1.5, 4.2.4', '2.3.1')}")
+    return Finding("careless calls", "good", "empty names, unknown categories and early reads are refused")
+
+
+def stop_time(subject: Subject) -> Finding:
+    """A step beyond a stop time that was set is an error."""
+    ended = Instance(subject).start(stop_time=2.0 * subject.step)
+    ended.run(1)
+    status = _step_status(ended, subject.step, 2.0 * subject.step)
+    if status < _ERROR:
+        words = f"a step beyond it is answered with status {status}, not as an error"
+        return Finding("stop time", "bad", f"{words} {subject.clause('2.1.6', '2.3.3')}")
+    return Finding("stop time", "good", "a step beyond it is refused")
 
 
 def capital_scheme(subject: Subject) -> Finding:
@@ -192,12 +208,14 @@ def capital_scheme(subject: Subject) -> Finding:
     if subject.three:
         return Finding("resources", "good", "FMI 3.0 gives a path")
     uri = (subject.folder / "resources").as_uri()
+    Instance(subject, resources=uri)
     try:
         Instance(subject, resources="FILE" + uri.removeprefix("file"))
     except MemoryError:
         raise
     except Exception:
-        return Finding("resources", "bad", "a location that begins with FILE:// is refused")
+        words = "a location that begins with FILE:// is refused; schemes should be taken in capitals (RFC 3986, 3.1)"
+        return Finding("resources", "note", words)
     return Finding("resources", "good", "the scheme of their location may be in capitals")
 
 
@@ -224,7 +242,8 @@ def refused_steps(subject: Subject) -> Finding:
             continue
         statuses += [_step_status(instance, time, step) for _ in range(2)]
         if statuses[-1] < _ERROR:
-            return Finding("refused steps", "bad", f"a refused step at {time:g} s can be asked for without end")
+            words = f"a refused step at {time:g} s can be asked for without end, which FMI leaves to the host"
+            return Finding("refused steps", "note", f"{words} {subject.clause('2.1.3', '4.2.1')}")
         return Finding("refused steps", "good", f"a step refused at {time:g} s is an error the third time")
     return Finding("refused steps", "good", "none was refused with strong inputs")
 
@@ -238,43 +257,42 @@ def far_clock(subject: Subject) -> Finding:
         return Finding("far from zero", "good", f"a start at {_FAR:g} s is refused")
     status = _step_status(instance, _FAR, subject.step)
     if status < _ERROR:
-        return Finding("far from zero", "bad", f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands")
+        words = f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands; FMI does not speak of it"
+        return Finding("far from zero", "note", f"{words} {subject.clause('4.2.2', '4.2.1')}")
     return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR:g} s is refused")
 
 
 def long_steps(subject: Subject) -> Finding:
     """A communication step that would take hours comes back."""
-    instance, answers = Instance(subject).start(), []
     length = _INNER_STEPS * 0.999 * subject.step
-    worker = threading.Thread(target=lambda: answers.append(_step_status(instance, 0.0, length)), daemon=True)
-    worker.start()
-    worker.join(_PATIENCE)
-    if worker.is_alive():
-        return Finding("long steps", "bad", f"a step of {length:g} s has not come back after {_PATIENCE:g} s")
-    return Finding("long steps", "good", f"a step of {length:g} s is answered at once with status {answers[0]}")
+    status = _step_status(Instance(subject).start(), 0.0, length)
+    return Finding("long steps", "good", f"a step of {length:g} s is answered in time, with status {status}")
 
 
 def _step_status(instance: Instance, time: float, step: float) -> int:
     """Status of a step, a warning too, which FMPy passes over."""
     slave, begin, length = instance.slave, c_double(time), c_double(step)
     if not instance.three:
-        return int(slave.dll.fmi2DoStep(c_void_p(slave.component), begin, length, c_int(1)))
+        two = marked("fmi2DoStep", slave.dll.fmi2DoStep)
+        return int(two(c_void_p(slave.component), begin, length, c_int(1)))
+    three = marked("fmi3DoStep", slave.dll.fmi3DoStep)
     pointers = [*(byref(c_bool()) for _ in range(3)), byref(c_double())]
-    return int(slave.dll.fmi3DoStep(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
+    return int(three(c_void_p(slave.component), begin, length, c_bool(True), *pointers))
 
 
 PORTABILITY_CHECKS = (
-    ("unit names", one_spelling),
-    ("whole numbers", whole_numbers),
-    ("about the file", about_the_file),
-    ("build description", build_files),
-    ("time", time_anywhere),
-    ("dependencies", dependencies),
-    ("quiet steps", quiet_steps),
-    ("careless calls", careless_calls),
-    ("resources", capital_scheme),
-    ("arrays", arrays),
-    ("refused steps", refused_steps),
-    ("far from zero", far_clock),
-    ("long steps", long_steps),
+    Check("unit names", one_spelling, calls=False),
+    Check("whole numbers", whole_numbers, calls=False),
+    Check("about the file", about_the_file, calls=False),
+    Check("build description", build_files, calls=False),
+    Check("time", time_anywhere),
+    Check("dependencies", dependencies),
+    Check("quiet steps", quiet_steps),
+    Check("careless calls", careless_calls, crash="note", late="note", clause=NOT_ALLOWED),
+    Check("stop time", stop_time),
+    Check("resources", capital_scheme),
+    Check("arrays", arrays, calls=False),
+    Check("refused steps", refused_steps, late="note", clause=_NO_LIMIT),
+    Check("far from zero", far_clock, late="note", clause=_NO_LIMIT),
+    Check("long steps", long_steps, late="note", clause=_NO_LIMIT),
 )

@@ -149,7 +149,8 @@ def check_reference(
     )
     ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
     if result.failed_steps:
-        ended = f"The step at {result.time[-1]:g} s was refused; the reference goes on to {times[-1]:g} s."
+        refused = result.ended or f"The step at {result.time[-1]:g} s was refused"
+        ended = f"{refused.rstrip('.')}; the reference goes on to {times[-1]:g} s."
         print(ended)
     run = Case(file.stem, "run", "bad" if result.failed_steps else "good", ended, time.perf_counter() - begin)
     missing = [Case(file.stem, name, "skipped", f"{path.name} has no such output") for name in left]

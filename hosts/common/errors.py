@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from ali3.errors import UserError
+from ali3.running import NOT_GOOD
 
 
 class HostError(UserError):
     """Something the user can put right; the message says what."""
+
+
+class LostProcessError(HostError):
+    """The process of an FMU has ended; what it was asked is in the sentence."""
+
+    status = NOT_GOOD

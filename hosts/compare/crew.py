@@ -8,12 +8,14 @@ from typing import Any
 
 from ali3.isolated import Isolated, Lost
 from ali3.shared_tasks import as_completed_by
-from hosts.common.errors import HostError
+from hosts.common.errors import LostProcessError
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.stretches import Stretch
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu import StartRefusedError
+from hosts.fmu.own_process import PATIENCE, files_of
 
 _Task = tuple[int, dict[str, Value], bool | None]
 
@@ -24,9 +26,13 @@ class _Member:
     def __init__(self, fmu: LoadedFmu, stretches: Sequence[Stretch]) -> None:
         self._fmu, self._stretches = fmu, list(stretches)
 
-    def __call__(self, task: _Task, tell: Callable[[Any], None]) -> Result:
+    def __call__(self, task: _Task, tell: Callable[[Any], None]) -> Result | str:
+        """The result, or why the FMU does not start with these values: no error, which would end the others."""
         number, values, self._fmu.can_reset = task
-        return self._fmu.drive(self._stretches[number], values)
+        try:
+            return self._fmu.drive(self._stretches[number], values, tell)
+        except StartRefusedError as error:
+            return str(error)
 
 
 class Crew:
@@ -34,21 +40,32 @@ class Crew:
 
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:
         self._stretches = list(stretches)
-        member = _Member(LoadedFmu(path, aliases, step), stretches)
-        self._workers: list[Isolated[_Task, Result]] = [Isolated(member) for _ in range(min(jobs, len(stretches)))]
+        reads = [path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
+        member = _Member(LoadedFmu(path.absolute(), aliases, step), stretches)
+        self._workers: list[Isolated[_Task, Result | str]] = [
+            Isolated(member, Result | str, reads=reads) for _ in range(max(1, min(jobs, len(stretches))))
+        ]
+
+    def drive_first(self, can_reset: bool) -> Result:
+        """Drive the first stretch, each time by the same process."""
+        return self._result(0, self._workers[0].do((0, {}, can_reset), limit=PATIENCE))
+
+    def _result(self, number: int, result: Result | str | Lost) -> Result:
+        if isinstance(result, str):
+            raise StartRefusedError(result)
+        if not isinstance(result, Lost):
+            return result
+        fewer = " --jobs 1 takes less memory." if len(self._workers) > 1 else ""
+        begin = self._stretches[number].begin
+        raise LostProcessError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")
 
     def drive(self, values: Mapping[str, Value] | None, can_reset: bool | None) -> list[Result]:
-        """Drive all stretches; results in their order. Raises `HostError`: a process has ended."""
+        """Drive all stretches; results in their order. Raises `LostProcessError`: a process has ended."""
         tasks: list[_Task] = [(k, dict(values or {}), can_reset) for k in range(len(self._stretches))]
-        results: dict[int, Result] = {}
-        for k, result in as_completed_by(self._workers, tasks):
-            if isinstance(result, Lost):
-                raise HostError(
-                    f"The process that drove the window from {self._stretches[k].begin:g} s {result.how}. --jobs 1 "
-                    "drives all in one process and takes less memory."
-                )
+        results: dict[int, Result | str | Lost] = {}
+        for k, result in as_completed_by(self._workers, tasks, limit=PATIENCE):
             results[k] = result
-        return [results[k] for k in range(len(tasks))]
+        return [self._result(k, results[k]) for k in range(len(tasks))]
 
     def close(self) -> None:
         """End the processes."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -73,7 +73,12 @@ class LoadedFmu:
             self._fmu.close()
             self._fmu = None
 
-    def drive(self, stretch: Stretch, values: Mapping[str, Value] | None = None) -> Result:
+    def drive(
+        self,
+        stretch: Stretch,
+        values: Mapping[str, Value] | None = None,
+        progress: Callable[[int], None] = lambda done: None,
+    ) -> Result:
         """Drive one stretch. `values`: start values by our names, in place of those of the stretch."""
         if self._fmu is not None and self.can_reset is False:
             self.close()
@@ -89,6 +94,6 @@ class LoadedFmu:
         # A pilot has a memory: each run has its own.
         driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
         self._fmu.messages.clear()
-        result = run(fmu, manoeuvre, self._step, driver)
+        result = run(fmu, manoeuvre, self._step, driver, progress)
         derive_columns(result, self._aliases)
         return result

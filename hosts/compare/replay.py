@@ -13,7 +13,6 @@ from hosts.common.closing import Closing
 from hosts.common.numbers import Value
 from hosts.compare.crew import Crew
 from hosts.compare.follower import demanded
-from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
@@ -115,26 +114,21 @@ class Replay(Closing):
         jobs: int = 1,
     ) -> None:
         self.stretches, self.step = list(stretches), step
-        self._own = LoadedFmu(path, aliases, step)
-        self._crew = Crew(path, aliases, stretches, step, jobs) if min(jobs, len(self.stretches)) > 1 else None
+        self._crew = Crew(path, aliases, stretches, step, jobs)
+        self._can_reset: bool | None = None
         self.said: dict[str, int] = {}
         self.runs = 0
 
     def close(self) -> None:
         """End all processes."""
-        self._own.close()
-        if self._crew is not None:
-            self._crew.close()
+        self._crew.close()
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
         """Drive all stretches with other start values than those of their manoeuvres. `values`: by our names.
 
         Result: under our names; several stretches as `joined` puts them.
         """
-        if self._crew is None:
-            results = [self._own.drive(stretch, values) for stretch in self.stretches]
-        else:
-            results = self._crew.drive(values, self._own.can_reset)
+        results = self._crew.drive(values, self._can_reset)
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
             self.said[message] = self.said.get(message, 0) + 1
@@ -145,8 +139,8 @@ class Replay(Closing):
 
         Returns whether it repeats itself to the last bit, after a reset or loaded again.
         """
-        for self._own.can_reset in (True, False):
-            first, again = (self._own.drive(self.stretches[0]).values for _ in range(2))
+        for self._can_reset in (True, False):
+            first, again = (self._crew.drive_first(self._can_reset).values for _ in range(2))
             if first.shape == again.shape and bool(np.array_equal(first, again, equal_nan=True)):
                 return True
         return False

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -15,6 +16,7 @@ from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.own_process import files_of, in_own_process
 
 ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
 _POINTS = 21  # of the curve between both locks
@@ -43,8 +45,28 @@ def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle
     Angles that a logger has computed from that of the steering wheel do not know what the linkage gives under load; an
     FMU whose column or frame gives turns its wheels by less than `angle` then, as the car does.
     """
-    steering, found = np.linspace(-1.0, 1.0, _POINTS), np.empty(_POINTS)
-    values = np.empty(len(ANGLES))
+    steering = np.linspace(-1.0, 1.0, _POINTS)
+    found = in_own_process(
+        _turned, (path.absolute(), aliases, dict(start), steering), NDArray[np.float64], [path, *files_of(start)]
+    )
+    rises = np.diff(found)
+    if not (rises > 0.0).all():
+        raise HostError(f"{path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")
+    largest = float(np.max(np.abs(angle.values)))
+    if largest > min(-found[0], found[-1]):
+        raise HostError(
+            f"The log turns the front wheels by up to {math.degrees(largest):.3g} deg; {path.name} by "
+            f"{math.degrees(-found[0]):.3g} to the right and {math.degrees(found[-1]):.3g} to the left at full lock."
+        )
+    return replace(angle, name="steering", unit="1", values=np.interp(angle.values, found, steering))
+
+
+def _turned(
+    task: tuple[Path, Aliases, dict[str, Value], NDArray[np.float64]], tell: Callable[[float], None]
+) -> NDArray[np.float64]:
+    """Mean angles of the front wheels at values of the steering."""
+    path, aliases, start, steering = task
+    found, values = np.empty(len(steering)), np.empty(len(ANGLES))
     with Fmu(path) as opened:
         for k, x in enumerate(steering.tolist()):
             if k:
@@ -56,13 +78,4 @@ def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle
                 fmu.step(step * _STEP, _STEP)
             fmu.reader(ANGLES)(values)
             found[k] = values.mean()
-    rises = np.diff(found)
-    if not (rises > 0.0).all():
-        raise HostError(f"{path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")
-    largest = float(np.max(np.abs(angle.values)))
-    if largest > min(-found[0], found[-1]):
-        raise HostError(
-            f"The log turns the front wheels by up to {math.degrees(largest):.3g} deg; {path.name} by "
-            f"{math.degrees(-found[0]):.3g} to the right and {math.degrees(found[-1]):.3g} to the left at full lock."
-        )
-    return replace(angle, name="steering", unit="1", values=np.interp(angle.values, found, steering))
+    return found

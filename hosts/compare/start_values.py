@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.own_process import files_of, in_own_process
 
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"
@@ -99,7 +100,16 @@ def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]
 
     `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not tell its place.
     """
-    with Fmu(fmu_path) as opened:
+    return in_own_process(
+        _reference_point, (fmu_path.absolute(), aliases, dict(start)), tuple[float, float], [fmu_path, *files_of(start)]
+    )
+
+
+def _reference_point(
+    task: tuple[Path, Aliases, dict[str, Value]], tell: Callable[[float], None]
+) -> tuple[float, float]:
+    path, aliases, start = task
+    with Fmu(path) as opened:
         fmu = AliasedFmu(opened, aliases)
         names = [f"chassis.{a}" for a in "xy"]
         if any(n not in fmu.variables for n in names):

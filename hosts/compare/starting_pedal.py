@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.own_process import in_own_process
 
 _AHEAD = 0.5  # s, until when the speed is met
 _CLOSE = 0.005  # of the pedal
@@ -24,9 +25,15 @@ def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], 
     `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
     is not enough.
     """
+    pedals = in_own_process(_pedals_of, (path.absolute(), aliases, list(stretches), step), list[float | None], [path])
+    return [s if pedal is None else _started(s, pedal) for s, pedal in zip(stretches, pedals, strict=True)]
+
+
+def _pedals_of(task: tuple[Path, Aliases, list[Stretch], float], tell: Callable[[float], None]) -> list[float | None]:
+    path, aliases, stretches, step = task
     fmu = LoadedFmu(path, aliases, step)
     try:
-        return [s if s.speed is None else _started(s, _pedal(fmu, step, s, s.speed)) for s in stretches]
+        return [None if s.speed is None else _pedal(fmu, step, s, s.speed) for s in stretches]
     finally:
         fmu.close()
 

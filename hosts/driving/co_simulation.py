@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,8 @@ from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.driving.steady_throttle import with_change_of_speed, with_throttle
 from hosts.fmu.fmu import StepRefusedError
+
+_BETWEEN = 0.1  # s between two words on the progress
 
 
 def _setter(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
@@ -58,6 +61,11 @@ def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, flo
     return f"At {time:.4g} s the driver asks for {act}{sense}."
 
 
+def columns_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> tuple[list[str], list[str]]:
+    """Inputs, with the parameters that the manoeuvre changes, and outputs: the columns of a run."""
+    return fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs], fmu.names("output")
+
+
 def run(
     fmu: SimulatedFmu,
     manoeuvre: Manoeuvre,
@@ -67,6 +75,7 @@ def run(
     until: Callable[[float, Mapping[str, float]], bool] | None = None,
     every: int = 1,
     last: bool = False,
+    kept: Path | None = None,
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
@@ -84,7 +93,7 @@ def run(
     driver : Pilot, optional
         Overrules the inputs it acts on, which are those of its first act.
     progress : callable
-        Called with the number of finished steps from time to time.
+        Called with the number of finished steps ten times a second, unless steps are longer.
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
@@ -92,6 +101,8 @@ def run(
         the others where the driver uses one.
     last : bool
         Whether the last step has a row in any case, which then comes sooner than the others.
+    kept : Path, optional
+        See `RecordedRows`.
 
     Returns
     -------
@@ -102,9 +113,8 @@ def run(
     check_columns(fmu, manoeuvre)
     if manoeuvre.find_throttle:
         manoeuvre = with_throttle(run, fmu, manoeuvre, step)
-        return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last))
-    inputs = fmu.names("input") + [n for n in fmu.tunable if n in manoeuvre.inputs]
-    outputs = fmu.names("output")
+        return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last, kept))
+    inputs, outputs = columns_of(fmu, manoeuvre)
     whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
     senses = Senses(fmu, outputs, every == 1)
 
@@ -129,8 +139,9 @@ def run(
         np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight]),
         every,
         steps,
+        kept,
     )
-    begin = clock.perf_counter()
+    begin = due = clock.perf_counter()
     for k in range(steps):
         t = k * step
         wanted = manoeuvre.at(t, whole)
@@ -139,10 +150,10 @@ def run(
             if not all(map(math.isfinite, acts.values())):
                 raise HostError(_not_finite(t, acts, senses))
             wanted |= acts
-        now = [wanted[n] for n in used]
+        values = [wanted[n] for n in used]
         if used:
-            set_inputs(now)
-        rows.begin(now)
+            set_inputs(values)
+        rows.begin(values)
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
             changes = [then[n] - wanted[n] for n in straight]
@@ -155,20 +166,21 @@ def run(
             break
         senses.read()
         rows.end()
-        if rows.done % 50 == 0:
+        if (now := clock.perf_counter()) >= due:
+            due = now + _BETWEEN
             progress(rows.done)
         if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin
     lost = missed_inputs(manoeuvre, step, straight, whole, acts)
     progress(rows.done)
-    recorded, values = rows.close(last)
+    recorded, table = rows.close(last)
     names = inputs + outputs
     return Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
         step * np.array(recorded, dtype=np.float64),
-        values,
+        table,
         wall,
         rows.done * step,
         int(rows.refused),

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +14,28 @@ from hosts.driving.senses import Senses
 
 ROUND_OFF = 1e-9
 """Of a value that is reached at the end of a step and set again for the next; more is a jump."""
+
+
+def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
+    """Memory for a table, which is that of a file where one is given."""
+    if file is None or not all(shape):
+        return np.empty(shape)
+    file.touch()
+    with file.open("r+b") as made:
+        made.truncate(8 * shape[0] * shape[1])
+        return np.asarray(np.memmap(made, np.float64, "r+", shape=shape))
+
+
+def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:
+    """Rows that a process wrote, of shape (n, columns); none where it has spoilt them."""
+    with suppress(OSError, ValueError):
+        whole = np.memmap(file, np.float64, "c")
+        table: NDArray[np.float64] = np.asarray(whole[: len(whole) // columns * columns].reshape(-1, columns))
+        count = float(table[0, 0])
+        if 0.0 <= count <= len(table) - 1.0:
+            rows = table[1 : 1 + int(count)]
+            return rows.copy() if sys.platform == "win32" else rows  # where a mapped file cannot be removed
+    return np.empty((0, columns))
 
 
 class RecordedRows:
@@ -30,6 +55,8 @@ class RecordedRows:
         Steps from row to row.
     most : int
         Steps of the whole run.
+    kept : Path, optional
+        A file in which the rows are written at once, as `kept_rows` reads them.
 
     Attributes
     ----------
@@ -52,12 +79,14 @@ class RecordedRows:
         sizes: NDArray[np.float64],
         every: int,
         most: int,
+        kept: Path | None = None,
     ) -> None:
         self._senses, self._held, self._before = senses, held, held
         self._used, self._straight, self._sizes = list(used), list(straight), sizes
         self._every, self._changes = every, list[float]()
-        self._values = np.empty((most // every + 2, len(held) + len(senses)))
-        self._values[0, len(held) :] = senses.whole()
+        table = _table((most // every + 3, len(held) + len(senses)), kept)
+        self._count, self._values = table[0], table[1:]  # in a file, for who reads it after the end of this process
+        self._write(0)
         self.done, self.refused = 0, False
         self.jumps: dict[int, list[float]] = {}
         self.lost = np.zeros(len(held), bool)
@@ -92,10 +121,13 @@ class RecordedRows:
         """The step was made, and its outputs were read."""
         self.done += 1
         if self.done % self._every == 0:
-            self._values[self.done // self._every] = self._row()
+            self._write(self.done // self._every)
 
-    def _row(self) -> list[float]:
-        return [*self._held, *self._senses.whole()]
+    def _write(self, row: int) -> None:
+        into, inputs = self._values[row], len(self._held)
+        into[:inputs] = self._held
+        into[inputs:] = self._senses.whole()
+        self._count[:1] = row + 1.0
 
     def close(self, last: bool) -> tuple[list[int], NDArray[np.float64]]:
         """The steps that have a row, and the rows. `last`: whether the last step has one in any case."""
@@ -103,6 +135,6 @@ class RecordedRows:
         if last and self.done % self._every:
             if self.refused:
                 self.jumps[len(rows)] = self._before.tolist()
-            self._values[len(rows)] = self._row()
+            self._write(len(rows))
             rows.append(self.done)
         return rows, self._values[: len(rows)]

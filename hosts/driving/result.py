@@ -54,6 +54,17 @@ class Result:
     marks: list[dict[str, Any]] = field(default_factory=list)
     """What the manoeuvre has on the ground, see `hosts.driving.ground_marks`."""
 
+    ended: str = ""
+    """Where the process of the FMU has ended before the run: a sentence that says how."""
+
+    def not_finite(self) -> str:
+        """The first value that is no number, as the end of a sentence; empty where all are."""
+        wrong = ~np.isfinite(self.values)
+        if not wrong.any():
+            return ""
+        row, place = np.argwhere(wrong)[0]
+        return f"'{self.names[place]}' is {self.values[row, place]} at {self.time[row]:g} s."
+
     def __contains__(self, name: str) -> bool:
         return name in self.names
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable
+
+if TYPE_CHECKING:
+    from hosts.fmu.aliases.alias import Aliases
 
 
 class VariableTable(Protocol):
@@ -27,6 +30,8 @@ class SimulatedFmu(Protocol):
     description: ModelDescription
     variables: dict[str, ScalarVariable]
     messages: list[str]
+    aliases: Aliases | None
+    """Through which it is seen."""
 
     @property
     def table(self) -> VariableTable: ...

@@ -36,6 +36,7 @@ class AliasedFmu(NamedScalars):
     def __init__(self, fmu: Fmu, aliases: Aliases) -> None:
         self._fmu = fmu
         self._aliases = aliases
+        self.aliases: Aliases | None = aliases
         by_name = {alias.theirs: alias for alias in aliases.aliases}
         self._alias = {a.ours: a for a in (by_name.get(n, Alias(n, n)) for n in fmu.variables)}
         self.path: Path = fmu.path

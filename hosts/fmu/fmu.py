@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from fmpy import extract, read_model_description
@@ -32,6 +33,12 @@ from hosts.common.numbers import Value
 from hosts.fmu.instance import Instance, State
 from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of, element_names, scalars
 from hosts.fmu.variables import Variables, check_co_simulation
+
+if TYPE_CHECKING:
+    from hosts.fmu.aliases.alias import Aliases
+
+
+_MOST_MESSAGES = 10_000  # between two calls that clear them
 
 
 class StepRefusedError(Exception):
@@ -75,6 +82,8 @@ def unpack(path: Path, folder: Path) -> None:
 class Fmu(Closing, NamedScalars):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
+    Its library is loaded by the first call that needs it: who asks for the description alone runs no foreign code.
+
     `variables`: scalars by name, in the order of the model description; types are those of FMI 2.0; `table`: the same
     as a person sets them; `messages`: what the FMU logged at warning or above; not that an output is not computed: what
     opens it here reads all.
@@ -87,13 +96,21 @@ class Fmu(Closing, NamedScalars):
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
+        self.aliases: Aliases | None = None
+        self._loaded: Instance | None = None
+        self._remove: weakref.finalize[..., Fmu] | None = None
+
+    def load(self) -> Instance:
+        """Load the library and make the instance, unless that is done. Raises `HostError`: that is not possible."""
+        if self._loaded is not None:
+            return self._loaded
+        path = self.path
         folder, own = Path(tempfile.mkdtemp(prefix="fmu_")), os.getpid()  # which it goes with, not with forked ones
-        self._folder = folder
         self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else shutil.rmtree(folder, True))
+        self._folder = folder
         try:
             unpack(path, folder)
-            self._instance = Instance(description, folder, path.stem, self._log)
-            self._slave = self._instance.slave
+            self._loaded = Instance(self.description, folder, path.stem, self._log)
         except BaseException as error:
             self._remove()
             if isinstance(error, MemoryError) or not isinstance(error, Exception):
@@ -102,11 +119,20 @@ class Fmu(Closing, NamedScalars):
                 raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
             why = self._last_message() or f"{error}{memory_words()}"
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
+        return self._loaded
+
+    @property
+    def _instance(self) -> Instance:
+        return self._loaded or self.load()
+
+    @property
+    def _slave(self) -> Any:
+        return self._instance.slave
 
     def close(self) -> None:
         """Free the instance and what was unpacked, unless that is done."""
-        if self._remove.alive:
-            self._slave.freeInstance()
+        if self._loaded is not None and self._remove is not None and self._remove.alive:
+            self._loaded.slave.freeInstance()
             self._remove()
 
     def places(self, names: Iterable[str]) -> list[Place]:
@@ -263,5 +289,7 @@ class Fmu(Closing, NamedScalars):
         return self.messages[-1] if self.messages else ""
 
     def _log(self, status: int, category: str, message: str) -> None:
-        if status > 0 and message and category != "logNotComputed":
+        if status > 0 and message and category != "logNotComputed" and len(self.messages) < _MOST_MESSAGES:
             self.messages.append(shortened(message))
+            if len(self.messages) == _MOST_MESSAGES:
+                self.messages.append(f"It says more than {_MOST_MESSAGES} sentences; the others are left out.")

@@ -9,14 +9,18 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
+from ali3.call_mark import marked
+from ali3.processes import path_of_caller
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
 
+_WARNING = 1
 State: TypeAlias = ctypes.c_void_p
 """A state that an FMU has saved, in its memory."""
 
@@ -75,10 +79,10 @@ class Instance:
             told(int(status), (category or b"").decode("utf-8", "replace"), text)
 
         if self.three:
-            self.slave: Any = FMU3Slave(**arguments)
+            self.slave: Any = _marked(marked("dlopen", FMU3Slave)(**arguments))
             self._instantiate(said, logMessage=log)
             return
-        self.slave = FMU2Slave(**arguments)
+        self.slave = _marked(marked("dlopen", FMU2Slave)(**arguments))
         self._callbacks = fmi2CallbackFunctions()
         self._callbacks.logger = fmi2CallbackLoggerTYPE(log)
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
@@ -129,7 +133,7 @@ class Instance:
 
     def _type(self, kind: str) -> Callable[[Any], Any]:
         if kind in ("Boolean", "String"):
-            return _truth if kind == "Boolean" else str
+            return _truth if kind == "Boolean" else path_of_caller
         return float if self._suffix(kind) in ("Real", "Float64", "Float32") else int
 
     def _read(self, place: Place) -> list[Any]:
@@ -224,6 +228,29 @@ class Instance:
             self.restore(state)
         finally:
             self.free_state(state)
+
+
+def _marked(slave: Any) -> Any:
+    """A slave of FMPy whose functions leave their names, where the process is to."""
+    for name in dir(slave):
+        if name.startswith(("fmi2", "fmi3")):
+            function = getattr(slave.dll, name)
+            # Those with a status are called as FMPy does, without its two frames of Python in between.
+            call = _checked(name, function) if function.restype is ctypes.c_int else getattr(slave, name)
+            setattr(slave, name, marked(name, call))
+    return slave
+
+
+def _checked(name: str, function: Callable[..., int]) -> Callable[..., int]:
+    """A function of an FMU that raises `FMICallException` where its status is no warning."""
+
+    def call(*arguments: Any) -> int:
+        status = function(*arguments)
+        if status > _WARNING:
+            raise FMICallException(function=name, status=status)
+        return status
+
+    return call
 
 
 class _Arrays:

@@ -18,6 +18,7 @@ from ali3.words import brief, range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 
+_STEP = 0.01  # s
 _WORDS = {"true": True, "1": True, "false": False, "0": False}
 _ROLES = {
     "output": "an output",
@@ -230,9 +231,12 @@ def check_co_simulation(path: Path, description: ModelDescription) -> None:
 
 
 def default_step(description: ModelDescription) -> float:
-    """The communication step that an FMU asks for, s; 0.01 where it tells none."""
-    experiment = description.defaultExperiment
-    return float(experiment.stepSize) if experiment is not None and experiment.stepSize else 0.01
+    """The communication step that an FMU asks for, s; where it tells none 0.01, or a multiple of its own fixed step."""
+    experiment, face = description.defaultExperiment, description.coSimulation
+    if experiment is not None and experiment.stepSize:
+        return float(experiment.stepSize)
+    own = float(face.fixedInternalStepSize or 0.0) if face is not None else 0.0
+    return own * max(1, round(_STEP / own)) if 0.0 < own < math.inf else _STEP
 
 
 def kind_words(kind: str) -> str:

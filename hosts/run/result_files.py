@@ -92,11 +92,15 @@ def write_record(
 
 
 def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, files: Sequence[Path]) -> int:
-    """Print tables, what the FMU logged and where the files are. Result: exit code: 0 if every step was accepted."""
+    """Print tables, what the FMU logged and where the files are. Result: exit code: 0 if every step is good."""
     for rows in tables:
         for line in in_columns(rows):
             print(line)
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
+    if result.ended:
+        print(result.ended)
+    if wrong := result.not_finite():
+        print(f"The output {wrong}")
     print(f"written: {', '.join(map(str, files))}")
-    return 1 if result.failed_steps else 0
+    return 1 if result.failed_steps or wrong else 0

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import math
-import shutil
-import tempfile
 import threading
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 import numpy as np
 
@@ -62,14 +59,14 @@ class Car(Closing):
         rows = max(_LEAST_ROWS, round(_ROW_SECONDS / settings.step)) if settings.record is not None else 1
         rows = min(rows, max(1, _MOST_ROW_BYTES // (8 * (len(ROW) + len(self.names)))))
         sizes = Sizes(len(self.inputs), len(self.names), rows)
-        self._shared, self._folder = SharedValues(sizes), Path(tempfile.mkdtemp(prefix="car_"))
+        self._shared = SharedValues(sizes)
         self._shared.flags[RECORDING] = settings.record is not None
         self._process: Process | None = None
         self._mail: Mail | None = None
         try:
             how = (settings.step, settings.paced, settings.priority)
             fmu = settings.fmu.absolute()
-            self._process = Process(Order(fmu, self._folder, start, *how, sizes, self._shared.name))
+            self._process = Process(Order(fmu, start, *how, sizes, self._shared.name))
             self._mail = Mail(self._shared, self._recorder(start))
         except BaseException:
             self.close()
@@ -200,5 +197,4 @@ class Car(Closing):
             if self._mail is not None:
                 self._mail.close(progress)
         finally:  # also where Ctrl-C cuts the end of a recording short
-            shutil.rmtree(self._folder, ignore_errors=True)
             self._shared.close()

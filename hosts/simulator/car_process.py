@@ -4,21 +4,15 @@ from __future__ import annotations
 
 import gc
 import json
-import os
-import shutil
-import sys
-import tempfile
-import threading
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from multiprocessing import connection, parent_process
+from multiprocessing import resource_tracker
 from pathlib import Path
-from typing import Any
 
 from fmpy.fmi1 import FMICallException
 
-from ali3.children import ignore_stopping
+from ali3.processes import received
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import StepRefusedError
@@ -33,7 +27,6 @@ from hosts.simulator.step_times import TimesRecord
 COMMANDS = ("run", "pause", "step", "speed", "reset", "rewind", "upright", "restart")
 _IDLE, _IDLE_UNPACED = 0.004, 0.0005
 _WORST = 0.5
-_GRACE = 1.5
 _STATE_EVERY = 20.0  # s of simulated time between states of a recording
 
 
@@ -42,7 +35,6 @@ class Order:
     """What the process is started with."""
 
     fmu: Path
-    folder: Path
     start: Mapping[str, Value]
     step: float
     paced: bool
@@ -52,64 +44,30 @@ class Order:
     """Name of the shared memory."""
 
 
-def run_car(order: Order, link: connection.Connection) -> None:
-    """Drive the FMU until the main process says stop or is gone; the process's whole life."""
-    ignore_stopping()  # the main process ends this one
-    tempfile.tempdir = str(order.folder)
+def run_car(order: Order, tell: Callable[[str], None]) -> None:
+    """Drive the FMU until the main process says stop; the work of a process, see `ali3.isolated`.
+
+    `tell`: called once, with nothing, when the FMU has started. Raises `HostError`: it cannot be started.
+    """
+    resource_tracker.register = lambda *_: None  # the memory is that of the main process
     shared = SharedValues(order.sizes, order.memory)
-    threading.Thread(target=_end_with_parent, args=(shared.flags, order.folder), daemon=True).start()
-    car = None
+    car = DrivenFmu(order.fmu, order.start, order.step)
     try:
-        try:
-            car = DrivenFmu(order.fmu, order.start, order.step)
-        except HostError as error:
-            link.send(str(error))
-            return
-        loop = Loop(order, car, shared, link, make_clock())
-        link.send("")
+        loop = Loop(order, car, shared, make_clock())
+        tell("")
         loop.run()
     except Exception as error:
-        link.send(f"The car's process met an error of its own ({type(error).__name__}: {error}).")
         traceback.print_exc()
+        raise HostError(f"The car's process met an error of its own ({type(error).__name__}: {error}).") from error
     finally:
-        if car is not None:
-            car.close()
-        link.close()
-        if _is_alone():
-            shutil.rmtree(order.folder, ignore_errors=True)
-        sys.stderr.flush()
-        # Views of the shared memory are still held where an error was met; a usual exit would complain of them.
-        os._exit(0)
-
-
-def _is_alone() -> bool:
-    """Whether the main process is gone, so that nobody else removes the folder."""
-    parent = parent_process()
-    return parent is not None and not parent.is_alive()
-
-
-def _end_with_parent(flags: Any, folder: Path) -> None:
-    """Wait for the end of the main process, whatever ends it, and end this one: no orphan is left."""
-    parent = parent_process()
-    if parent is None:
-        return
-    connection.wait([parent.sentinel])
-    flags[STOP] = 1
-    threading.Event().wait(_GRACE)
-    shutil.rmtree(folder, ignore_errors=True)
-    os._exit(1)
+        car.close()
 
 
 class Loop:
-    """Commands in, steps at their times, values out.
+    """Commands in, steps at their times, values out."""
 
-    `link`: brings what is too large for the shared memory: new start values.
-    """
-
-    def __init__(
-        self, order: Order, car: DrivenFmu, shared: SharedValues, link: connection.Connection, clock: Clock
-    ) -> None:
-        self._order, self._car, self._shared, self._link, self._clock = order, car, shared, link, clock
+    def __init__(self, order: Order, car: DrivenFmu, shared: SharedValues, clock: Clock) -> None:
+        self._order, self._car, self._shared, self._clock = order, car, shared, clock
         self._times = TimesRecord(shared.times)
         self._pace = Pace(clock, order.step, self._times, order.paced)
         self._notices = Notices(car.names, clock, self._times)
@@ -224,7 +182,7 @@ class Loop:
         elif name == "upright":
             told = car.upright(wish)
         elif name == "restart":
-            told = car.restart(self._link.recv(), wish)
+            told = car.restart(received(), wish)  # too large for the shared memory
         else:
             told = car.rewind(value)
         if self._refused:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import multiprocessing
+import queue
 import threading
 from collections.abc import Mapping
-from multiprocessing import connection
+from pathlib import Path
 
-from ali3.children import how_ended
+from ali3.errors import UserError
+from ali3.isolated import Isolated, Lost
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu.own_process import files_of
 from hosts.simulator.car_process import Order, run_car
 
 _START_SECONDS = 300.0
@@ -26,65 +28,50 @@ class Process:
     def __init__(self, order: Order) -> None:
         self.ended = ""
         self._asked = False
-        self._watcher = threading.Thread(target=self._watch, name="car watch", daemon=True)
-        # Spawned on every system: a copy of this process would hold its threads' locks, sockets and memory.
-        context = multiprocessing.get_context("spawn")
-        self._link, there = context.Pipe()
-        self._process = context.Process(target=run_car, args=(order, there), name="car", daemon=True)
+        self._said: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self._process: Isolated[Order, None] = Isolated(run_car, None, str, (order.fmu, *files_of(order.start)))
+        self._life = threading.Thread(target=self._live, args=(order,), name="car watch", daemon=True)
+        self._life.start()
         try:
-            self._process.start()
-            there.close()
-            words = self._first_words(order)
-            if words:
-                raise HostError(words)
+            words = self._said.get(timeout=_START_SECONDS)
+        except queue.Empty:
+            words = f"{order.fmu} was not started within {_START_SECONDS:g} s."
         except BaseException:
             self.close()
             raise
-        self._watcher.start()
+        if words:
+            self.close()
+            raise HostError(words)
 
     @property
     def pid(self) -> int | None:
         return self._process.pid
 
+    @property
+    def folder(self) -> Path | None:
+        """Of the process; it goes with it."""
+        return self._process.folder
+
     def send(self, start: Mapping[str, Value]) -> None:
         """New start values."""
-        self._link.send(start)
+        self._process.send(dict(start))
 
     def close(self) -> None:
         """End it and what watches it, within about 2 s whatever it does; it must have been asked to before."""
         self._asked = True
-        if self._process.pid is not None:
-            for patience, harder in zip(_PATIENCE, (self._process.kill, None), strict=True):
-                self._process.join(patience)
-                if self._process.exitcode is not None:
-                    break
-                if harder is not None:
-                    harder()
-        # It reads the link, which may close only after it.
-        if self._watcher.ident is not None:
-            self._watcher.join(_PATIENCE[1])
-        self._link.close()
+        self._life.join(_PATIENCE[0])
+        self._process.close()
+        self._life.join(_PATIENCE[1])
 
-    def _first_words(self, order: Order) -> str:
-        """Empty once the FMU has started, else why it has not."""
-        if not connection.wait([self._link, self._process.sentinel], _START_SECONDS):
-            raise HostError(f"{order.fmu} was not started within {_START_SECONDS:g} s.")
+    def _live(self, order: Order) -> None:
+        """The life of the process; it says once that the FMU has started, and nothing more."""
         try:
-            return str(self._link.recv())
-        except EOFError:
-            raise HostError(f"{order.fmu} could not be started: {self._end()}") from None
-
-    def _watch(self) -> None:
-        connection.wait([self._process.sentinel])
-        if self._asked:
-            return
-        try:
-            words = str(self._link.recv()) if self._link.poll() else ""
-        except (EOFError, OSError):
-            words = ""
-        text = words or self._end()
-        self.ended = text[0].upper() + text[1:]
-
-    def _end(self) -> str:
-        self._process.join(1.0)
-        return f"the car's process {how_ended(self._process.exitcode)}; start the simulator again."
+            end = self._process.do(order, self._said.put)
+        except UserError as error:
+            text = str(error)
+        else:
+            how = end.how if isinstance(end, Lost) else "has ended"
+            text = f"the car's process {how}; start the simulator again."
+        if not self._asked:
+            self.ended = text[0].upper() + text[1:]
+        self._said.put(f"{order.fmu} could not be started: {text}" if text.startswith("the car's") else text)

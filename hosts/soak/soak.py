@@ -53,7 +53,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
         raise HostError(f"--fidelity is {odd:g}; it must be a whole number.")
     if options.json is not None:
         check_writable(options.json)
-    path, out = fmu_file(options.fmu), make_folder(options.out or OUT)
+    path, out = fmu_file(options.fmu).absolute(), make_folder(options.out or OUT).absolute()
     with Fmu(path) as fmu:
         start = settings_of(fmu.table, wishes(options)).start
         fidelities = _fidelities(fmu, [int(n) for n in options.fidelity])
@@ -61,7 +61,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     records = [ground.record for ground in _grounds(out, options.world)] if roads else []
     seed = SEED if options.seed is None else options.seed
     tasks = [
-        Task(str(path), seed + k // len(fidelities), fidelity, seconds, step, start, records, str(out.absolute()))
+        Task(str(path), seed + k // len(fidelities), fidelity, seconds, step, start, records, str(out))
         for k in range(options.drives or SEEDS * len(fidelities))
         for fidelity in (fidelities[k % len(fidelities)],)
     ]
@@ -82,7 +82,8 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
     from ali3.bars import bar as bar_of
     from ali3.isolated import Lost
     from ali3.shared_tasks import as_completed
-    from hosts.soak.drive import Failure, drive
+    from hosts.fmu.own_process import PATIENCE
+    from hosts.soak.drive import Failure, Outcome, drive
 
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
     total = math.ceil(sum(task.seconds for task in tasks))
@@ -92,7 +93,7 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
             outcomes[place].simulated = min(seconds, tasks[place].seconds)
             bar.update(min(int(sum(outcome.simulated for outcome in outcomes)), total) - bar.n)
 
-        with closing(as_completed(drive, tasks, jobs, progress)) as done:
+        with closing(as_completed(drive, Outcome, tasks, jobs, progress, PATIENCE)) as done:
             for place, outcome in done:
                 if isinstance(outcome, Lost):
                     seconds, words = outcomes[place].simulated, f"The process of the drive {outcome.how}."

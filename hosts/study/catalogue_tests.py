@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from hosts.catalogue.car import TestedCar
@@ -36,8 +36,15 @@ def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where
     return test.name, settings
 
 
-def performed(job: Job, path: Path, name: str, aliases: Aliases | None, values: Mapping[str, Value]) -> TestRecord:
-    """What the test of a job has yielded. `name`: of the FMU in messages."""
+def performed(
+    job: Job,
+    path: Path,
+    name: str,
+    aliases: Aliases | None,
+    values: Mapping[str, Value],
+    progress: Callable[[float], None] = lambda done: None,
+) -> TestRecord:
+    """What the test of a job has yielded. `name`: of the FMU in messages; `progress`: see `StandardTest.perform`."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, path, aliases or Aliases(), {**job.start, **values}, step)
-    return perform(standard_test(job.test), car, job.settings)
+    return perform(standard_test(job.test), car, job.settings, progress)

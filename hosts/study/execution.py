@@ -114,7 +114,7 @@ class Execution:
             raise SchedulerLostError from error
         except Exception as error:
             words = f"The worker could not make the run: {type(error).__name__}: {error}"
-            if chunk.isolated:
+            if chunk.tried:
                 self._take(chunk, [Outcome(FAILED, words) for _ in chunk.indices])
             else:
                 self._suspects.append(chunk.part(0, len(chunk), True))

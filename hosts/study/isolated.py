@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ali3.isolated import Isolated, Lost
 from hosts.common.numbers import Value
+from hosts.fmu.own_process import PATIENCE, files_of
 from hosts.study.job import Job
 from hosts.study.one_run import Bench, Task
 from hosts.study.work import FAILED, Outcome, Work
@@ -17,14 +18,17 @@ class IsolatedBench:
 
     def __init__(self, work: Work, path: Path) -> None:
         self._limit = work.time_limit
-        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path))
+        started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
+        reads = [path, *(file for values in started for file in files_of(values))]
+        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path.absolute()), Outcome, reads=reads)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        outcome = self._bench.do((job, values, seed), limit=self._limit)
+        outcome = self._bench.do((job, values, seed), limit=PATIENCE if self._limit is None else self._limit)
         if not isinstance(outcome, Lost):
             return outcome
         if outcome.late:
-            return Outcome(FAILED, f"The run {outcome.how} (time_limit).", wall=self._limit or 0.0)
+            which = "" if self._limit is None else " (time_limit)"
+            return Outcome(FAILED, f"The run {outcome.how}{which}.", wall=self._limit or 0.0)
         return Outcome(FAILED, f"The process of the run {outcome.how}.")
 
     def close(self) -> None:

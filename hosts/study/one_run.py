@@ -34,12 +34,17 @@ Task: TypeAlias = tuple[Job, Mapping[str, Value], int]
 """A job, values of the parameters, and the seed."""
 
 
+def _quiet(done: float) -> None:
+    """Tell nothing."""
+
+
 class Bench:
     """An FMU on which runs are made one after the other, in one instance where that gives the same bits."""
 
     def __init__(self, work: Work, path: Path) -> None:
         self._work, self._path = work, path
         self._fmu: Fmu | None = None
+        self._progress: Callable[[float], None] = _quiet
 
     def close(self) -> None:
         """Free the instance."""
@@ -48,7 +53,9 @@ class Bench:
             fmu.close()
 
     def __call__(self, task: Task, tell: Callable[[Any], None]) -> Outcome:
-        """See `run`; as work for a process."""
+        """See `run`; as work for a process, which tells that it goes on unless the whole run has its time."""
+        if self._work.time_limit is None:
+            self._progress = tell
         return self.run(*task)
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
@@ -80,7 +87,7 @@ class Bench:
             from hosts.driving.driver import driver_of
 
             driver = driver_of(seen, manoeuvre)
-        result = run(seen, manoeuvre, job.step, driver)
+        result = run(seen, manoeuvre, job.step, driver, self._progress)
         if work.aliases is not None:
             from hosts.driving.derived_columns import derive_columns
 
@@ -97,7 +104,7 @@ class Bench:
     def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
         from hosts.study.catalogue_tests import performed
 
-        record = performed(job, self._path, self._work.fmu, self._work.aliases, values)
+        record = performed(job, self._path, self._work.fmu, self._work.aliases, values, self._progress)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
         named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]
@@ -144,10 +151,7 @@ def _of_result(result: Result, job: Job) -> Outcome:
     """Whether the run came to its end with numbers."""
     missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
-    wrong = ~np.isfinite(result.values)
-    if wrong.any():
-        row, place = np.argwhere(wrong)[0]
-        what = f"'{result.names[place]}' is {result.values[row, place]} at {result.time[row]:g} s."
+    if what := result.not_finite():
         end.status, end.reason = FAILED, f"The output {what}"
     elif result.failed_steps:
         words = f": {result.messages[-1]}" if result.messages else "."

@@ -56,16 +56,16 @@ class Chunk:
     """Of the runs, n of them."""
     values: Mapping[str, list[Value]]
     """n values of each parameter."""
-    isolated: bool = False
-    """Whether each run has a process of its own, so that one that crashes is found."""
+    tried: bool = False
+    """Whether a worker was lost with it."""
 
     def __len__(self) -> int:
         return len(self.indices)
 
-    def part(self, first: int, stop: int, isolated: bool) -> Chunk:
+    def part(self, first: int, stop: int, tried: bool) -> Chunk:
         """Some of its runs."""
         values = {name: column[first:stop] for name, column in self.values.items()}
-        return Chunk(self.indices[first:stop], values, isolated)
+        return Chunk(self.indices[first:stop], values, tried)
 
 
 @dataclass

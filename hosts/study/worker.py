@@ -16,7 +16,6 @@ from hosts.common.numbers import Value
 from hosts.common.program import program_digest
 from hosts.fmu.fmu import described
 from hosts.study.isolated import IsolatedBench
-from hosts.study.one_run import Bench
 from hosts.study.work import Chunk, Outcome, Work, seed_of
 
 
@@ -31,19 +30,18 @@ class _Room:
     work: Work
     seed: int
     folder: tempfile.TemporaryDirectory[str]
-    benches: list[Bench | IsolatedBench] = field(default_factory=list)
+    benches: list[IsolatedBench] = field(default_factory=list)
     of_thread: threading.local = field(default_factory=threading.local)
 
     @property
     def fmu(self) -> Path:
         return Path(self.folder.name, self.work.fmu)
 
-    def bench(self, kind: type[Bench] | type[IsolatedBench]) -> Bench | IsolatedBench:
+    def bench(self) -> IsolatedBench:
         """The bench of this thread."""
-        bench: Bench | IsolatedBench | None = getattr(self.of_thread, kind.__name__, None)
+        bench: IsolatedBench | None = getattr(self.of_thread, "bench", None)
         if bench is None:
-            bench = kind(self.work, self.fmu)
-            setattr(self.of_thread, kind.__name__, bench)
+            bench = self.of_thread.bench = IsolatedBench(self.work, self.fmu)
             self.benches.append(bench)
         return bench
 
@@ -102,6 +100,5 @@ def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
         point, number = divmod(index, len(work.jobs))
         values = {name: column[k] for name, column in chunk.values.items()}
         tasks.append((work.jobs[number], values, seed_of(room.seed, point)))
-    # nothing but the end of its process ends the code of an FMU
-    bench = room.bench(IsolatedBench if chunk.isolated or work.time_limit is not None else Bench)
+    bench = room.bench()
     return [bench.run(*task) for task in tasks]

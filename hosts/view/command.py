@@ -10,6 +10,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
@@ -20,7 +21,7 @@ from hosts.common.options import add_setting_options
 _OF_LIVE = ("title", "name", "paused", "world")
 _OF_SHOWN = (
     *("geometry", "begin", "end", "most", "camera", "at", "arrows", "deformation", "png", "mp4", "gltf", "size"),
-    "stop_time",
+    *("stop_time", "confined"),
 )
 
 
@@ -47,6 +48,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(fmu, "--step", "that of the FMU")
     add_setting_options(fmu)
     add_option(fmu, "--road")
+    add_option(fmu, "--confined")
     add_option(fmu, "--world", "none")
     live = parser.add_argument_group("live: an FMU of ali3 build runs in the page")
     live.add_argument("--live", action="store_true", help="the page runs the FMUs; results are drawn beside them")
@@ -80,6 +82,8 @@ def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.view.live import live
 
         return live(options)
+    if options.confined:
+        confine()
     from hosts.view.show import show
 
     return show(options)

@@ -270,7 +270,11 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
         scene = with_marks(scene, result.marks, _ON_THE_GROUND)
     told += [": ".join(missed) for missed in result.missed]
     told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
-    if result.failed_steps:
+    if wrong := result.not_finite():
+        told.append(f"The output {wrong}")
+    if result.ended:
+        told.append(result.ended)
+    elif result.failed_steps:
         told.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
     title = name if given is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"

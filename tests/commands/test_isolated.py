@@ -44,7 +44,7 @@ class Counter:
             raise FileError("a.csv cannot be read.")
         if task == "fault":
             raise KeyError("nothing")
-        if task == "unpicklable":
+        if task == "unframed":
             return lambda: None  # type: ignore[return-value]
         if task == "loud":
             os.write(1, b"what an FMU prints\n" * 10_000)
@@ -66,7 +66,7 @@ def test_an_error_of_who_is_told_is_his_and_the_next_task_is_done(worker: Isolat
 
 @pytest.fixture
 def worker() -> Any:
-    made = Isolated(Counter())
+    made = Isolated(Counter(), tuple[int, int])
     yield made
     made.close()
 
@@ -98,7 +98,7 @@ def test_after_a_loss_there_is_a_new_process(worker: Isolated[str, Any]) -> None
         assert count == 1
         assert process != before
         before = process
-    lost = worker.do("unpicklable")
+    lost = worker.do("unframed")
     assert isinstance(lost, Lost)
     assert lost.how.startswith("ended with exit code 1: ")
 
@@ -120,16 +120,18 @@ def slow(task: int, tell: Tell) -> int:
 def test_an_error_ends_the_others_at_once() -> None:
     begin = time.monotonic()
     with pytest.raises(UserError, match="The first cannot begin"):
-        list(as_completed(slow, range(4), 2, lambda *_: None))
+        list(as_completed(slow, int, range(4), 2, lambda *_: None))
     assert time.monotonic() - begin < 60.0
 
 
 @posix
 def test_processes_end_with_the_program_in_the_middle_of_a_task() -> None:
-    text = "from ali3.isolated import Isolated; from tests.commands.test_isolated import Counter; Isolated(Counter())."
-    program = subprocess.Popen([sys.executable, "-c", f"{text}do('hang')"], cwd=Path(__file__).parents[2])
+    text = "from ali3.isolated import Isolated; from tests.commands.test_isolated import Counter; "
+    program = subprocess.Popen(
+        [sys.executable, "-c", f"{text}Isolated(Counter(), int).do('hang')"], cwd=Path(__file__).parents[2]
+    )
     end = time.monotonic() + 60.0
-    while not (children := psutil.Process(program.pid).children()) and time.monotonic() < end:
+    while not (children := psutil.Process(program.pid).children(recursive=True)) and time.monotonic() < end:
         time.sleep(0.05)
     time.sleep(0.5)
     program.kill()
@@ -154,7 +156,7 @@ def test_how_a_process_ended() -> None:
 
 
 def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_left() -> None:
-    worker: Isolated[str, tuple[int, int]] = Isolated(Counter())
+    worker: Isolated[str, tuple[int, int]] = Isolated(Counter(), tuple[int, int])
     rounds = [[result for _, result in as_completed_by([worker], ["", ""])] for _ in range(2)]
     counts, ids = zip(*(result for found in rounds for result in found if not isinstance(result, Lost)), strict=True)
     assert sorted(counts) == [1, 2, 3, 4]
@@ -162,3 +164,21 @@ def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_
     with pytest.raises(UserError, match="The value is 3"):
         list(as_completed_by([worker], ["wrong", "hang"]))
     assert not psutil.pid_exists(ids[0])
+
+
+def talkative(task: float, tell: Tell) -> int:
+    for k in range(8):
+        time.sleep(task)
+        tell(k)
+    return 8
+
+
+def test_the_limit_is_a_time_without_a_word() -> None:
+    worker: Isolated[float, int] = Isolated(talkative, int)
+    try:
+        heard: list[float] = []
+        assert worker.do(0.2, heard.append, limit=1.0) == 8
+        assert heard == list(range(8))
+        assert worker.do(1000.0, heard.append, limit=0.2) == Lost("took more than 0.2 s", late=True)
+    finally:
+        worker.close()

@@ -193,6 +193,7 @@ def test_an_output_that_no_system_computes_is_told_once_a_run(
 def test_a_lost_file_is_named(kerb: Path) -> None:
     """A System that cannot be loaded leaves the instance as it was."""
     with Fmu(kerb) as fmu:
+        fmu.load()
         lost = next(fmu._folder.glob("resources/**/system_2.ali3"))
         lost.unlink()
         if lost.parent.name == "resources":

@@ -10,6 +10,7 @@ import pytest
 
 from fmu_src.build.build import face_name
 from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
+from hosts.check.all_checks import CHECKS
 from hosts.check.command import main
 from mbs.kernel import build
 from tests.in_process import run
@@ -62,11 +63,16 @@ def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Pat
 def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
     for fmu in fmus.values():
         found = findings(fmu)
-        assert len(found) == 26
+        assert len(found) == len(CHECKS)
         assert all(words.startswith("ok") for words in found.values()), found
 
 
 XML = "modelDescription.xml"
+OPEN = {
+    *("unit names", "whole numbers", "about the file", "build description", "quiet steps", "careless calls"),
+    *("resources", "refused steps", "far from zero"),
+}
+"""What the standard leaves open."""
 TEXTS: list[tuple[str, str, str, list[Change]]] = [
     (
         "native",
@@ -122,11 +128,10 @@ def test_documents(
     fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, changes: list[Change]
 ) -> None:
     words = findings(changed(fmus[kind], tmp_path / "copy.fmu", changes))[check]
-    assert words.startswith("BAD")
+    assert words.startswith("note" if check in OPEN else "BAD")
     assert said in words
 
 
-STATUS = "*value = (fmi2Status)s->last_step;"
 CALLS: list[tuple[str, str, str, Change]] = [
     (
         "fmi3",
@@ -163,17 +168,11 @@ CALLS: list[tuple[str, str, str, Change]] = [
     ),
     (
         "native",
-        "careless calls",
-        "beyond the stop time",
+        "stop time",
+        "a step beyond it",
         ("sources/step.c", "time + step > s->calls.stop_time", "0.0 > 1.0 + s->calls.stop_time"),
     ),
     ("native", "careless calls", "empty instance name", ("sources/life.c", "name[0] == 0", "false")),
-    (
-        "native",
-        "careless calls",
-        "fmi2GetStatus",
-        ("sources/fmi2_step.c", STATUS, 'return no_status(c, "fmi2GetStatus");'),
-    ),
     ("native", "far from zero", "clock stands", ("sources/step.c", "!(time + step > time) || ", "false && ")),
 ]
 
@@ -182,5 +181,5 @@ CALLS: list[tuple[str, str, str, Change]] = [
 @pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)
 def test_calls(fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, change: Change) -> None:
     words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change], face_name(kind)))[check]
-    assert words.startswith("BAD")
+    assert words.startswith("note" if check in OPEN else "BAD")
     assert said in words

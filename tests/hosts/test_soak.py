@@ -243,7 +243,7 @@ def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path)
     workers: list[psutil.Process] = []
     while len(workers) < 2 and time.monotonic() < end:
         time.sleep(0.1)
-        workers = [p for p in psutil.Process(process.pid).children() if "ali3.isolated" in " ".join(p.cmdline())]
+        workers = [p for p in psutil.Process(process.pid).children() if "ali3.worker" in " ".join(p.cmdline())]
     process.send_signal(signal.SIGHUP)
     told, error = process.communicate(timeout=30.0)
     assert process.returncode == 128 + signal.SIGHUP

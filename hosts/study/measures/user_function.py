@@ -15,6 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_TEXT, read_text
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -133,7 +134,7 @@ def _load(wanted: UserFunction) -> Callable[..., Any]:
     module.__file__ = wanted.file
     # Data classes and pickling look there for the module of a class.
     sys.modules[module.__name__] = module
-    neighbours = str(Path(wanted.file).resolve().parent)
+    neighbours = str(Path(path_of_caller(wanted.file)).resolve().parent)
     sys.path.insert(0, neighbours)
     try:
         exec(compile(wanted.source, wanted.file, "exec"), module.__dict__)

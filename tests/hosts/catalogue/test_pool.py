@@ -27,7 +27,7 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
     cars = [CrashingCar(label="a"), BicycleCar(label="b"), FaultyCar(label="c"), BicycleCar(label="d", ratio=20.0)]
     tasks = [Task("steady_circle", car, FAST, tmp_path) for car in cars]  # type: ignore[arg-type]
     heard: list[tuple[int, float]] = []
-    outcomes = dict(as_completed(do, tasks, 2, lambda place, part: heard.append((place, part))))
+    outcomes = dict(as_completed(do, TestRecord | str, tasks, 2, lambda place, part: heard.append((place, part))))
     assert set(outcomes) == {0, 1, 2, 3}
     assert isinstance(outcomes[0], Lost)
     assert outcomes[0].how.startswith("was killed (SIGKILL)")
@@ -48,7 +48,8 @@ def test_processes_and_what_they_unpacked_go_with_the_iteration(
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     others = psutil.Process().children()
     slow = Task("steady_circle", TestedCar("slow", prototype_fmu), {"speed_rise": 0.02})
-    iteration = as_completed(do, [slow, Task("steady_circle", FaultyCar(), FAST)], 2, lambda place, part: None)  # type: ignore[arg-type]
+    tasks = [slow, Task("steady_circle", FaultyCar(), FAST)]  # type: ignore[arg-type]
+    iteration = as_completed(do, TestRecord | str, tasks, 2, lambda place, part: None)
     assert next(iteration)[0] == 1
     end = time.monotonic() + 30.0
     while not any("modelDescription.xml" in files for _, _, files in os.walk(tmp_path)) and time.monotonic() < end:

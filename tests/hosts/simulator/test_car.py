@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -85,6 +86,12 @@ def gone(pid: int) -> bool:
             return True
         time.sleep(0.05)
     return False
+
+
+def folder_of(car: Car) -> Path:
+    assert car._process is not None
+    assert car._process.folder is not None
+    return car._process.folder
 
 
 def pid_of(car: Car) -> int:
@@ -290,7 +297,7 @@ def test_a_process_that_is_killed_is_one_sentence(make: Made, blow: signal.Signa
 @POSIX
 def test_close_ends_a_process_that_does_not_listen(make: Made) -> None:
     car = make()
-    pid, folder = pid_of(car), car._folder
+    pid, folder = pid_of(car), folder_of(car)
     os.kill(pid, signal.SIGSTOP)
     car.close()
     assert gone(pid)
@@ -299,15 +306,14 @@ def test_close_ends_a_process_that_does_not_listen(make: Made) -> None:
 
 def test_close_waits_for_the_thread_that_watches_the_process(make: Made, monkeypatch: pytest.MonkeyPatch) -> None:
     before = set(threading.enumerate())
-    wait = process.connection.wait
+    do = process.Isolated.do
 
-    def slow(*arguments: object) -> object:
-        ready = wait(*arguments)
-        if threading.current_thread().name == "car watch":
-            time.sleep(0.1)
-        return ready
+    def slow(*arguments: Any) -> object:
+        end = do(*arguments)
+        time.sleep(0.1)
+        return end
 
-    monkeypatch.setattr(process.connection, "wait", slow)
+    monkeypatch.setattr(process.Isolated, "do", slow)
     make().close()
     assert set(threading.enumerate()) == before
 
@@ -326,7 +332,7 @@ def test_no_orphan_is_left_when_the_main_process_is_killed(fmu: Callable[[str], 
         "import sys, time\nfrom pathlib import Path\nfrom hosts.simulator.car import Car, CarSettings\n"
         "if __name__ == '__main__':\n"
         f"    car = Car(CarSettings(Path({str(fmu('sledge'))!r}), {{}}, priority=False))\n"
-        "    car.command('run')\n    print(car._process.pid, car._folder, flush=True)\n    time.sleep(600)\n"
+        "    car.command('run')\n    print(car._process.pid, car._process.folder, flush=True)\n    time.sleep(600)\n"
     )
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     main = subprocess.Popen(
@@ -339,6 +345,9 @@ def test_no_orphan_is_left_when_the_main_process_is_killed(fmu: Callable[[str], 
     main.wait()
     main.stdout.close()
     assert gone(int(pid))
+    end = time.monotonic() + 10.0
+    while Path(folder).exists() and time.monotonic() < end:
+        time.sleep(0.05)  # its guard removes it after its end
     assert not Path(folder).exists()
 
 

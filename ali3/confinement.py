@@ -1,0 +1,83 @@
+"""Processes that see no more of the machine than they need: by bubblewrap, on Linux (option ``--confined``)."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Sequence
+from functools import cache
+from pathlib import Path
+
+from ali3.errors import UserError
+
+_SWITCH = "ALI3_CONFINED"  # programs that this one starts, such as workers of a study, know it by their environment
+_SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc/ld.so.cache", "/etc/ld.so.conf.d")
+_KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+_APART = ("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--new-session")
+_PATIENCE = 20.0  # s
+
+
+def confine() -> None:
+    """From now on the processes of `ali3.isolated` are confined. Raises `UserError`: that is not possible here."""
+    _bubblewrap()
+    os.environ[_SWITCH] = "1"
+
+
+def is_confined() -> bool:
+    """Whether they are."""
+    return _SWITCH in os.environ
+
+
+def confined(command: Sequence[str], folder: Path, readable: Iterable[Path]) -> list[str]:
+    """The command of a process that has a folder, may read these files, and sees nothing else of the user's."""
+    return [
+        *_bubblewrap(),
+        *("--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp"),
+        *(word for place in _places() for word in ("--ro-bind", place, place)),
+        *(word for file in readable for word in ("--ro-bind-try", str(file), str(file))),
+        *("--bind", str(folder), str(folder), "--chdir", str(folder)),
+        "--",
+        *command,
+    ]
+
+
+def environment(given: dict[str, str], folder: Path) -> dict[str, str]:
+    """What a confined process is told of the environment."""
+    temporary = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(folder))
+    return {name: value for name, value in given.items() if name in _KEPT} | temporary
+
+
+@cache
+def _bubblewrap() -> tuple[str, ...]:
+    """The command that confines, as far as it is the same for all. Raises `UserError`: there is none that works."""
+    program = shutil.which("bwrap") if sys.platform == "linux" else None
+    if program is None:
+        why = "install bubblewrap (bwrap)" if sys.platform == "linux" else "it needs Linux"
+        raise UserError(f"--confined is not possible here, and nothing was run: {why}.")
+    system = tuple(word for place in _SYSTEM for word in ("--ro-bind-try", place, place))
+    said = ""
+    for more in ((), ("--unshare-user",)):
+        start = (program, *_APART, *more, *system)
+        tried = [*start, "--proc", "/proc", "--dev", "/dev", "--", "/usr/bin/env", "true"]
+        try:
+            done = subprocess.run(tried, capture_output=True, text=True, check=False, timeout=_PATIENCE)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise UserError(f"--confined is not possible here, and nothing was run: {error}.") from None
+        if done.returncode == 0:
+            return start
+        said = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    raise UserError(f"--confined is not possible here, and nothing was run: {program} says: {said}.")
+
+
+@cache
+def _places() -> tuple[str, ...]:
+    """Folders of Python and of this program; those that `_SYSTEM` has are left out."""
+    import ali3
+
+    root = Path(ali3.__file__).resolve().parents[1]
+    found = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.executable).resolve().parents[1]]
+    if not any(root.is_relative_to(place) for place in found):  # a clone: its packages alone
+        found += [file.parent for file in root.glob("*/__init__.py")]
+    return tuple(dict.fromkeys(str(place) for place in found if not place.is_relative_to("/usr")))

@@ -1,0 +1,103 @@
+"""`ali3 check` of FMUs that loop for ever, crash, step for long, or lack functions: each check has its verdict."""
+
+from __future__ import annotations
+
+import sys
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from hosts.check.all_checks import CHECKS
+from hosts.check.command import main
+from tests.hosts.odd_fmus import odd_fmu
+from tests.in_process import run
+
+OF_STEPS = {"runs", "repeats", "reset", "states", "steps of any size", "many instances", "stop time"}
+"""Checks that end only where steps do, and calls that FMI allows."""
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    folder, made = tmp_path_factory.mktemp("odd"), dict[str, Path]()
+
+    def of_name(name: str) -> Path:
+        if name not in made:
+            made[name] = odd_fmu(name, folder)
+        return made[name]
+
+    return of_name
+
+
+def verdicts(path: Path, *options: object) -> tuple[int, dict[str, tuple[str, str]]]:
+    """The exit code, and verdict and words by the name of the check."""
+    done = run(main, path, *options)
+    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
+    return done.returncode, {line[6:28].strip(): (line[:4].strip(), line[30:]) for line in lines}
+
+
+def test_a_step_that_never_ends_is_bad_and_every_other_check_is_done(fmu: Callable[[str], Path]) -> None:
+    code, found = verdicts(fmu("endless"), "--steps", 3, "--time-limit", 0.5)
+    assert code == 1
+    assert list(found) == [check.name for check in CHECKS]
+    assert {name for name, (verdict, _) in found.items() if verdict == "BAD"} == OF_STEPS | {"quiet steps"}
+    for name in OF_STEPS - {"stop time", "steps of any size"}:
+        assert found[name][1].startswith("took more than 0.5 s in fmi2DoStep at 0 s; --time-limit"), found[name]
+    for name in ("altered states", "refusals", "refused steps", "far from zero", "long steps"):
+        assert found[name][0] == "note"
+        assert "FMI 2.0" in found[name][1]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="names of signals")
+def test_a_step_that_crashes_is_bad_and_every_other_check_is_done(fmu: Callable[[str], Path]) -> None:
+    code, found = verdicts(fmu("crashing"), "--steps", 5)
+    assert code == 1
+    assert list(found) == [check.name for check in CHECKS]
+    for name in ("runs", "repeats", "reset", "states"):
+        assert found[name] == ("BAD", "the process crashed (SIGSEGV) in fmi2DoStep at 0.02 s")
+    assert found["long steps"] == ("BAD", "the process crashed (SIGSEGV) in fmi2DoStep at 0 s")
+    assert found["quiet steps"][0] == "ok"
+    assert found["refusals"][0] == "note"
+
+
+def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
+    code, found = verdicts(fmu("long_steps"), "--steps", 5, "--time-limit", 2)
+    assert code == 1  # no more than that a step beyond the stop time is taken
+    assert list(found) == [check.name for check in CHECKS]
+    assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["stop time"]
+    assert found["stop time"][1].endswith("(FMI 2.0, 2.1.6)")
+    assert found["far from zero"] == (
+        "note",
+        "a step of 0.01 s at 1e+16 s is taken, its clock stands; FMI does not speak of it (FMI 2.0, 4.2.2)",
+    )
+    assert found["long steps"][0] == "note"
+    assert found["long steps"][1].startswith("took more than 2 s in fmi2DoStep at 0 s (FMI sets no time for a step")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0", "1 of 34 are missing: fmi2GetRealStatus (FMI 2.0, 2.3)"),
+        (b"fmi2", b"fmi9", "34 of 34 are missing: fmi2CancelStep, "),
+    ],
+)
+def test_missing_functions_are_one_line(
+    fmu: Callable[[str], Path], tmp_path: Path, old: bytes, new: bytes, words: str
+) -> None:
+    copy = tmp_path / "copy.fmu"
+    with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
+        for name in source.namelist():
+            data = source.read(name)
+            if name.startswith("binaries/"):
+                assert old in data
+                data = data.replace(old, new)
+            target.writestr(name, data)
+    code, found = verdicts(copy)
+    assert code == 1
+    assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["functions"]
+    assert found["functions"][1].startswith(words)
+    left_out = [check for check in CHECKS if check.calls]
+    assert found["not done"] == ("note", f"{len(left_out)} checks, which call functions of the FMU")
+    assert len(found) == len(CHECKS) - len(left_out) + 1

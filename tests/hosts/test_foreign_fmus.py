@@ -1,0 +1,169 @@
+"""`ali3 run` of FMUs that end, print, start and reach what they should not: it is told, and nothing stays."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+
+from ali3.confinement import confine
+from ali3.errors import UserError
+from hosts.run.command import main
+from tests.hosts.odd_fmus import odd_fmu
+from tests.in_process import run
+
+resource = pytest.importorskip("resource")
+LEAVE, CRASH, NOT_A_NUMBER, MOVE, PRINT, FORK, CLOSE, EAT, WRITE = range(1, 10)
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="guards, signals, folders of Linux")]
+
+
+@pytest.fixture(scope="module")
+def faults(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return odd_fmu("faults", tmp_path_factory.mktemp("faults"))
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder for temporary files that is to be empty at the end."""
+    place = tmp_path / "temporary"
+    place.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(place))
+    return place
+
+
+def driven(fmu: Path, out: Path, fault: int, *options: object) -> tuple[int, str, np.ndarray]:
+    """Exit code, words and rows (time, u, y) of a run."""
+    done = run(main, fmu, "--set", f"u={fault}", "--out", out, *options)
+    rows = np.loadtxt(out / f"{fmu.stem}.csv", delimiter=",", skiprows=1)
+    return done.returncode, done.stdout, rows
+
+
+@pytest.mark.parametrize(
+    ("fault", "words", "rows"),
+    [
+        (LEAVE, "The process of the FMU ended with exit code 0 in fmi2DoStep at 0.04 s; 5 rows were kept.", 5),
+        (CRASH, "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept.", 5),
+        (NOT_A_NUMBER, "The output 'y' is nan at 0.05 s.", 101),
+        (CLOSE, "; 101 rows were kept.", 101),
+    ],
+)
+def test_what_ends_a_run_is_told_with_the_rows_until_then(
+    faults: Path, tmp_path: Path, temporary: Path, fault: int, words: str, rows: int
+) -> None:
+    code, said, table = driven(faults, tmp_path / "out", fault)
+    assert code == 1
+    assert said.count(words) == 1
+    assert len(table) == rows
+    good = np.where(np.isnan(table[:, 2]), table[:, 0], table[:, 2])
+    assert np.allclose(good, table[:, 0], atol=1e-12)  # the output is the time
+    assert json.loads((tmp_path / "out" / "faults.json").read_text())["failed_steps"] == (fault != NOT_A_NUMBER)
+    assert not list(temporary.iterdir())
+
+
+def test_processes_of_an_fmu_end_with_it_and_are_told(faults: Path, tmp_path: Path, temporary: Path) -> None:
+    code, said, _ = driven(faults, tmp_path / "out", FORK)
+    assert code == 0
+    assert "FMU: 3 processes that it had started were ended with it." in said
+    assert not [p for p in psutil.process_iter(["cmdline"]) if (p.info["cmdline"] or [""])[0] == "odd_child"]
+    assert not list(temporary.iterdir())
+
+
+@pytest.mark.parametrize("fault", [MOVE, WRITE])
+def test_another_folder_and_files_of_an_fmu_change_nothing_here(
+    faults: Path, tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch, fault: int
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, said, table = driven(Path(os.path.relpath(faults)), Path("out"), fault)
+    assert code == 0
+    assert "written: out/faults.csv" in said
+    assert len(table) == 101
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "temporary"]
+    assert not list(temporary.iterdir())
+
+
+def test_one_that_prints_without_end_is_ended(faults: Path, tmp_path: Path) -> None:
+    code, said, table = driven(faults, tmp_path / "out", PRINT)
+    assert code == 1
+    assert "was ended in fmi2DoStep at 0.04 s, for it had printed more than 200 MB; 5 rows were kept." in said
+    assert len(table) == 5
+
+
+def test_memory_has_a_limit(faults: Path, tmp_path: Path) -> None:
+    """What it cannot have is refused to the FMU, which says so."""
+
+    def little() -> None:
+        resource.setrlimit(resource.RLIMIT_DATA, (2_000_000_000, 2_000_000_000))
+
+    command = [sys.executable, "-m", "ali3", "run", str(faults), "--set", f"u={EAT}", "--out", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, preexec_fn=little)
+    assert done.returncode == 1, done.stderr
+    assert "failed steps      1 of 5" in done.stdout
+
+
+@pytest.fixture
+def confining(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ALI3_CONFINED", "")  # put back at the end
+    monkeypatch.delenv("ALI3_CONFINED")
+    try:
+        confine()
+    except UserError as error:
+        pytest.skip(str(error))
+    monkeypatch.delenv("ALI3_CONFINED")
+
+
+def test_a_confined_fmu_reaches_nothing_of_the_host(tmp_path: Path, temporary: Path, confining: None) -> None:
+    tried = tmp_path / "home"
+    tried.mkdir()
+    (tried / "letter").write_text("private")
+    fmu = odd_fmu("reaching", tmp_path, f'TRIED_FOLDER="{tried}"')
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+        _, _, free = driven(fmu, tmp_path / "free", port)
+        (tried / "written").unlink()
+        code, said, bound = driven(fmu, tmp_path / "bound", port, "--confined")
+    assert code == 0, said
+    assert set(free[1:, 2]) == {15.0}
+    assert set(bound[1:, 2]) == {0.0}
+    assert sorted(p.name for p in tried.iterdir()) == ["letter"]
+    assert not list(temporary.iterdir())
+
+
+def test_a_confined_fmu_that_crashes_is_told_as_ever(faults: Path, tmp_path: Path, confining: None) -> None:
+    code, said, table = driven(faults, tmp_path / "out", CRASH, "--confined")
+    assert code == 1
+    assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in said
+    assert len(table) == 5
+
+
+def test_a_car_gives_the_same_bits_where_it_is_confined(prototype_fmu: Path, tmp_path: Path, confining: None) -> None:
+    tables = []
+    for name, options in (("free", ()), ("bound", ("--confined",))):
+        done = run(
+            main, prototype_fmu, "-m", "double_lane_change", "--stop-time", 1, "--out", tmp_path / name, *options
+        )
+        assert done.returncode == 0, done.stderr
+        (table,) = (tmp_path / name).glob("*.csv")
+        tables.append(table.read_bytes())
+    assert tables[0] == tables[1]
+
+
+def test_without_bubblewrap_nothing_is_run(
+    faults: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, confining: None
+) -> None:
+    from ali3 import confinement
+
+    confinement._bubblewrap.cache_clear()
+    monkeypatch.setenv("PATH", str(tmp_path))
+    done = run(main, faults, "--confined", "--out", tmp_path / "out")
+    confinement._bubblewrap.cache_clear()
+    assert done.returncode == 2
+    assert done.stderr == "error: --confined is not possible here, and nothing was run: install bubblewrap (bwrap).\n"
+    assert not (tmp_path / "out").exists()
