@@ -18,7 +18,6 @@ from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
-from ali3.isolated import Isolated, Lost
 from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.reading import no_file
 from ali3.running import run_command
@@ -194,6 +193,7 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
+    from ali3.isolated import Isolated, Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
     from hosts.check.instance import Finding
     from hosts.fmu.own_process import files_of

@@ -201,8 +201,8 @@ def read_recording(folder: Path) -> RecordedDrive:
         if not isinstance(meta.get(key), kind):  # type: ignore[arg-type]
             raise HostError(f"{file} does not say the {key} of the recording.")
     every = meta.get("every")
-    known = isinstance(every, list) and len(every) == len(meta["columns"])
-    if not known or not all(isinstance(k, int) and k > 0 for k in every):
+    known = len(every) if isinstance(every, list) and all(isinstance(k, int) and k > 0 for k in every) else 0
+    if known != len(meta["columns"]):
         raise HostError(f"{file} does not say by 'every' of each column how many steps lie between two of its values.")
     notes = [] if meta.get("closed") else [f"{folder} was not closed: what was driven in its last seconds may be lost."]
     events = _events(folder / EVENTS)

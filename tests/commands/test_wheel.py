@@ -7,6 +7,7 @@ import subprocess
 import sys
 import venv
 import zipfile
+from configparser import ConfigParser
 from pathlib import Path
 
 import pytest
@@ -58,10 +59,15 @@ def test_the_names_it_puts_among_the_packages(wheel: Path) -> None:
     assert any(name.startswith("mbs/kernel/lib/") for name in names)
 
 
-def test_its_command_is_ali3(wheel: Path) -> None:
+def test_its_command_is_ali3_and_its_drawer_is_found(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         points = next(name for name in archive.namelist() if name.endswith("entry_points.txt"))
-        assert archive.read(points).decode().split() == ["[console_scripts]", "ali3", "=", "ali3.command:main"]
+        found = ConfigParser()
+        found.read_string(archive.read(points).decode())
+    assert {name: dict(found[name]) for name in found.sections()} == {
+        "console_scripts": {"ali3": "ali3.command:main"},
+        "ali3.drawers": {"page": "viewer.drawer"},
+    }
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the tag is that of Linux")
