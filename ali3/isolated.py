@@ -282,9 +282,10 @@ class Isolated(Generic[T, R]):
 
     def _answer(self, process: _Process, limit: float | None, end: Callable[[], None]) -> tuple[int, Any] | None:
         timer = threading.Timer(min(limit or 0.0, _LONGEST), end)
-        if limit is not None:
-            timer.start()
+        timer.daemon = True  # Ctrl-C may come between any two lines: nothing waits for it then
         try:
+            if limit is not None:
+                timer.start()
             return read_frame(process.answers, self._types)
         except (EOFError, OSError, ValueError):
             return None
@@ -294,7 +295,7 @@ class Isolated(Generic[T, R]):
             return None
         finally:
             timer.cancel()
-            if limit is not None:
+            if timer.ident is not None:
                 timer.join()
 
     def _started(self) -> tuple[_Process, bool]:
