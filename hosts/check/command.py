@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import time
-import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
@@ -18,7 +17,6 @@ from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.isolated import Isolated, Lost
 from ali3.options import Parser, add_option, assignment, count, given_of
-from ali3.reading import no_file
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.all_checks import check
@@ -183,10 +181,13 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, steps: int, given: Wishes, cases: list[Case]) -> int:
     """The checks in a process of their own, which a broken FMU may take down."""
-    if not fmu.is_file():
-        raise HostError(no_file(fmu))
-    if not zipfile.is_zipfile(fmu):
-        raise HostError(f"{fmu} is not an FMU (not a zip archive).")
+    from hosts.check.archive import archive_findings
+
+    if refused := archive_findings(fmu):
+        for finding in refused:
+            print_finding(finding)
+            cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
+        raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
     if given:
         settings = _settings(fmu, given)

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import copy
 import itertools
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ScalarVariable
 from lxml import etree
@@ -53,10 +51,9 @@ def constants_of(variables: Mapping[str, ScalarVariable]) -> dict[str, float]:
     return {n: float(v.start) for n, v in variables.items() if (v.variability, v.type) == ("constant", "Real")}
 
 
-def element_names(path: Path) -> dict[str, list[str]]:
-    """Names of the elements of the arrays that say them, by the name of the array."""
-    with zipfile.ZipFile(path) as archive:
-        root = etree.fromstring(archive.read("modelDescription.xml"))
+def element_names(description: bytes) -> dict[str, list[str]]:
+    """Names of the elements of the arrays that say them, by the name of the array. `description`: XML."""
+    root = etree.fromstring(description)
     found = root.iterfind(f"ModelVariables/*/Annotations/Annotation[@type='{ANNOTATION}']")
     return {a.getparent().getparent().get("name"): (a.text or "").split() for a in found}
 

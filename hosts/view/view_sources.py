@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ali3.archives import is_archive
 from ali3.json_reading import read_json
 from ali3.processes import command_name
 from ali3.reading import no_file
@@ -63,7 +63,7 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         suffix = path.suffix.lower()
         if is_recording(path):
             recording, words = recorded_view(path, name, geometry)
-        elif suffix == ".fmu" or (suffix not in (".csv", ".json") and zipfile.is_zipfile(path)):
+        elif suffix == ".fmu" or (suffix not in (".csv", ".json") and is_archive(path)):
             recording, words = _of_fmu(path, name, run)
         elif suffix in (".csv", ".json"):
             recording, words = _of_result(path, name, geometry)
@@ -120,7 +120,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     if record is not None:
         source = geometry or _fmu_of(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
-        if zipfile.is_zipfile(source):
+        if is_archive(source):
             described, same = _units(source, str(record.get("token", "")))
             units = described | units
             if not same:
@@ -131,7 +131,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     elif geometry is not None or record_file.is_file():
         source = geometry or record_file  # a scene
         scene = scene_from(source)
-        if scene is not None and scene.get("roads") and zipfile.is_zipfile(source):
+        if scene is not None and scene.get("roads") and is_archive(source):
             told.append(
                 f"{table_file} has no record {record_file.name} beside it that says where it ran: what is drawn of the "
                 f"ground is that of {source} as it was built."
