@@ -35,6 +35,8 @@ class Unpacked(io.RawIOBase):
         As of `check_file`; `largest`: bytes of the file as it is.
     mark : bytes
         What divides cells: each takes memory beside its text.
+    zeros : bool
+        Whether zero bytes may be in it: who reads says what it is.
     most : int
         Bytes of memory.
 
@@ -51,11 +53,12 @@ class Unpacked(io.RawIOBase):
         error: Error = FileError,
         name: str = "",
         mark: bytes = b"",
+        zeros: bool = False,
         most: int = MOST_MEMORY,
     ) -> None:
         super().__init__()
         self._name, self._error = name or str(file), error
-        self._mark, self._most = mark, most
+        self._mark, self._zeros, self._most = mark, zeros, most
         self.taken = self._cells = self._line = 0
         self._file = open_file(file, largest, error, self._name)
         packed = Path(file).suffix.lower() == ".gz"
@@ -77,7 +80,7 @@ class Unpacked(io.RawIOBase):
 
     def _check(self, data: bytes) -> None:
         self.taken += len(data)
-        if b"\0" in data:
+        if b"\0" in data and not self._zeros:
             raise self._error(f"{self._name} is no text: there is a zero byte in it.")
         self._cells += data.count(self._mark) if self._mark else 0
         check_memory(self.taken + _CELL * self._cells, self._error, self._name, self._most)

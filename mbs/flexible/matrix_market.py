@@ -87,9 +87,10 @@ def read_sparse_arrays(path: Path) -> sp.csc_array:
         raise ValueError(f"its {' or '.join(names)} are no list of whole numbers")
     check_memory(24 * _COPIES * data.size + 8 * sum(shape), ModelError, path.name)
     if form == "coo":
-        return sp.csc_array(sp.coo_array((data, tuple(places)), shape=shape))
+        i, j = (place.astype(int) for place in places)
+        return sp.csc_array(sp.coo_array((data.astype(float), (i, j)), shape=(shape[0], shape[1])))
     kind = {"csc": sp.csc_array, "csr": sp.csr_array, "bsr": sp.bsr_array}[form]
-    made = kind((data, *places), shape=shape)
+    made = kind((data.astype(float), *places), shape=shape)
     made.check_format(full_check=True)
     return sp.csc_array(made)
 
