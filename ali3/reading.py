@@ -25,6 +25,8 @@ LARGEST_TOML = 1_000_000
 LARGEST_TEXT = 10_000_000
 LARGEST_STATE = 100_000_000
 """Largest saved state of an FMU, bytes."""
+LARGEST_IN_PARTS = 2**40
+"""Bytes of a file of which parts are read."""
 LONGEST_LINE = 10_000_000
 """Bytes or characters."""
 DEEPEST = 100
@@ -70,10 +72,19 @@ def _no_regular(name: str, mode: int) -> str:
 
 def is_file(file: str | os.PathLike[str]) -> bool:
     """Whether there is a regular file; a name that no file can have, with a zero byte or too long, is that of none."""
+    return stat.S_ISREG(_mode(file))
+
+
+def is_folder(file: str | os.PathLike[str]) -> bool:
+    """Whether there is a folder; see `is_file`."""
+    return stat.S_ISDIR(_mode(file))
+
+
+def _mode(file: str | os.PathLike[str]) -> int:
     try:
-        return stat.S_ISREG(Path(file).stat().st_mode)
+        return Path(file).stat().st_mode
     except (OSError, ValueError):
-        return False
+        return 0
 
 
 def open_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> BinaryIO:

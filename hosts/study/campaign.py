@@ -17,6 +17,7 @@ from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
+from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
 from hosts.study.folder import begin_study, free_space, read_record
 from hosts.study.parts import PartWriter, part_files, runs_done
@@ -53,7 +54,7 @@ def run_study(
     """
     study, content = read_study_file(file)
     folder = out_folder(out, study, file)
-    if folder.exists() and not folder.is_dir():
+    if folder.exists() and not is_folder(folder):
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
     before = _before(folder)
     plan = _plan(study, file, folder, before)
@@ -101,7 +102,7 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
 
     digest = car_digest(_car(study.car, file))
     kept = folder / before["fmu"] if before is not None and before.get("car") == digest else None
-    fmu = kept if kept is not None and kept.is_file() else fmu_of_study(study, file)
+    fmu = kept if kept is not None and is_file(kept) else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
 
@@ -119,7 +120,7 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
 def _car(name: str, file: Path) -> str:
     """A car file beside the study, else a car of the package."""
     beside = file.parent / name
-    return str(beside) if beside.exists() else name
+    return str(beside) if is_file(beside) or is_folder(beside) else name
 
 
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:
