@@ -48,6 +48,7 @@ class Archive:
     Parameters
     ----------
     file : path
+        A regular file.
     error : type of exception
         What is raised, with one sentence: it is no archive, it is damaged, or it has a fault of `faults_of`.
     name, kind : str

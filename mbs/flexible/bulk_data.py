@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ali3.named_files import NamedFiles
 from ali3.reading import read_bytes
 from ali3.words import brief
+from mbs.common.checks import LARGEST as LARGEST_NUMBER
 from mbs.common.errors import ModelError
 from mbs.flexible.foreign_file import LARGEST
 
@@ -52,7 +53,10 @@ class _Card:
 
     def numbers(self, first: int, count: int) -> Array:
         """Fields as numbers; 0 where one is empty."""
-        return np.array([self._read(k, _number, "number") for k in range(first, first + count)])
+        found = np.array([self._read(k, _number, "number") for k in range(first, first + count)])
+        if not (np.abs(found) <= LARGEST_NUMBER).all():
+            raise self.line.error(f"a number of this {self.name} is not finite or beyond {LARGEST_NUMBER:g}.")
+        return found
 
     def _read(self, k: int, reader: Callable[[str], float], what: str) -> float:
         try:

@@ -85,6 +85,7 @@ def readers(tree: ast.AST) -> Iterator[str]:
                 yield "open"
 
 
+@pytest.mark.slow
 def test_files_are_opened_by_the_doors_alone() -> None:
     found, used = [], set[str]()
     for room in ROOMS:
