@@ -19,7 +19,7 @@ from ali3.errors import FileError
 from ali3.locks import locked
 from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, free_space, read_record
+from hosts.study.folder import begin_study, free_space, read_record, refuse_links
 from hosts.study.parts import PartWriter, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
@@ -56,6 +56,7 @@ def run_study(
     folder = out_folder(out, study, file)
     if folder.exists() and not is_folder(folder):
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
+    refuse_links(folder)
     before = _before(folder)
     plan = _plan(study, file, folder, before)
     for note in plan.notes:
@@ -195,8 +196,8 @@ def _check_space(needed: float, folder: Path) -> None:
     free = free_space(folder)
     if needed + _MARGIN > free:
         raise HostError(
-            f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free; make room, give another "
-            "--out, or keep fewer signals."
+            f"The results may need {_size(needed)} in {folder}, and {_size(_MARGIN)} are left to others, where "
+            f"{_size(free)} are free; make room, give another --out, or keep fewer signals."
         )
 
 

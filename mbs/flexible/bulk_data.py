@@ -91,6 +91,8 @@ def grid_points(path: Path, folder: str | Path | None = None) -> dict[int, tuple
             raise card.line.error(f"grid point {number} is given twice.")
         given, own = ((card if card.field(k) else default).whole(k) for k in (1, 5))
         points[number] = systems.basic(card.numbers(2, 3), given, card.line), own
+    if not points:
+        raise ModelError(f"{path.name} holds no grid points.")
     return dict(sorted(points.items()))
 
 

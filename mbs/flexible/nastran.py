@@ -55,8 +55,6 @@ def read_nastran(
         if not is_file(path):
             raise ModelError(no_file(path))
     points = read_foreign(Path(bulk_data), partial(grid_points, folder=folder))
-    if not points:
-        raise ModelError(f"{bulk_data} holds no grid points.")
     for number, (_, own) in points.items():
         if own != 0:
             raise ModelError(f"Grid point {number} has displacements in a system of its own; use the basic system.")

@@ -179,6 +179,9 @@ READ = {  # what is a file of the kind all the same
     "points of a study": ("nothing",),
     "trajectory": ("no number",),
     "curve of an axle": ("no number", "nothing"),
+    "bulk data": ("cut",),
+    "OUTPUT4": ("cut",),
+    "deck of CalculiX": ("cut",),
 }
 MANY = ("car",)
 """Kinds of which all faults are told, a line each."""
