@@ -101,7 +101,10 @@ def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     name = name or str(file)
     try:
         with open_file(file, largest, error, name) as stream:
-            data = stream.read(largest + 1)  # files of the system have more than they say
+            size = os.fstat(stream.fileno()).st_size
+            data = stream.read(min(size, largest) + 1)  # as much memory as it asks for is taken
+            if size < len(data) <= largest:  # files of the system have more than they say
+                data += stream.read(largest + 1 - len(data))
     except OSError as fault:
         if isinstance(fault, error):
             raise

@@ -43,7 +43,7 @@ def write_record(folder: Path, record: Mapping[str, Any]) -> None:
 
 
 def refuse_links(folder: Path) -> None:
-    """Raise `HostError` where a file or folder in that of a study is a link: what is written there would be elsewhere."""
+    """Raise `HostError` where a file or folder in that of a study is a link: what is written there lies elsewhere."""
     for place, folders, files in os.walk(folder):
         for name in (*folders, *files):
             if (found := Path(place, name)).is_symlink():
