@@ -26,8 +26,8 @@ class NamedFiles:
         """A regular file by its name in a file of the folder `beside`; `where`: file and line that name it."""
         place = f"{where}: " if where else ""
         try:
-            found = (beside / name).resolve()
-            if not found.is_relative_to(self._folder.resolve()):
+            found = beside / name
+            if not found.resolve().is_relative_to(self._folder.resolve()):
                 raise self._error(f"{place}{brief(name)} is not below the folder {self._folder}.")
         except (OSError, ValueError, RuntimeError) as fault:  # a circle of links is a RuntimeError
             if isinstance(fault, self._error):

@@ -187,7 +187,7 @@ def test_named_files_lie_below_the_folder_and_are_counted(tmp_path: Path) -> Non
         file.write_text("x" * 10)
     (below / "link").symlink_to(tmp_path / "c")
     named = NamedFiles(below, 25, HostError)
-    assert named.file("../a", below / "deck") == (below / "a").resolve()
+    assert named.file("../a", below / "deck").resolve() == (below / "a").resolve()
     for name, words in (("../../c", "'../../c' is not below"), ("/dev/zero", "is not below"), ("../link", "not below")):
         with pytest.raises(HostError, match=f"^m, line 3: .*{words}"):
             named.file(name, below / "deck", "m, line 3")
