@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import UserError
-from ali3.reading import read_toml
+from ali3.reading import is_file, read_toml
 
 CONSTANTS = "constants"
 """The table of an alias file that says what the FMU does not tell of its car, such as ``vehicle.wheelbase``."""
@@ -89,7 +89,7 @@ def alias_file(name: str | Path) -> Path:
     Raises `UserError`: there is neither.
     """
     path = Path(name)
-    if not path.is_file() and str(name) in shipped_names():
+    if not is_file(path) and str(name) in shipped_names():
         path = SHIPPED / f"{name}.toml"
     if not path.exists():
         raise UserError(
@@ -108,7 +108,7 @@ def number(value: Any, where: str) -> float:
 
 def _found(base: str, file: Path) -> Path:
     path = file.parent / base
-    if path.is_file():
+    if is_file(path):
         return path
     if base in shipped_names():
         return SHIPPED / f"{base}.toml"

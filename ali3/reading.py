@@ -13,7 +13,7 @@ import re
 import stat
 import tomllib
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, BinaryIO, NoReturn
 
 from ali3.errors import FileError, reason
 from ali3.words import brief, one_line, place_words
@@ -25,9 +25,14 @@ LARGEST_TOML = 1_000_000
 LARGEST_TEXT = 10_000_000
 LARGEST_STATE = 100_000_000
 """Largest saved state of an FMU, bytes."""
+LARGEST_IN_PARTS = 2**40
+"""Bytes of a file of which parts are read."""
+LONGEST_LINE = 10_000_000
+"""Bytes or characters."""
 DEEPEST = 100
 LARGEST_WHOLE = 2**63 - 1
 """As TOML has it."""
+_LONGEST_NAME = 1000  # of a file that is not there, in a sentence
 _MOST_DOTS = 200  # of a key: the time of the parser grows with their square
 
 
@@ -57,21 +62,52 @@ def no_file(file: str | os.PathLike[str], hint: str = "") -> str:
     """What is wrong where a regular file should be, in a sentence; `hint` follows where there is nothing."""
     try:
         return _no_regular(str(file), Path(file).stat().st_mode)
-    except OSError:
-        return f"There is no file {file}.{hint}"
+    except (OSError, ValueError):
+        return f"There is no file {brief(str(file)) if len(str(file)) > _LONGEST_NAME else one_line(str(file))}.{hint}"
 
 
 def _no_regular(name: str, mode: int) -> str:
     return f"{name} is {'a folder' if stat.S_ISDIR(mode) else 'a pipe or device'}; it must be a file."
 
 
-def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> bytes:
-    """Content of a file; see `check_file`."""
+def is_file(file: str | os.PathLike[str]) -> bool:
+    """Whether there is a regular file; a name that no file can have, with a zero byte or too long, is that of none."""
+    return stat.S_ISREG(_mode(file))
+
+
+def is_folder(file: str | os.PathLike[str]) -> bool:
+    """Whether there is a folder; see `is_file`."""
+    return stat.S_ISDIR(_mode(file))
+
+
+def _mode(file: str | os.PathLike[str]) -> int:
+    try:
+        return Path(file).stat().st_mode
+    except (OSError, ValueError):
+        return 0
+
+
+def open_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> BinaryIO:
+    """The bytes of a file, to be read piece by piece; see `check_file`."""
     path, name = check_file(file, largest, error, name), name or str(file)
     try:
-        with path.open("rb") as stream:
-            data = stream.read(largest + 1)  # files of the system have more than they say
+        return path.open("rb")
     except OSError as fault:
+        raise error(f"{name} cannot be read: {reason(fault)}.") from None
+
+
+def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> bytes:
+    """Content of a file; see `check_file`."""
+    name = name or str(file)
+    try:
+        with open_file(file, largest, error, name) as stream:
+            size = os.fstat(stream.fileno()).st_size
+            data = stream.read(min(size, largest) + 1)  # as much memory as it asks for is taken
+            if size < len(data) <= largest:  # files of the system have more than they say
+                data += stream.read(largest + 1 - len(data))
+    except OSError as fault:
+        if isinstance(fault, error):
+            raise
         raise error(f"{name} cannot be read: {reason(fault)}.") from None
     if len(data) > largest:
         raise error(f"{name} has more than {largest} bytes.")

@@ -8,15 +8,15 @@ import os
 import re
 from array import array
 from collections.abc import Collection, Iterator
+from io import TextIOWrapper
 from itertools import chain
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import FileError, reason
-from ali3.reading import Error, check_file, other_encoding
+from ali3.reading import LONGEST_LINE, Error, open_file, other_encoding
 from ali3.words import brief
 
 LARGEST = 4_000_000_000
@@ -24,7 +24,6 @@ LARGEST = 4_000_000_000
 HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 """A name with its unit, such as ``speed [m/s]``."""
 _MARKS = (";", "\t", ",")
-_LONGEST_LINE = 10_000_000  # characters
 _LONGEST_CELL = 1000
 
 
@@ -93,8 +92,7 @@ class TextTable:
         self.comments: list[tuple[int, str]] = []
         self.names: list[str] = []
         self.units: dict[str, str] = {}
-        path = check_file(file, largest, error, self.name)
-        self._lines = self._read(path, whole)
+        self._lines = self._read(file, largest, whole)
         self._first = next(self._lines, None)
         if self._first is None:
             raise error(f"{self.name} holds no values; it needs a heading and at least one row.")
@@ -153,17 +151,17 @@ class TextTable:
             raise self.error(f"{self.name} holds no values; it needs a heading and at least one row.")
         return np.array(held).reshape(-1, self.width)
 
-    def _read(self, path: Path, whole: bool) -> Iterator[tuple[int, str]]:
+    def _read(self, file: str | os.PathLike[str], largest: int, whole: bool) -> Iterator[tuple[int, str]]:
         line = 0
         try:
-            with path.open("rb") as begin:
-                if words := other_encoding(begin.read(200)):
+            with TextIOWrapper(open_file(file, largest, self.error, self.name), encoding="utf-8-sig") as stream:
+                if words := other_encoding(stream.buffer.read(200)):
                     raise self.error(f"{self.name} is {words}.")
-            with path.open(encoding="utf-8-sig") as stream:
-                while text := stream.readline(_LONGEST_LINE + 1):
+                stream.seek(0)
+                while text := stream.readline(LONGEST_LINE + 1):
                     line += 1
-                    if len(text) > _LONGEST_LINE:
-                        raise self.error(f"{self.name}, line {line} has more than {_LONGEST_LINE} characters.")
+                    if len(text) > LONGEST_LINE:
+                        raise self.error(f"{self.name}, line {line} has more than {LONGEST_LINE} characters.")
                     if "\0" in text:
                         raise self.error(f"{self.name} is no text: there is a zero byte in line {line}.")
                     bare = text.strip()

@@ -5,17 +5,21 @@ from __future__ import annotations
 import math
 import os
 import warnings
+from io import BytesIO
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import unquote
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.extras import missing_module
-from ali3.reader_stops import reader_stops
-from ali3.reading import check_file
+from ali3.json_reading import json_of
+from ali3.named_files import NamedFiles
+from ali3.reader_stops import read_by_library
+from ali3.reading import read_bytes
 from ali3.scene.errors import ViewerError
+from ali3.unpacked import check_memory
 
 if TYPE_CHECKING:
     import trimesh
@@ -24,9 +28,10 @@ Positions = NDArray[np.float32]
 Triangles = NDArray[np.uint32]
 
 SUFFIXES = (".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
-_LARGEST = 4_000_000_000  # bytes of a file
+_LARGEST = 1_000_000_000  # bytes of a file, and of those that it names
 MOST_TRIANGLES = 100_000
 """Of a mesh that is drawn: 1.8 MB of a page."""
+_OF_POINT = 64  # bytes of memory, or of an index
 _LEAST_SIZE, _MOST_SIZE = 1e-3, 500.0
 """Sizes of a mesh beyond which its unit is doubted, m."""
 
@@ -79,7 +84,6 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
     factor = _checked_scale(path, scale)
     if file.suffix.lower() not in SUFFIXES:
         raise MeshError(f"{path} is of a kind that is not read as a mesh; {', '.join(SUFFIXES)} are.")
-    check_file(file, _LARGEST)
     mesh = _load(file, extra)
     points = np.asarray(mesh.vertices, dtype=float) * factor
     triangles = np.asarray(mesh.faces, dtype=np.int64)
@@ -106,16 +110,46 @@ def _checked_scale(path: str | os.PathLike[str], scale: object) -> float:
 
 
 def _load(file: Path, extra: str) -> trimesh.Trimesh:
-    options = {"skip_materials": True} if file.suffix.lower() == ".obj" else {}
-    try:
+    kind = file.suffix.lower()
+    options = {"skip_materials": True} if kind == ".obj" else {}
+    content = read_bytes(file, _LARGEST)
+    with read_by_library(str(file), MeshError, "be read as a mesh", extra):
         import trimesh
 
+        if kind in (".gltf", ".glb"):
+            check_memory(_gltf_memory(content, str(file)), MeshError, str(file))
         # `process` would remove what is not finite without a word.
-        return trimesh.load_mesh(str(file), process=False, **options)
-    except ModuleNotFoundError as error:
-        raise MeshError(f"{file} cannot be read as a mesh. {missing_module(error, extra)}") from None
-    except Exception as error:  # what a reader of many formats raises on a damaged file has no common kind
-        raise MeshError(f"{file} cannot be read as a mesh: {reader_stops(error)}") from None
+        return trimesh.load_mesh(
+            BytesIO(content), file_type=kind[1:], resolver=_NamedBytes(file), process=False, **options
+        )
+
+
+class _NamedBytes(dict[str, bytes]):
+    """Content of the files that a mesh names, below its folder."""
+
+    def __init__(self, file: Path) -> None:
+        super().__init__()
+        self._file, self._named = file, NamedFiles(file.parent, _LARGEST, MeshError)
+
+    def __missing__(self, name: str) -> bytes:
+        return read_bytes(self._named.file(unquote(name), self._file.parent, str(self._file)), _LARGEST, MeshError)
+
+    def get(self, name: str, default: object = None) -> bytes:
+        return self[name]
+
+
+def _gltf_memory(content: bytes, name: str) -> int:
+    """Bytes of the points and triangles of a glTF file, each mesh as often as it is placed."""
+    if content.startswith(b"glTF"):
+        content = content[20 : 20 + int.from_bytes(content[12:16], "little")]
+    document = json_of(content, MeshError, f"{name} cannot be read as a mesh: its description")
+    counts: list[int] = [int(accessor["count"]) for accessor in document.get("accessors", [])]
+    sizes: list[int] = []
+    for mesh in document.get("meshes", []):
+        used = [k for part in mesh["primitives"] for k in (part.get("indices"), *part["attributes"].values())]
+        sizes.append(sum(counts[k] for k in used if k is not None))
+    placed: list[int] = [sizes[node["mesh"]] for node in document.get("nodes", []) if "mesh" in node]
+    return _OF_POINT * (sum(counts) + sum(placed))
 
 
 def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

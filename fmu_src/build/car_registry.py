@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from ali3.archives import LARGEST_UNPACKED
+from ali3.reading import is_file, read_bytes
 from ali3.words import shortened
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.posed import Maker, posed_systems
@@ -93,7 +95,7 @@ def car_words(car: str) -> str:
     """
     if _is_path(car) or car not in car_names():
         return shortened(car)
-    own = f" (the folder {car} here would be ./{car})" if (Path(car) / _FILE).is_file() else ""
+    own = f" (the folder {car} here would be ./{car})" if is_file(Path(car) / _FILE) else ""
     return f"{car} of the package{own}"
 
 
@@ -104,8 +106,9 @@ def car_files(car: Car) -> dict[str, bytes]:
     """
     folder = car.folder.resolve()
     named = {(folder / text).resolve() for text in _texts(car.model_dump())}
-    files = {folder / _FILE} | {file for file in named if folder in file.parents and file.is_file()}
-    return {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file.read_bytes() for file in sorted(files)}
+    files = {folder / _FILE} | {file for file in named if folder in file.parents and is_file(file)}
+    places = {f"{FOLDER}/{file.relative_to(folder).as_posix()}": file for file in sorted(files)}
+    return {place: read_bytes(file, LARGEST_UNPACKED) for place, file in places.items()}
 
 
 def _texts(data: Any) -> Iterator[str]:

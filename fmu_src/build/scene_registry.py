@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import mbs
 import mbs.scenes
-from ali3.reading import no_file
+from ali3.reading import is_file, no_file
 from fmu_src.geometry.posed import PosesError, posed_systems
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
     if not separator or not file.endswith(".py"):
         file, function = scene, "build"
     path = Path(file)
-    if not path.is_file():
+    if not is_file(path):
         raise SceneError(no_file(path, " A scene of your own is given as path/to/file.py:function."))
     path = path.resolve()
     with _neighbours(path.parent):

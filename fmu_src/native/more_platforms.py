@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import tempfile
-import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
+from ali3.archives import Archive
 from ali3.errors import UserError
-from ali3.reading import no_file
+from ali3.reading import is_file, no_file
 from fmu_src.native.archive import write_zip
 from fmu_src.native.compile import compile_library, compile_packed
 from fmu_src.native.package import Telling, first_time
@@ -58,13 +58,10 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
 
 
 def _files(fmu: Path) -> dict[str, bytes]:
-    if not fmu.is_file():
+    if not is_file(fmu):
         raise UserError(no_file(fmu))
-    try:
-        with zipfile.ZipFile(fmu) as archive:
-            return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
-    except (OSError, zipfile.BadZipFile) as error:
-        raise UserError(f"{fmu} is not an FMU that can be read ({error}).") from None
+    with Archive(fmu, UserError, kind="an FMU") as archive:
+        return {name: archive.read(name) for name in archive.names}
 
 
 def _identifier(fmu: Path, files: dict[str, bytes]) -> str:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ali3.archives import LARGEST_UNPACKED
+from ali3.reading import read_bytes
 from fmu_src.variables.variables import Variable
 from mbs.roads.shipped import FOLDER
 
@@ -42,10 +44,10 @@ def road_resources(meta: Mapping[str, Any]) -> dict[str, bytes]:
     files = meta.get("road_files", ())
     if not files:
         return {}
-    roads = {path.name: path.read_bytes() for path in sorted(FOLDER.glob("*.road"))}
+    roads = {path.name: read_bytes(path, LARGEST_UNPACKED) for path in sorted(FOLDER.glob("*.road"))}
     for entry in files:
         if entry["start"]:
-            name, content = Path(entry["start"]).name, Path(entry["start"]).read_bytes()
+            name, content = Path(entry["start"]).name, read_bytes(entry["start"], LARGEST_UNPACKED)
             if roads.setdefault(name, content) != content:
                 raise ValueError(f"Two different roads are named '{name}'; rename {entry['start']}.")
     return {f"{ROADS}/{name}": content for name, content in roads.items()}

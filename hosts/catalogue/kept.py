@@ -11,11 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from ali3.archives import LARGEST_ARCHIVE
 from ali3.errors import FileError
 from ali3.files import write_text
 from ali3.json_reading import read_json
+from ali3.reading import read_bytes
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.task import Task, run_file
+from hosts.common.errors import HostError
 from hosts.common.program import program_digest
 from hosts.driving.result import Result
 from hosts.measures.measure import Limit, Measure
@@ -33,7 +36,7 @@ def digest(task: Task) -> str:
 @cache
 def _file_hash(path: Path, size: int, changed: int) -> bytes:
     """Once for all tests of an FMU; its size and the time of its last change, ns, tell another file of its name."""
-    return _hash(path.read_bytes())
+    return _hash(read_bytes(path, LARGEST_ARCHIVE, HostError))
 
 
 def _hash(content: bytes) -> bytes:

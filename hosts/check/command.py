@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import time
-import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
@@ -19,7 +18,6 @@ from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.options import Parser, add_option, assignment, count, given_of
-from ali3.reading import no_file
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.junit import Case, write_junit
@@ -195,13 +193,15 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
     from ali3.isolated import Isolated, Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
+    from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding
     from hosts.fmu.own_process import files_of
 
-    if not fmu.is_file():
-        raise HostError(no_file(fmu))
-    if not zipfile.is_zipfile(fmu):
-        raise HostError(f"{fmu} is not an FMU (not a zip archive).")
+    if refused := archive_findings(fmu):
+        for finding in refused:
+            print_finding(finding)
+            cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
+        raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
     if given := wishes(options):
         settings = _settings(fmu, given)

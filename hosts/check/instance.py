@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 
@@ -17,7 +16,8 @@ from ali3.errors import reason
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
-from hosts.fmu.scalars import Place, element_names, scalars
+from hosts.fmu.description_file import opened, read_description
+from hosts.fmu.scalars import Place
 from hosts.fmu.variables import check_co_simulation, default_step
 
 
@@ -187,16 +187,12 @@ class Instance(instance.Instance):
 def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value]) -> Subject:
     """Read and unpack an FMU."""
     try:
-        description = read_model_description(str(path), validate=False)
-        extract(str(path), unzipdir=str(folder))
+        description, variables, places = read_description(path, validate=False)
+        with opened(path) as archive:
+            archive.unpack(folder)
     except OSError as error:
         raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
-    except ModuleNotFoundError:
-        raise
-    except Exception as error:
-        raise HostError(f"{path} is not an FMU that can be read: {error}") from None
     check_co_simulation(path, description)
     by_elements = copy.copy(description)
-    arrays = any(v.dimensions for v in description.modelVariables)
-    by_elements.modelVariables, places = scalars(description, element_names(path) if arrays else {})
+    by_elements.modelVariables = variables
     return Subject(path, folder, description, by_elements, places, steps, default_step(description), start)

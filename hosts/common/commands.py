@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from ali3.children import how_ended
 from ali3.processes import module_command
+from ali3.words import brief
 from hosts.common.errors import HostError
 
 ERROR = "error: "
@@ -18,6 +19,8 @@ def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -
     Result: its standard error. What it prints is left out. Raises `HostError`: it did not succeed; with its words, or
     how its process ended.
     """
+    if wrong := next((text for text in arguments if "\0" in text), None):
+        raise HostError(f"{brief(wrong)} has a zero byte, which no name and no value may have.")
     lines: list[str] = []
     with subprocess.Popen(
         module_command("ali3", *arguments),

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import ali3
 from ali3.near_names import did_you_mean
+from ali3.reading import is_file, is_folder
 from ali3.words import brief
 from hosts.common.errors import HostError
 
@@ -34,6 +35,6 @@ def _refuse(what: str, given: str, names: list[str]) -> None:
 
 def _is_there(given: str | Path) -> bool:
     try:
-        return Path(given).exists()
+        return is_file(given) or is_folder(given)
     except (OSError, ValueError):  # a name that no file can have
         return False

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from ali3.files import make_folder
+from ali3.reading import is_file, is_folder
 from hosts.common.commands import run_ali3
 from hosts.common.options import ROAD, Wishes, wishes
 
@@ -34,7 +35,7 @@ def road_value(given: str, out: Path) -> str:
     """
     path = Path(given)
     if path.suffix.lower() not in MADE_OF:
-        return str(path.absolute()) if path.exists() else given
+        return str(path.absolute()) if is_file(path) or is_folder(path) else given
     made = make_folder(out) / f"{path.stem}.road"
     said = run_ali3("road", str(path), str(made))
     print(said, end="", file=sys.stderr)  # what is odd about the road

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.cache import cache_folder
+from ali3.reading import is_file
 from hosts.common.commands import ERROR, run_ali3
 from hosts.common.numbers import Value
 from hosts.common.world_record import FORMAT, VERSION, read_world_record
@@ -58,7 +59,7 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
     is no world; with the words of ``ali3 road --world``.
     """
     file = Path(given)
-    room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if file.is_file() else "named"
+    room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if is_file(file) else "named"
     folder = cache_folder("worlds", f"{room}-thin" if thin else room)
 
     def hear(line: str) -> None:
@@ -67,6 +68,6 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
 
     run_ali3("road", "--world", given, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
     # A description has a name of its own; the record of another one that stood in the file before is older.
-    record = max(folder.glob("*.json"), key=lambda path: path.stat().st_mtime_ns) if file.is_file() else None
+    record = max(folder.glob("*.json"), key=lambda path: path.stat().st_mtime_ns) if is_file(file) else None
     content = read_world_record(record or folder / f"{file.stem}.json")
     return World(str(content["name"]), folder / content["road"], content)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.json_reading import read_json
+from ali3.reading import LARGEST_IN_PARTS, is_file, open_file
 from hosts.common.errors import HostError
 
 FORMAT, VERSION = "ALi3 world", 1
@@ -31,17 +32,17 @@ def world_beside(road: Path) -> dict[str, Any] | None:
     Raises `HostError`: it is a world that cannot be read, or that of another road file of that name.
     """
     file = road.with_suffix(".json")
-    if not file.is_file():
+    if not is_file(file):
         return None
     content = read_json(file, HostError)
     if not isinstance(content, dict) or content.get("format") != FORMAT or content.get("road") != road.name:
         return None
-    if road.is_file() and content.get("checksum") not in (None, _checksum(road)):
+    if is_file(road) and content.get("checksum") not in (None, _checksum(road)):
         raise HostError(f"{file} is the record of another {road.name} than that beside it; {_REMEDY}")
     return read_world_record(file)
 
 
 def _checksum(road: Path) -> int:
     """The checksum in the header of a road file, which the record of its world repeats."""
-    with road.open("rb") as file:
+    with open_file(road, LARGEST_IN_PARTS, HostError) as file:
         return int.from_bytes(file.read(16)[12:], "little")

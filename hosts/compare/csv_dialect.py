@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import gzip
+import io
 import re
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ali3.errors import reason
 from ali3.reading import other_encoding
-from ali3.tables import cells_of
+from ali3.tables import LARGEST, cells_of
 from ali3.units import known_unit
+from ali3.unpacked import Unpacked
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
@@ -99,13 +98,8 @@ def _refuse_units(path: Path, lines: Sequence[str], stated: Dialect) -> None:
 
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
-    try:
-        with gzip.open(path) if path.suffix.lower() == ".gz" else path.open("rb") as stream:
-            content = stream.read(400_000)
-    except (EOFError, zlib.error) as error:
-        raise HostError(f"The log {path} cannot be unpacked: {error}.") from None
-    except OSError as error:
-        raise HostError(f"The log {path} cannot be read: {reason(error)}.") from None
+    with io.BufferedReader(Unpacked(path, LARGEST, HostError, f"The log {path}", zeros=True)) as stream:
+        content = stream.read(400_000)
     if words := other_encoding(content):
         raise HostError(f"The log {path} is {words}.")
     if b"\0" in content:

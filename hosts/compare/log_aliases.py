@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ali3.reading import read_toml
+from ali3.reading import is_file, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 
@@ -92,7 +92,7 @@ def refuse_log_aliases(file: Path) -> None:
 
     Raises `HostError`: it has only tables of a log's file.
     """
-    if file.is_file() and (content := read_toml(file)) and set(content) <= set(_TABLES):
+    if is_file(file) and (content := read_toml(file)) and set(content) <= set(_TABLES):
         raise HostError(f"{file} is the alias file of a log; --log-aliases takes it, --aliases that of the FMU.")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import gzip
+import io
 import re
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 
 from ali3.reading import check_file
 from ali3.tables import LARGEST
+from ali3.unpacked import Unpacked
 from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
+from hosts.common.parquet import opened_parquet
 from hosts.compare.csv_dialect import find_dialect, unit_behind
 from hosts.compare.log_aliases import Dialect
 from hosts.driving.run_record import RunRecord, rows_before_jumps
@@ -88,7 +90,7 @@ class RawLog:
         wanted = int(self.table.index[row])
         if self.path.suffix.lower() in _PARQUET:
             return wanted + 1
-        with gzip.open(self.path) if self.path.suffix.lower() == ".gz" else self.path.open("rb") as stream:
+        with io.BufferedReader(Unpacked(self.path, LARGEST, HostError, f"The log {self.path}")) as stream:
             lines = (k for k, text in enumerate(stream, 1) if k > self.first_row and text.strip())
             return next(islice(lines, wanted, None), self.first_row + wanted + 1)
 
@@ -110,7 +112,7 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
     found = find_dialect(path, dialect)
     try:
         table = pd.read_csv(
-            path,
+            Unpacked(path, LARGEST, HostError, f"The log {path}", found.delimiter.encode()),
             sep=found.delimiter,
             decimal=found.decimal,
             encoding=found.encoding,
@@ -134,10 +136,10 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
 
 
 def _read_parquet(path: Path) -> RawLog:
-    from pyarrow import ArrowException, parquet
+    from pyarrow import ArrowException
 
     try:
-        with parquet.ParquetFile(path) as file:
+        with opened_parquet(path, f"The log {path}") as file:
             content = file.read()
         # What pandas has written beside the columns adds nothing: an index is a column too. It may be damaged.
         table = content.replace_schema_metadata(None).to_pandas()

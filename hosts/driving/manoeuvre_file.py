@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.near_names import did_you_mean
-from ali3.reading import LARGEST_TEXT, no_file, read_toml
+from ali3.reading import LARGEST_TEXT, is_file, no_file, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
@@ -37,11 +37,11 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     path = Path(manoeuvre)
     check_manoeuvre(manoeuvre)
     if path.suffix not in SUFFIXES:
-        path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if p.is_file())
+        path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if is_file(p))
     if path.suffix == ".toml":
         made = _read_toml(path)
     else:
-        if not path.is_file():
+        if not is_file(path):
             raise HostError(no_file(path))
         from hosts.driving.manoeuvre_table import read_table
 

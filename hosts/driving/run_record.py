@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ali3.json_reading import read_json
+from ali3.reading import is_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.state_file import read_state
@@ -52,7 +53,7 @@ def record_of(path: Path) -> RunRecord:
     """The record beside a table; one that says nothing where there is none."""
     file = path.with_suffix(".json")
     try:
-        record = read_json(file, HostError, finite=False) if file.is_file() else None
+        record = read_json(file, HostError, finite=False) if is_file(file) else None
     except HostError:
         return RunRecord()  # of another kind: what is in the table then says what it is
     if not isinstance(record, dict) or "outputs_from" not in record:

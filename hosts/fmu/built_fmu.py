@@ -14,8 +14,7 @@ from ali3.commands import COMMANDS
 from ali3.errors import FileError, reason
 from ali3.folders import forget_oldest, whole_folder
 from ali3.locks import locked
-from ali3.reading import read_toml
-from ali3.words import brief
+from ali3.reading import is_file, is_folder, read_bytes, read_toml
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.fmu.car import CAR_FILE
@@ -97,15 +96,11 @@ def car_digest(car: str) -> str:
     """
     digest = hashlib.sha256(program_version().encode())
     path = Path(car)
-    try:
-        file = path / CAR_FILE if path.is_dir() else path
-        is_file = file.is_file()
-    except OSError as error:  # a name that is too long for one
-        raise HostError(f"The car {brief(car)} cannot be read: {reason(error)}.") from None
-    if not is_file:
+    file = path / CAR_FILE if is_folder(path) else path
+    if not is_file(file):
         digest.update(f"name {car}".encode())
         return digest.hexdigest()[:32]
-    files = {f for f in file.parent.rglob("*") if f.is_file()} | set(_named_files(file))
+    files = {f for f in file.parent.rglob("*") if is_file(f)} | set(_named_files(file))
     size = sum(f.stat().st_size for f in files)
     if size > _LARGEST:
         raise HostError(
@@ -114,7 +109,7 @@ def car_digest(car: str) -> str:
     digest.update(file.name.encode())
     for found in sorted(files):
         try:
-            digest.update(os.path.relpath(found, file.parent).encode() + b"\n" + found.read_bytes())
+            digest.update(os.path.relpath(found, file.parent).encode() + b"\n" + read_bytes(found, _LARGEST, HostError))
         except OSError as error:
             raise HostError(f"{found} cannot be read: {reason(error)}.") from None
     return digest.hexdigest()[:32]
@@ -129,7 +124,7 @@ def _named_files(file: Path) -> Iterator[Path]:
     for text in _texts(content):
         try:
             named = file.parent / text
-            if named.is_file():
+            if is_file(named):
                 yield named
         except (OSError, ValueError):
             continue
@@ -158,4 +153,4 @@ def program_version() -> str:
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    return (f for f in folder.rglob("*") if f.suffix in _SUFFIXES and f.is_file())
+    return (f for f in folder.rglob("*") if f.suffix in _SUFFIXES and is_file(f))

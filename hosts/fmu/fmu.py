@@ -8,7 +8,6 @@ import shutil
 import sys
 import tempfile
 import weakref
-import zipfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from ctypes import c_double, c_int32, c_uint32
@@ -16,22 +15,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.errors import reason
 from ali3.near_names import did_you_mean
-from ali3.processes import command_name, memory_words
-from ali3.reading import no_file
+from ali3.processes import memory_words
 from ali3.words import brief, shortened
-from ali3.xml_memory import is_lack_of_memory
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu.description_file import opened, read_description
 from hosts.fmu.instance import Instance, State
-from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of, element_names, scalars
+from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of
 from hosts.fmu.variables import Variables, check_co_simulation
 
 if TYPE_CHECKING:
@@ -50,33 +47,20 @@ class StartRefusedError(HostError):
 
 
 def described(path: Path) -> ModelDescription:
-    """The description of an FMU of any version that FMPy reads. Raises `HostError`: it is no FMU that can be read."""
+    """The description of an FMU with its scalars as variables; errors as of `read_description`."""
     return _read(path)[0]
 
 
 def _read(path: Path) -> tuple[ModelDescription, dict[str, Place]]:
-    """The description of an FMU with its scalars as variables, and their places; errors as of `described`."""
-    if not path.is_file():
-        hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
-        raise HostError(no_file(path, hint))
-    if not zipfile.is_zipfile(path):
-        raise HostError(f"{path} is not an FMU (not a zip archive).")
-    try:
-        description = read_model_description(str(path))
-        arrays = any(v.dimensions for v in description.modelVariables)
-        description.modelVariables, places = scalars(description, element_names(path) if arrays else {})
-    except (ImportError, MemoryError):
-        raise
-    except Exception as error:
-        if is_lack_of_memory(error):
-            raise MemoryError from None
-        raise HostError(f"{path} is not an FMU that can be read: {error}") from None
+    description, variables, places = read_description(path)
+    description.modelVariables = variables
     return description, places
 
 
 def unpack(path: Path, folder: Path) -> None:
     """Unpack what an FMU runs with: all but its sources and documentation, which are most of its files."""
-    extract(str(path), str(folder), lambda name: not name.startswith(("sources/", "documentation/")))
+    with opened(path) as archive:
+        archive.unpack(folder, lambda name: not name.startswith(("sources/", "documentation/")))
 
 
 class Fmu(Closing, NamedScalars):

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import tempfile
-import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from shlex import quote
 from typing import Any
 
+from ali3.archives import Archive
 from ali3.json_reading import LARGEST_JSON, read_json
 from ali3.processes import command_name
+from ali3.reading import is_file
 from ali3.scene.errors import SceneError
 from ali3.scene.scene import read_scene
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.world_record import world_beside
+from hosts.fmu.description_file import opened
 
 RESOURCE = "resources/geometry.json"
 _ROADS = "resources/roads"
@@ -33,16 +35,11 @@ def scene_of(
     `HostError`: it is no FMU that can be read, or its scene is not of the format.
     """
     try:
-        with zipfile.ZipFile(path) as fmu:
-            if RESOURCE not in fmu.namelist():
+        with opened(path) as fmu:
+            if RESOURCE not in fmu:
                 return None
-            if fmu.getinfo(RESOURCE).file_size > LARGEST_JSON:
-                raise HostError(f"{RESOURCE} of {path} has more than {LARGEST_JSON} bytes.")
-            content = fmu.read(RESOURCE)
-            scene = read_scene(content, f"{RESOURCE} of {path}")
+            scene = read_scene(fmu.read(RESOURCE, LARGEST_JSON), f"{RESOURCE} of {path}")
             roads, missing, scenery = _roads(scene, fmu, settings or {}, world)
-    except (OSError, zipfile.BadZipFile, KeyError, RuntimeError) as error:
-        raise HostError(f"{path} is not an FMU that can be read: {error}.") from None
     except SceneError as error:
         raise HostError(str(error)) from None
     more = {"scenery": [*scene.get("scenery", []), *scenery]} if scenery else {}
@@ -50,7 +47,7 @@ def scene_of(
 
 
 def _roads(
-    scene: Mapping[str, Any], fmu: zipfile.ZipFile, settings: Mapping[str, Value], expected: str | None
+    scene: Mapping[str, Any], fmu: Archive, settings: Mapping[str, Value], expected: str | None
 ) -> tuple[list[Any], list[dict[str, str]], list[Any]]:
     """Roads with those of files read and with the values that were set; what cannot be drawn, and why; scenery."""
     roads, missing, scenery = list[Any](), list[dict[str, str]](), list[Any]()
@@ -98,15 +95,15 @@ def _set(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
     return made
 
 
-def _part(name: str, fmu: zipfile.ZipFile) -> dict[str, Any]:
+def _part(name: str, fmu: Archive) -> dict[str, Any]:
     """A road file as a part of a scene."""
     with tempfile.TemporaryDirectory(prefix="road_") as folder:
-        inside = next((n for n in (name, f"{_ROADS}/{name}") if n in fmu.namelist()), None)
+        inside = next((n for n in (name, f"{_ROADS}/{name}") if n in fmu), None)
         file = Path(name.removeprefix("file://"))
         if inside is not None:
             file = Path(folder, Path(inside).name)
             file.write_bytes(fmu.read(inside))
-        elif not file.is_file():
+        elif not is_file(file):
             remedy = f"; {_made_by(file)}" if file.is_absolute() else ""
             raise HostError(f"its file is not there{remedy}")
         out = Path(folder, "part.json")

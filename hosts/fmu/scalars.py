@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import copy
 import itertools
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from fmpy.model_description import ModelDescription, ScalarVariable
 
@@ -52,10 +50,8 @@ def constants_of(variables: Mapping[str, ScalarVariable]) -> dict[str, float]:
     return {n: float(v.start) for n, v in variables.items() if (v.variability, v.type) == ("constant", "Real")}
 
 
-def element_names(path: Path) -> dict[str, list[str]]:
-    """Names of the elements of the arrays that say them, by the name of the array."""
-    with zipfile.ZipFile(path) as archive:
-        text = archive.read(ELEMENTS).decode() if ELEMENTS in archive.namelist() else ""
+def element_names(text: str) -> dict[str, list[str]]:
+    """Names of the elements of the arrays, by the name of the array. `text`: of the file `ELEMENTS`."""
     return {names[0]: names[1:] for line in text.splitlines() if (names := line.split())}
 
 

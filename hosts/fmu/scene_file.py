@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ali3.reading import no_file
+from ali3.archives import is_archive
+from ali3.reading import is_file, no_file
 from ali3.scene.errors import SceneError
 from ali3.scene.scene import read_scene
 from hosts.common.errors import HostError
@@ -19,9 +19,9 @@ def scene_from(
     path: Path, settings: Mapping[str, Value] | None = None, world: str | None = None
 ) -> dict[str, Any] | None:
     """The scene of an FMU, or of a JSON file; see `scene_of`."""
-    if not path.is_file():
+    if not is_file(path):
         raise HostError(no_file(path))
-    if not zipfile.is_zipfile(path):
+    if not is_archive(path):
         try:
             return read_scene(path)
         except SceneError as error:

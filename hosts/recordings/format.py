@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ali3.reading import is_file
 from hosts.common.errors import HostError
 
 FORMAT, VERSION = "ALi3 recording", 2
@@ -18,7 +19,7 @@ REWIND, REFUSED = "rewind", "refused"
 
 def is_recording(path: Path) -> bool:
     """Whether a path is the folder of a recording."""
-    return (path / DESCRIPTION).is_file()
+    return is_file(path / DESCRIPTION)
 
 
 def check_new(folder: Path) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import zipfile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.archives import is_archive
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import described
@@ -50,7 +50,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     if every > 1:
         told.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
     source = geometry or Path(drive.meta["fmu"])
-    is_fmu = source.is_file() and zipfile.is_zipfile(source)
+    is_fmu = is_archive(source)
     if geometry is None and not is_fmu:
         raise HostError(f"{folder} names the FMU {source}, which is not there any more; name it by --geometry FMU.")
     scene = scene_from(source, drive.meta["start"], drive.meta.get("world"))

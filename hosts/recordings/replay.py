@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.reading import is_file
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -64,7 +65,7 @@ class Repeater(Closing):
     def __init__(self, drive: RecordedDrive, fmu: Path | None = None) -> None:
         self.drive, path = drive, fmu or Path(drive.meta["fmu"])
         self.notes = list(drive.notes)
-        if fmu is None and not path.is_file():
+        if fmu is None and not is_file(path):
             raise HostError(f"{drive.folder} was recorded from {path}, which is not there any more; name the FMU.")
         self._kept = set(drive.rewound_to)
         self._states: dict[RowKey, State] = {}

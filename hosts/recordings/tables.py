@@ -14,6 +14,7 @@ from ali3.errors import reason
 from ali3.tables import TextTable
 from ali3.words import brief, one_line
 from hosts.common.errors import HostError
+from hosts.common.parquet import opened_parquet
 
 TABLE = "inputs_outputs"
 PARTS = "parts"
@@ -103,10 +104,9 @@ def _check_names(file: Path, found: Sequence[str], names: Sequence[str]) -> None
 def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
     """The rows of a Parquet file; see `blocks_of`."""
     import pyarrow as pa
-    import pyarrow.parquet as pq
 
     try:
-        with pq.ParquetFile(file) as table:
+        with opened_parquet(file, by_parts=True) as table:
             if not all(pa.types.is_floating(f.type) or pa.types.is_integer(f.type) for f in table.schema_arrow):
                 raise HostError(f"{file} is no table of a recording: a column does not hold numbers.")
             _check_names(file, table.schema_arrow.names, names)

@@ -17,8 +17,9 @@ from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
+from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, free_space, read_record
+from hosts.study.folder import begin_study, free_space, read_record, refuse_links
 from hosts.study.parts import PartWriter, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
@@ -53,8 +54,9 @@ def run_study(
     """
     study, content = read_study_file(file)
     folder = out_folder(out, study, file)
-    if folder.exists() and not folder.is_dir():
+    if folder.exists() and not is_folder(folder):
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
+    refuse_links(folder)
     before = _before(folder)
     plan = _plan(study, file, folder, before)
     for note in plan.notes:
@@ -101,7 +103,7 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
 
     digest = car_digest(_car(study.car, file))
     kept = folder / before["fmu"] if before is not None and before.get("car") == digest else None
-    fmu = kept if kept is not None and kept.is_file() else fmu_of_study(study, file)
+    fmu = kept if kept is not None and is_file(kept) else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
 
@@ -119,7 +121,7 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
 def _car(name: str, file: Path) -> str:
     """A car file beside the study, else a car of the package."""
     beside = file.parent / name
-    return str(beside) if beside.exists() else name
+    return str(beside) if is_file(beside) or is_folder(beside) else name
 
 
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:
@@ -194,8 +196,8 @@ def _check_space(needed: float, folder: Path) -> None:
     free = free_space(folder)
     if needed + _MARGIN > free:
         raise HostError(
-            f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free; make room, give another "
-            "--out, or keep fewer signals."
+            f"The results may need {_size(needed)} in {folder}, and {_size(_MARGIN)} are left to others, where "
+            f"{_size(free)} are free; make room, give another --out, or keep fewer signals."
         )
 
 

@@ -15,9 +15,11 @@ import cryptography  # noqa: F401 - Security.temporary needs it
 import dask
 from distributed import Client, KilledWorker, LocalCluster, Security
 
+from ali3.archives import LARGEST_ARCHIVE
 from ali3.cache import cache_folder
 from ali3.children import stop_signals_blocked
 from ali3.cores import available_cores
+from ali3.reading import read_bytes
 from hosts.common.errors import HostError
 from hosts.study.plan import Plan
 from hosts.study.worker import StudyPlugin, why_wrong
@@ -106,7 +108,7 @@ def bring(client: Client, plan: Plan) -> None:
 
     Raises `HostError`: a worker has another version of ALi3, or cannot load it.
     """
-    plugin = StudyPlugin(plan.key, plan.work, plan.seed, plan.fmu.read_bytes())
+    plugin = StudyPlugin(plan.key, plan.work, plan.seed, read_bytes(plan.fmu, LARGEST_ARCHIVE, HostError))
     try:
         client.register_plugin(plugin)
         answers = client.run(why_wrong, plan.key)

@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from ali3.columns import some_of
 from ali3.files import whole_file
 from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
 from hosts.study.folder import write_record
-from hosts.study.parts import part_files, write_part
+from hosts.study.parts import part_files, read_part, write_part
 from hosts.study.work import FAILED
 
 _FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
@@ -84,7 +83,7 @@ def forget_failed(folder: Path) -> int:
     """Take the rows of failed runs out of the parts, so that they are made again; how many."""
     forgotten = 0
     for file in part_files(folder):
-        table = pq.ParquetFile(file).read()
+        table = read_part(file)
         kept = table.filter(pa.compute.not_equal(table["status"], FAILED))
         forgotten += len(table) - len(kept)
         if len(kept) == 0:

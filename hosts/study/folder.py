@@ -42,6 +42,14 @@ def write_record(folder: Path, record: Mapping[str, Any]) -> None:
     write_text(folder / RECORD, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
 
 
+def refuse_links(folder: Path) -> None:
+    """Raise `HostError` where a file or folder in that of a study is a link: what is written there lies elsewhere."""
+    for place, folders, files in os.walk(folder):
+        for name in (*folders, *files):
+            if (found := Path(place, name)).is_symlink():
+                raise HostError(f"{found} is a link; nothing is written through it. Remove it, or give another --out.")
+
+
 def free_space(folder: Path) -> int:
     """Bytes that can be written there."""
     place = next(p for p in (folder.absolute(), *folder.absolute().parents) if p.exists())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ali3.near_names import did_you_mean
+from ali3.reading import is_folder
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_file import SUFFIXES
@@ -17,7 +18,7 @@ def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
     known = manoeuvre_names()
     if name in known:
         return load_manoeuvre(name)
-    if Path(name).suffix not in SUFFIXES and not (file.parent / name).is_dir():
+    if Path(name).suffix not in SUFFIXES and not is_folder(file.parent / name):
         hint = did_you_mean(name, known, f"known are {', '.join(known)}, or a TOML or CSV file")
         raise HostError(f"{file}: there is no manoeuvre '{name}'{hint}")
     return load_manoeuvre(str(file.parent / name))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ali3.reading import is_file
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import AliasedFmu
@@ -19,7 +20,7 @@ def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
     Raises `HostError`: the file is not right, or is none for this FMU.
     """
     beside = file.parent / name
-    return aliases_of(beside if beside.is_file() else name, fmu.table)
+    return aliases_of(beside if is_file(beside) else name, fmu.table)
 
 
 def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:

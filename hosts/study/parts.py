@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ali3.files import whole_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.common.parquet import opened_parquet
 from hosts.study.folder import RUNS, sync
 from hosts.study.work import MISSING, Chunk, Outcome, seed_of
 
@@ -53,6 +54,12 @@ def part_files(folder: Path) -> list[Path]:
     return sorted((folder / RUNS).glob("part-*.parquet"))
 
 
+def read_part(file: Path, columns: Sequence[str] | None = None) -> pa.Table:
+    """Rows of a part, of all columns or of some; raises what pyarrow does."""
+    with opened_parquet(file) as part:
+        return part.read(columns)
+
+
 def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
     """Which runs have a row, of shape (runs,).
 
@@ -61,7 +68,7 @@ def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
     done = np.zeros(runs, dtype=np.bool_)
     for file in part_files(folder):
         try:
-            index = pq.ParquetFile(file).read(["index"])["index"].to_numpy()
+            index = read_part(file, ["index"])["index"].to_numpy()
         except (pa.ArrowException, OSError, KeyError) as error:
             words = str(error).strip().splitlines()[0]
             raise HostError(f"{file} is damaged ({words}); remove it, and its runs are made again.") from None

@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ali3.archives import LARGEST_ARCHIVE
 from ali3.near_names import did_you_mean
+from ali3.reading import is_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest, versions
 from hosts.driving.simulated_fmu import SimulatedFmu
@@ -76,7 +78,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
     Raises `HostError`: whatever can be said before the first run: an unknown parameter, signal or measure, a value out
     of range with its row, an empty grid, a manoeuvre that overwrites a parameter.
     """
-    content = fmu_path.read_bytes() if fmu_path.is_file() else b""
+    content = read_bytes(fmu_path, LARGEST_ARCHIVE, HostError) if is_file(fmu_path) else b""
     with Fmu(fmu_path) as opened:
         runs = planned_runs(study, file, opened)
         fmu, points, parameters, jobs = runs.fmu, runs.points, runs.parameters, runs.jobs

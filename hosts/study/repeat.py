@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.processes import command_name
+from ali3.reading import is_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.set_words import set_words
@@ -66,7 +67,7 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
 
 def _alias_file(name: str, file: Path) -> str:
     beside = file.parent / name
-    return str(beside) if beside.is_file() else name
+    return str(beside) if is_file(beside) else name
 
 
 def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:

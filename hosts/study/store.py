@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from hosts.common.errors import HostError
 from hosts.study.folder import RECORD, SIGNALS, read_record
-from hosts.study.parts import attributes, part_files, table_schema
+from hosts.study.parts import attributes, part_files, read_part, table_schema
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -34,12 +34,11 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     damaged.
     """
     import pyarrow as pa
-    import pyarrow.parquet as pq
 
     record = study_record(folder)
     schema = table_schema(record)
     try:
-        tables = [pq.ParquetFile(file).read() for file in part_files(Path(folder))]
+        tables = [read_part(file) for file in part_files(Path(folder))]
     except (pa.ArrowException, OSError) as error:
         raise HostError(f"A part of {folder} is damaged: {str(error).splitlines()[0]}.") from None
     table = pa.concat_tables(tables, promote_options="default") if tables else schema.empty_table()

@@ -11,6 +11,8 @@ from typing import Any
 
 from distributed import Worker, WorkerPlugin, get_worker
 
+from ali3.archives import LARGEST_ARCHIVE
+from ali3.reading import read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.program import program_digest
@@ -80,7 +82,7 @@ def why_wrong(key: str, dask_worker: Worker) -> str:
         return "it has not been given the study"
     if program_digest() != room.work.program:
         return "it has another version of ALi3"
-    if hashlib.sha256(room.fmu.read_bytes()).hexdigest() != room.work.sha256:
+    if hashlib.sha256(read_bytes(room.fmu, LARGEST_ARCHIVE, HostError)).hexdigest() != room.work.sha256:
         return "its copy of the FMU is damaged"
     guid = described(room.fmu).guid
     if guid != room.work.guid:

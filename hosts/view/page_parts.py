@@ -6,7 +6,6 @@ import base64
 import gzip
 import json
 import re
-import zipfile
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,10 +14,13 @@ from typing import Any
 
 from fmpy.model_description import ModelDescription
 
+from ali3.archives import LARGEST_UNPACKED
 from ali3.processes import command_name
+from ali3.reading import is_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD
+from hosts.fmu.description_file import opened
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
 from hosts.fmu.geometry import RESOURCE, scene_of
@@ -87,8 +89,8 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     """
     description = described(path)
     _check_kind(path, description)
-    with zipfile.ZipFile(path) as archive:
-        names = archive.namelist()
+    with opened(path) as archive:
+        names = archive.names
         if RESOURCE not in names:
             raise HostError(
                 f"{path} has no drawing of itself ({RESOURCE}): it was built by an older version; build it again with "
@@ -103,9 +105,9 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     lost = next((item["why"] for item in scene["missing"] if item["name"] == f"The road {road}"), None)
     if road and lost is not None:
         raise HostError(f"The road {road} cannot be used: {lost}.")
-    own_road = Path(str(road)) if road and Path(str(road)).is_file() else None
+    own_road = Path(str(road)) if road and is_file(str(road)) else None
     if own_road is not None:
-        resources[_ROADS + own_road.name] = own_road.read_bytes()
+        resources[_ROADS + own_road.name] = read_bytes(own_road, LARGEST_UNPACKED, HostError)
     return FmuParts(path, description, Variables(description), scene, wasm, resources, own_road)
 
 
@@ -118,8 +120,8 @@ def build_line(path: Path) -> str:
 
 
 def _has_car(path: Path) -> bool:
-    with zipfile.ZipFile(path) as archive:
-        return any(name.startswith(f"{_ROOM}car/") for name in archive.namelist())
+    with opened(path) as archive:
+        return any(name.startswith(f"{_ROOM}car/") for name in archive.names)
 
 
 def _check_kind(path: Path, description: ModelDescription) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.tables import TextTable
+from ali3.reading import open_file
+from ali3.tables import LARGEST, TextTable
 from ali3.words import brief
 from hosts.common.errors import HostError
 
@@ -44,7 +45,7 @@ def read_table(path: Path) -> Table:
         )
     if text.width < 2:
         raise HostError(f"{path} has a column of times and no other.")
-    with path.open("rb") as stream:
+    with open_file(path, LARGEST, HostError) as stream:
         rows = sum(block.count(b"\n") for block in iter(lambda: stream.read(1 << 20), b""))
     every = max(1, -(-rows // max(_FEWEST_ROWS, _MOST_VALUES // text.width)))
     data = text.values(every, finite=False)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ali3.archives import is_archive
 from ali3.json_reading import read_json
 from ali3.processes import command_name
-from ali3.reading import no_file
+from ali3.reading import is_file, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
@@ -57,13 +57,13 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
     made: list[Recording] = []
     told: list[str] = []
     for path, name in zip(paths, _names(paths), strict=True):
-        if not path.is_file() and not path.is_dir():
+        if not is_file(path) and not is_folder(path):
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
             raise HostError(no_file(path, hint))
         suffix = path.suffix.lower()
         if is_recording(path):
             recording, words = recorded_view(path, name, geometry)
-        elif suffix == ".fmu" or (suffix not in (".csv", ".json") and zipfile.is_zipfile(path)):
+        elif suffix == ".fmu" or (suffix not in (".csv", ".json") and is_archive(path)):
             recording, words = _of_fmu(path, name, run)
         elif suffix in (".csv", ".json"):
             recording, words = _of_result(path, name, geometry)
@@ -87,7 +87,7 @@ def _tell_other_grounds(recordings: Sequence[Recording]) -> None:
 
 
 def _no_kind(path: Path) -> str:
-    if path.is_dir():
+    if is_folder(path):
         return f"{path} is a folder; name a result in it (a .csv file), an FMU, or the folder of a recording."
     if path.suffix.lower() == ".py":
         return f"{path} is shown when it is built: {command_name('build')} makes an FMU of a scene."
@@ -108,10 +108,10 @@ def _names(paths: Sequence[Path]) -> list[str]:
 def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording, list[str]]:
     """A table with the scene of the FMU that its record names."""
     table_file, record_file = path.with_suffix(".csv"), path.with_suffix(".json")
-    if not table_file.is_file():
+    if not is_file(table_file):
         raise HostError(f"{path} has no table {table_file.name} beside it; name the .csv file of a result.")
     table = read_table(table_file)
-    record = _record(record_file) if record_file.is_file() else None
+    record = _record(record_file) if is_file(record_file) else None
     units: dict[str, str] = dict(table.units)
     told: list[str] = []
     source: Path | None = None
@@ -120,7 +120,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     if record is not None:
         source = geometry or _fmu_of(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
-        if zipfile.is_zipfile(source):
+        if is_archive(source):
             described, same = _units(source, str(record.get("token", "")))
             units = described | units
             if not same:
@@ -128,10 +128,10 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         _add_names_of_fmu(table, units, record, record_file)
         if scene is not None:
             scene = _with_marks(_with_course(scene, record, record_file), record, record_file)
-    elif geometry is not None or record_file.is_file():
+    elif geometry is not None or is_file(record_file):
         source = geometry or record_file  # a scene
         scene = scene_from(source)
-        if scene is not None and scene.get("roads") and zipfile.is_zipfile(source):
+        if scene is not None and scene.get("roads") and is_archive(source):
             told.append(
                 f"{table_file} has no record {record_file.name} beside it that says where it ran: what is drawn of the "
                 f"ground is that of {source} as it was built."
@@ -214,7 +214,7 @@ def _fmu_of(record: dict[str, Any], file: Path) -> Path:
     here = file.absolute().parent
     tried = [named, *(folder / named for folder in (here, *here.parents))] if not named.is_absolute() else [named]
     tried.append(here / named.name)
-    found = next((path for path in tried if path.is_file()), None)
+    found = next((path for path in tried if is_file(path)), None)
     if found is None:
         raise HostError(
             f"{file} names the FMU {named}, which is not there any more; say where it is now by --geometry FMU."

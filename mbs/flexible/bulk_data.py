@@ -10,12 +10,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.named_files import NamedFiles
+from ali3.reading import read_bytes
 from ali3.words import brief
+from mbs.common.checks import LARGEST as LARGEST_NUMBER
 from mbs.common.errors import ModelError
+from mbs.flexible.foreign_file import LARGEST
 
 Array = NDArray[np.float64]
 _COLUMNS = 72
 """Of a line with data; beyond are marks of continuation."""
+_MOST_REPEATS = 1_000_000
 _SYSTEMS = ("CORD2R", "CORD2C", "CORD2S")
 _USED = (*_SYSTEMS, "GRDSET", "GRID")
 
@@ -48,7 +53,10 @@ class _Card:
 
     def numbers(self, first: int, count: int) -> Array:
         """Fields as numbers; 0 where one is empty."""
-        return np.array([self._read(k, _number, "number") for k in range(first, first + count)])
+        found = np.array([self._read(k, _number, "number") for k in range(first, first + count)])
+        if not (np.abs(found) <= LARGEST_NUMBER).all():
+            raise self.line.error(f"a number of this {self.name} is not finite or beyond {LARGEST_NUMBER:g}.")
+        return found
 
     def _read(self, k: int, reader: Callable[[str], float], what: str) -> float:
         try:
@@ -57,11 +65,11 @@ class _Card:
             raise self.line.error(f"field {k + 2} of this {self.name} is {brief(self.field(k))}, no {what}.") from None
 
 
-def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
+def grid_points(path: Path, folder: str | Path | None = None) -> dict[int, tuple[Array, int]]:
     """Places and systems of displacement of all grid points.
 
-    `path`: bulk data, or a whole deck; what it includes is read. Raises `ModelError` with file and line: a number is
-    damaged, a coordinate system is not there; `OSError`: an included file is not.
+    `path`: bulk data, or a whole deck; what it includes is read; `folder`: below which that lies; by default its own.
+    Raises `ModelError` with file and line: a number is damaged, a coordinate system or an included file is not there.
 
     Returns
     -------
@@ -70,7 +78,7 @@ def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
         displacements, 0: the basic one.
     """
     found: dict[str, list[_Card]] = {}
-    lines = list(_lines(path))
+    lines = list(_lines(path, NamedFiles(path.parent if folder is None else folder, LARGEST, ModelError)))
     begin = next((k + 1 for k, line in enumerate(lines) if re.match(r"begin\s+bulk", line.text, re.IGNORECASE)), 0)
     for card in _cards(lines[begin:]):
         found.setdefault(card.name, []).append(card)
@@ -83,6 +91,8 @@ def grid_points(path: Path) -> dict[int, tuple[Array, int]]:
             raise card.line.error(f"grid point {number} is given twice.")
         given, own = ((card if card.field(k) else default).whole(k) for k in (1, 5))
         points[number] = systems.basic(card.numbers(2, 3), given, card.line), own
+    if not points:
+        raise ModelError(f"{path.name} holds no grid points.")
     return dict(sorted(points.items()))
 
 
@@ -140,14 +150,15 @@ def _number(field: str) -> float:
     return float(re.sub(r"(?<=[\d.])([+-])", r"e\1", field.lower().replace("d", "e")))
 
 
-def _lines(path: Path, depth: int = 0) -> Iterator[_Line]:
+def _lines(path: Path, included: NamedFiles, depth: int = 0) -> Iterator[_Line]:
     """Lines without comments, and those of included files in their place."""
-    for number, raw in enumerate(path.read_text(encoding="latin-1").splitlines(), 1):
+    text = read_bytes(path, LARGEST, ModelError, path.name).decode("latin-1")
+    for number, raw in enumerate(text.splitlines(), 1):
         line = _Line(f"{path.name}, line {number}", raw.partition("$")[0].rstrip())
-        if included := re.match(r"include\s+['\"]?([^'\"]+)", line.text, re.IGNORECASE):
+        if named := re.match(r"include\s+['\"]?([^'\"]+)", line.text, re.IGNORECASE):
             if depth == 20:
                 raise line.error(f"{path.name} is included within itself.")
-            yield from _lines(path.parent / included[1].strip(), depth + 1)
+            yield from _lines(included.file(named[1].strip(), path.parent, line.where), included, depth + 1)
         elif line.text:
             yield line
 
@@ -164,7 +175,10 @@ def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
             rule = rule if repeats else card.data
             if not rule:
                 raise card.line.error(f"{card.name} repeats a replication, and the line before it is none.")
-            for _ in range(int(repeats[1]) if repeats else 1):
+            count = int(repeats[1]) if repeats else 1
+            if count > _MOST_REPEATS:
+                raise card.line.error(f"{card.name} repeats a card more than {_MOST_REPEATS} times.")
+            for _ in range(count):
                 before = _Card(
                     card.line, before.name if again else card.name, _replicated(rule, before.data, card.line)
                 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,11 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
 from ali3.extras import missing_module
-from ali3.reading import no_file
+from ali3.reading import is_file, no_file, open_file, read_bytes
+from ali3.words import brief
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.foreign_file import read_foreign
+from mbs.flexible.foreign_file import LARGEST, read_foreign
 from mbs.flexible.matrix_files import external_model
 
 
@@ -45,12 +47,12 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     deck = Path(deck)
     files = [deck, *(deck.with_suffix(suffix) for suffix in (".sti", ".mas", ".dof"))]
     for path in files:
-        if not path.is_file():
+        if not is_file(path):
             raise ModelError(no_file(path, " *FREQUENCY, SOLVER=MATRIXSTORAGE writes it."))
-    points = read_foreign(deck, lambda path: np.asarray(meshio.read(path, file_format="abaqus").points, float))
-    numbers = read_foreign(deck, _node_numbers)
-    if len(numbers) != len(points):
-        raise ModelError(f"{deck.name} has {len(numbers)} node lines but {len(points)} nodes.")
+    nodes = read_foreign(deck, _node_lines)
+    text = StringIO("\n".join(["*NODE", *nodes]))
+    points = read_foreign(deck, lambda path: np.asarray(meshio.read(text, file_format="abaqus").points, float))
+    numbers = [int(line.partition(",")[0]) for line in nodes]
     row = {number: i for i, number in enumerate(numbers)}
     freedoms = read_foreign(files[3], _freedoms)
     table = np.full((len(numbers), 3), -1)
@@ -64,7 +66,7 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
     if held.size or not used.any():
         node = numbers[int(held[0])] if held.size else numbers[0]
         raise ModelError(f"Node {node} has a supported direction; give the free model, without supports.")
-    entries = [read_foreign(path, lambda path: np.loadtxt(path, unpack=True, ndmin=2)) for path in files[1:3]]
+    entries = [read_foreign(path, _entries) for path in files[1:3]]
     lumped = len(entries[1]) == 3 and np.array_equal(entries[1][0], entries[1][1])
     for path, found in zip(files[1:3], entries, strict=True):
         if len(found) != 3 or not np.isin(table[used] + 1, found[0][found[0] == found[1]]).all():
@@ -81,7 +83,13 @@ def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.
 
 def _freedoms(path: Path) -> list[tuple[int, int]]:
     """Number of the node and axis, from 0, of each row of the matrices."""
-    return [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in path.read_text().split())]
+    return [(int(node), int(axis) - 1) for node, axis in (f.split(".") for f in _text(path).split())]
+
+
+def _entries(path: Path) -> np.ndarray:
+    """Rows, columns and values of one triangle, one below the other."""
+    with open_file(path, LARGEST, ModelError, path.name) as file:
+        return np.loadtxt(file, unpack=True, ndmin=2, encoding="latin-1")
 
 
 def _condensed(K: sp.csc_array, M: sp.csc_array, retained: np.ndarray) -> tuple[sp.csc_array, sp.csc_array]:
@@ -103,14 +111,22 @@ def _triangle(_: Path, entries: np.ndarray, size: int) -> sp.csc_array:
     return sp.csc_array(one + one.T - sp.diags(one.diagonal()))
 
 
-def _node_numbers(deck: Path) -> list[int]:
-    """Node numbers of the deck in the order of its lines, which meshio keeps for the points."""
-    numbers, inside = [], False
-    for line in deck.read_text(encoding="latin-1").splitlines():
+def _node_lines(deck: Path) -> list[str]:
+    """Lines of the nodes of a deck, all that its reader is given: others may name files, or sets without end."""
+    lines, inside = [], False
+    for line in _text(deck).splitlines():
         if line.startswith("**"):
             continue
         if line.startswith("*"):
-            inside = line.split(",")[0].strip().upper() == "*NODE"
+            keyword = line.split(",")[0].strip().upper()
+            inside = keyword == "*NODE"
+            if keyword == "*INCLUDE":
+                raise ModelError(f"{deck.name} includes another file ({brief(line)}); give the whole deck.")
         elif inside and line.strip():
-            numbers.append(int(line.split(",")[0]))
-    return numbers
+            int(line.partition(",")[0])
+            lines.append(line)
+    return lines
+
+
+def _text(path: Path) -> str:
+    return read_bytes(path, LARGEST, ModelError, path.name).decode("latin-1")

@@ -18,6 +18,7 @@ from mbs.flexible.fe_model_checks import check_free, check_symmetric, check_unit
 from mbs.flexible.foreign_file import read_foreign
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import check_masses, nodal_mass_points
+from mbs.flexible.matrix_market import read_matrix_market, read_sparse_arrays
 from mbs.flexible.sparse import Sparse
 
 
@@ -87,13 +88,9 @@ def read_matrix(path: str | Path) -> sp.csc_array:
     """
     path = Path(path)
     if path.suffix == ".npz":
-        from scipy.sparse import load_npz
-
-        return sp.csc_array(read_foreign(path, load_npz))
+        return sp.csc_array(read_foreign(path, read_sparse_arrays))
     if path.name.endswith((".mtx", ".mtx.gz")):
-        from scipy.io import mmread
-
-        return sp.csc_array(read_foreign(path, lambda path: mmread(path, spmatrix=False)))
+        return sp.csc_array(read_foreign(path, read_matrix_market))
     raise ModelError(f"{path.name} is neither Matrix Market (.mtx, .mtx.gz) nor a SciPy matrix (.npz).")
 
 

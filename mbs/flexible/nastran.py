@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
 
-from ali3.reading import no_file
+from ali3.reading import is_file, no_file
 from mbs.common.errors import ModelError
 from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.fe_model import FiniteElementModel
@@ -18,7 +19,11 @@ from mbs.flexible.sparse import Sparse
 
 
 def read_nastran(
-    bulk_data: str | Path, matrices: str | Path, stiffness: str = "KGG", mass: str = "MGG"
+    bulk_data: str | Path,
+    matrices: str | Path,
+    stiffness: str = "KGG",
+    mass: str = "MGG",
+    folder: str | Path | None = None,
 ) -> FiniteElementModel:
     """Model from a bulk data file with the grid points and an OUTPUT4 file with the g-set matrices.
 
@@ -33,6 +38,8 @@ def read_nastran(
         ``.op4``, text or binary.
     stiffness, mass : str
         Names of the matrices in the file.
+    folder : str or Path, optional
+        Below which the files that the bulk data include lie; by default their own.
 
     Returns
     -------
@@ -45,11 +52,9 @@ def read_nastran(
         A file or a matrix is missing or damaged, a matrix is complex, or a grid point has axes of its own.
     """
     for path in (bulk_data, matrices):
-        if not Path(path).is_file():
+        if not is_file(path):
             raise ModelError(no_file(path))
-    points = read_foreign(Path(bulk_data), grid_points)
-    if not points:
-        raise ModelError(f"{bulk_data} holds no grid points.")
+    points = read_foreign(Path(bulk_data), partial(grid_points, folder=folder))
     for number, (_, own) in points.items():
         if own != 0:
             raise ModelError(f"Grid point {number} has displacements in a system of its own; use the basic system.")

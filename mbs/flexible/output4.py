@@ -12,9 +12,16 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.io import FortranEOFError, FortranFile
 
+from ali3.reading import open_file
+from ali3.unpacked import check_memory
+from mbs.common.errors import ModelError
+from mbs.flexible.foreign_file import LARGEST
+
 Array = NDArray[np.float64]
 _BIG = 65536
 """Rows from which on a string has its row in a word of its own; a negative number of rows says the same."""
+
+_LONGEST_LINE = 1000
 
 
 def read_output4(path: Path) -> dict[str, sp.csc_array]:
@@ -23,7 +30,7 @@ def read_output4(path: Path) -> dict[str, sp.csc_array]:
     `path`: text, or binary with integers of 4 or 8 bytes in either order. Raises `ValueError`, `IndexError` or
     `TypeError`: the file is damaged.
     """
-    with path.open("rb") as file:
+    with open_file(path, LARGEST, ModelError, path.name) as file:
         head = file.read(4)
         if len(head) < 4:
             raise ValueError("it is empty")
@@ -34,6 +41,9 @@ def read_output4(path: Path) -> dict[str, sp.csc_array]:
 def _matrices(source: _Binary | _Text) -> Iterator[tuple[str, sp.csc_array]]:
     while header := source.header():
         name, columns, rows = header
+        if columns < 0:
+            raise ValueError(f"the matrix {name} has {columns} columns")
+        check_memory(8 * (columns + abs(rows)), ModelError, f"The matrix {name}")
         places, values = [np.empty((2, 0), int)], [np.empty(0)]
         for column, row, part in _strings(source, columns, rows):
             numbers = part.view(complex) if source.kind > 2 else part
@@ -60,6 +70,12 @@ def _strings(source: _Binary | _Text, columns: int, rows: int) -> Iterator[tuple
                 length, row = divmod(source.integers(1)[0], _BIG)
             words -= length
             yield column, row, source.numbers(length - 1, dense=False)
+
+
+def _count(words: int) -> int:
+    if words < 0:
+        raise ValueError("a string has a negative length")
+    return words
 
 
 class _Binary:
@@ -96,7 +112,7 @@ class _Binary:
         pass
 
     def _taken(self, words: int) -> bytes:
-        size = words * self._word.itemsize
+        size = _count(words) * self._word.itemsize
         taken, self._record = self._record[:size], self._record[size:]
         if len(taken) < size:
             raise ValueError("a record is too short")
@@ -107,7 +123,7 @@ class _Text:
     """A file of lines, with numbers in columns of a width that the header tells."""
 
     def __init__(self, file: BinaryIO) -> None:
-        self._lines = iter(file.read().decode("latin-1").splitlines())
+        self._lines = (line.decode("latin-1").rstrip("\r\n") for line in file)
         self._per_line, self._width = 5, 16
         self.kind = 0
 
@@ -120,6 +136,8 @@ class _Text:
         self.kind = int(line[8:16])
         form = re.search(r"(\d+)[ED](\d+)\.", line[24:].upper())
         self._per_line, self._width = (int(form[1]), int(form[2])) if form else (5, 16)
+        if self._per_line * self._width > _LONGEST_LINE:
+            raise ValueError(f"a line has {self._per_line} numbers of {self._width} characters")
         return line[16:24].strip().upper(), columns, rows
 
     def column(self) -> list[int]:
@@ -132,7 +150,7 @@ class _Text:
         return found
 
     def numbers(self, words: int, dense: bool) -> Array:
-        count = words if dense or self.kind in (1, 3) else words // 2
+        count = _count(words if dense or self.kind in (1, 3) else words // 2)
         wide = self._per_line * self._width
         block = "".join(self._line()[:wide].ljust(wide) for _ in range(-(-count // self._per_line)))
         block = block.upper().replace("D", "E")

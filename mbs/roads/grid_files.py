@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 import os
 import re
+import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.arrays import read_arrays
 from ali3.errors import reason
 from ali3.extras import missing_package
-from ali3.reading import check_file
+from ali3.reading import check_file, open_file
 from ali3.tables import Row, TextTable, is_number, plain_name
-from ali3.words import brief, one_line
+from ali3.words import brief
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
 
@@ -139,19 +141,9 @@ def _regular(values: NDArray[np.float64], name: str, path: object) -> tuple[floa
 
 
 def _arrays(file: Path, what: str) -> Grid:
-    try:
-        loaded = np.load(file, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return Grid(_real(loaded, file))
-        with loaded:
-            return _archive({name: loaded[name] for name in loaded.files}, file, what)
-    except RoadFileError:
-        raise
-    except Exception as error:  # numpy raises many kinds, also for pickles, which are not read
-        raise RoadFileError(f"{file} cannot be read as a NumPy file: {one_line(str(error)).rstrip('.')}.") from None
-
-
-def _archive(arrays: dict[str, NDArray[np.float64]], file: Path, what: str) -> Grid:
+    arrays = read_arrays(file, MOST_BYTES, RoadFileError)
+    if file.suffix.lower() == ".npy":
+        return Grid(_real(arrays[""], file))
     known = {"heights", "frictions", "origin", "spacing"}
     if unknown := sorted(set(arrays) - known):
         raise RoadFileError(f"{file} has an array '{unknown[0]}'; known are {', '.join(sorted(known))}.")
@@ -166,7 +158,7 @@ def _archive(arrays: dict[str, NDArray[np.float64]], file: Path, what: str) -> G
     return Grid(_real(arrays[what], file), pairs.get("origin"), pairs.get("spacing"), frictions)
 
 
-def _real(values: NDArray[np.float64], file: Path) -> NDArray[np.float64]:
+def _real(values: NDArray[np.generic], file: Path) -> NDArray[np.float64]:
     if values.dtype.kind not in "fiu":
         raise RoadFileError(f"{file} has values of type {values.dtype}; real numbers are needed.")
     return values.astype(float)
@@ -188,13 +180,15 @@ def _picture(file: Path, limits: tuple[float, float] | None, what: str) -> Grid:
     if limits is None:
         raise RoadFileError(f"{file} is a picture: say which {what} black and white mean, as in --range 0 0.25.")
     try:
-        with Image.open(file) as image:
+        with warnings.catch_warnings(), open_file(file, MOST_BYTES, RoadFileError) as stream:
+            warnings.simplefilter("error", Image.DecompressionBombWarning)  # at 90 million pixels, 3 GB of memory
+            image = Image.open(stream)
             white = {"L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I": 65535.0, "1": 1.0}.get(image.mode)
             if white is None:
                 raise RoadFileError(f"{file} is a picture of mode {image.mode}; 8 or 16 bits of grey are needed.")
             grey = np.asarray(image, float) / white
     except RoadFileError:
         raise
-    except (UnidentifiedImageError, Image.DecompressionBombError, ValueError, SyntaxError) as error:
-        raise RoadFileError(f"{file} cannot be read as a picture: {error}.") from None
+    except (UnidentifiedImageError, Image.DecompressionBombError, RuntimeWarning, ValueError, SyntaxError) as error:
+        raise RoadFileError(f"{file} cannot be read as a picture: {str(error).rstrip('.')}.") from None
     return Grid(np.ascontiguousarray((limits[0] + (limits[1] - limits[0]) * grey)[::-1].T))

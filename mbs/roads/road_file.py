@@ -12,6 +12,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.reading import LARGEST_IN_PARTS, open_file
 from mbs.common.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, RoadOfFile
 from mbs.kernel.header.enumerations import RoadType
@@ -90,16 +91,7 @@ class RoadFile(RoadOfFile):
 
 
 def _opened(path: str | os.PathLike[str]) -> BinaryIO:
-    place = Path(path)
-    try:
-        if not place.is_file():  # a named pipe would wait for its writer
-            words = "it is no regular file" if place.exists() else "there is no such file"
-            raise RoadFileError(f"The road {path} cannot be read: {words}.")
-        return place.open("rb")
-    except (OSError, ValueError) as error:
-        if isinstance(error, RoadFileError):
-            raise
-        raise RoadFileError(f"The road {path} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
+    return open_file(path, LARGEST_IN_PARTS, RoadFileError, f"The road {path}")
 
 
 def _read_grid(file: BinaryIO, head: Header, name: object) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:

@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ali3.reading import LARGEST_IN_PARTS, open_file
 from ali3.scene.base64_numbers import encoded
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.limits import ROAD_SHARED, ROAD_TILE
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile
+from mbs.roads.road_header import RoadFileError
 from mbs.roads.shared_tiles import read_shared
 
 MOST_READ = 4_000_000
@@ -52,7 +53,7 @@ def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoa
         return whole.read()
     x, y = np.arange(0, head.nx, every), np.arange(0, head.ny, every)
     values = np.zeros((head.maps, len(x), len(y)))
-    with Path(file).open("rb") as opened:
+    with open_file(file, LARGEST_IN_PARTS, RoadFileError) as opened:
         for number, tile in read_shared(opened, head, file):
             i, j = (number // head.tiles[1]) * ROAD_TILE, (number % head.tiles[1]) * ROAD_TILE
             rows, columns = (np.arange(*np.searchsorted(v, (k, k + ROAD_TILE))) for v, k in ((x, i), (y, j)))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ali3.reading import is_file, is_folder
+
 FOLDER = Path(__file__).with_name("files")
 
 
@@ -12,4 +14,4 @@ def road_path(value: str | os.PathLike[str]) -> str:
     """A path as it is; a bare name that is no file here may be that of a road of the package."""
     text = os.fspath(value)
     shipped = text in {path.name for path in FOLDER.glob("*.road")}
-    return str(FOLDER / text) if shipped and not Path(text).exists() else text
+    return str(FOLDER / text) if shipped and not (is_file(text) or is_folder(text)) else text

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.tables import TextTable
+from ali3.named_files import NamedFiles
+from ali3.tables import LARGEST, TextTable
 from ali3.words import brief
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.steep_faces import RoadWarning
@@ -83,7 +84,8 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
         table = dict(zip("xy", np.array(course.points, float).T, strict=True)) if course.points else {}
         name = f"The course '{course.name}'"
     else:
-        file = folder / course.points
+        named = NamedFiles(folder, LARGEST, RoadFileError)
+        file = named.file(course.points, folder, f"The points of the course '{course.name}'")
         table, name = read_course(file), str(file)
         if "right" in table:
             table["width"] = table["left"] + table["right"]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ali3.json_reading import read_json
-from ali3.reading import read_toml
+from ali3.reading import LARGEST_IN_PARTS, open_file, read_toml
 from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def _check_size(world: WorldDescription, file: Path) -> None:
 
 def checksum_of(road: Path) -> int:
     """CRC-32 of the header of a road file, which holds that of its parts: what its world's record is bound to."""
-    with road.open("rb") as file:
+    with open_file(road, LARGEST_IN_PARTS) as file:
         return zlib.crc32(file.read(HEADER.size)[CHECKED_FROM:])
 
 

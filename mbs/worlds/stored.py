@@ -14,6 +14,9 @@ from typing import Any
 from ali3.cache import cache_folder
 from ali3.files import make_folder, whole_file
 from ali3.folders import forget_oldest, whole_folder
+from ali3.reading import read_bytes
+from mbs.roads.grid_files import MOST_BYTES
+from mbs.roads.road_header import RoadFileError
 
 ROOT = Path(__file__).parents[2]
 CODE = (
@@ -30,7 +33,7 @@ def key_of(files: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     sources = [path for entry in CODE for path in _sources(ROOT / entry)]
     for path in (*sources, *files):
-        data = path.read_bytes()
+        data = read_bytes(path, MOST_BYTES, RoadFileError)
         digest.update(f"{path.name} {len(data)} ".encode())
         digest.update(data)
     return digest.hexdigest()[:32]

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ali3.reading import LARGEST_IN_PARTS, open_file
 from mbs.kernel.header.limits import ROAD_TILE
-from mbs.roads.road_header import read_header
+from mbs.roads.road_header import RoadFileError, read_header
 from mbs.roads.shared_tiles import read_shared
 from mbs.worlds.terrain import Terrain
 
@@ -51,7 +52,7 @@ def off_by(terrain: Terrain, road: Path) -> Off:
     """
     chance = np.random.default_rng(1)
     differences = []
-    with road.open("rb") as file:
+    with open_file(road, LARGEST_IN_PARTS, RoadFileError) as file:
         head = read_header(file, road)
         x0, y0, dx, dy = head.real[:4]
         columns = head.tiles[1]

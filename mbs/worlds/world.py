@@ -14,6 +14,7 @@ from typing import Any
 from ali3.errors import UserError
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
+from ali3.reading import is_file
 from ali3.told_warnings import told_warnings
 
 WORLDS = Path(__file__).parent
@@ -61,14 +62,14 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
 def _file(given: str) -> Path:
     """The file that a name or path means."""
     path = Path(given)
-    if path.is_file():
+    if is_file(path):
         from mbs.roads.kinds import CRG, MESHES
 
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
             raise UserError(f"{given} is no world; a world or a road is a file of these kinds: {', '.join(kinds)}.")
         return path
     for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
-        if place.is_file() and Path(given).name == given:
+        if is_file(place) and Path(given).name == given:
             return place
     worlds = shipped_worlds()
     near = did_you_mean(given, worlds, f"worlds are {', '.join(worlds)}", 1)

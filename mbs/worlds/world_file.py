@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ali3.reading import read_toml
+from ali3.reading import is_file, read_toml
 from mbs.roads.road_header import RoadFileError
 
 
@@ -21,4 +21,4 @@ def named_files(file: Path) -> tuple[str, list[Path]]:
         found = [table.get("heights"), table.get("frictions")]
     name = table.get("name") if table.get("kind") == "world" else None
     paths = [file.parent / item for item in found if isinstance(item, str)]
-    return name if isinstance(name, str) else file.stem, [path for path in paths if path.is_file()]
+    return name if isinstance(name, str) else file.stem, [path for path in paths if is_file(path)]

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import base64
 import importlib
 import io
+import json
 import os
 import pickle
 import random
 import shutil
 import signal
 import socket
+import time
 import tomllib
 import warnings
 import zipfile
@@ -18,8 +21,11 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import scipy.sparse as sp
 import tomli_w
+from scipy.io import mmwrite
 
 import mbs.roads
 import mbs.vehicle
@@ -42,7 +48,11 @@ from hosts.study.study_file import read_study_file
 from hosts.study.table_points import table_points
 from hosts.view.recorded import read_table as read_result
 from hosts.view.view_sources import _record as read_result_record
+from mbs.flexible.bulk_data import grid_points
+from mbs.flexible.calculix import calculix_matrices
+from mbs.flexible.foreign_file import read_foreign
 from mbs.flexible.matrix_files import read_matrix, read_model
+from mbs.flexible.output4 import read_output4
 from mbs.results.trajectory import Trajectory
 from mbs.roads.description import described_road
 from mbs.roads.grid_files import read_grid
@@ -144,6 +154,10 @@ KINDS: dict[str, tuple[str, dict[str, str], str, Callable[[Path], Any]]] = {
     "nodes": ("n.csv", CELLS, "name,x,y,z\nA,0,0,@\n", lambda path: read_model(path, path, path)),
     "matrix": ("k.mtx", {}, "%%MatrixMarket", read_matrix),
     "matrix of SciPy": ("k.npz", {}, "PK", read_matrix),
+    "bulk data": ("a.bdf", {}, "GRID,1,,0.,@,0.\nINCLUDE 'b.bdf'\n", grid_points),
+    "OUTPUT4": ("a.op4", {}, "       3", lambda path: read_foreign(path, read_output4)),
+    "deck of CalculiX": ("a.inp", {}, "*NODE\n1,0.,0.,@\n*INCLUDE,INPUT=b\n", lambda path: _calculix(path)),
+    "mesh of glTF": ("m.gltf", {}, '{"asset": {"version": "2.0"}, "buffers": [{"uri": "/dev/zero"}]}', read_mesh),
     "road": ("r.road", {}, "ALI3ROAD", lambda path: RoadFile(path).read()),
     "System": ("s.ali3", {}, "ALI3SYS", System.load),
     "mesh": ("m.stl", {}, "solid", read_mesh),
@@ -165,6 +179,9 @@ READ = {  # what is a file of the kind all the same
     "points of a study": ("nothing",),
     "trajectory": ("no number",),
     "curve of an axle": ("no number", "nothing"),
+    "bulk data": ("cut",),
+    "OUTPUT4": ("cut",),
+    "deck of CalculiX": ("cut",),
 }
 MANY = ("car",)
 """Kinds of which all faults are told, a line each."""
@@ -190,6 +207,13 @@ def _rows(path: Path) -> list[Any]:
 def _log(path: Path) -> list[Any]:
     log = read_log(path, Dialect())
     return [log.numbers(name) for name in log.table]
+
+
+def _calculix(path: Path) -> Any:
+    for suffix in (".sti", ".mas", ".dof"):
+        other = path.with_suffix(suffix)
+        other.write_bytes(CALCULIX[suffix])
+    return calculix_matrices(path)
 
 
 def _device(path: Path) -> Any:
@@ -350,13 +374,89 @@ GOOD = {
 }
 
 
+def _bytes_of(write: Callable[[io.BytesIO], object]) -> bytes:
+    made = io.BytesIO()
+    write(made)
+    return made.getvalue()
+
+
+def _output4() -> bytes:
+    """A matrix of 3 x 3 as text."""
+    lines = ["       3       3       2       2KGG     1P,3E23.16"]
+    for column in (1, 2, 3):
+        lines += [f"{column:8d}       1       3", "".join(f"{row * column + 1.0:23.16E}" for row in (1, 2, 3))]
+    return "\n".join([*lines, "       4       1       1", f"{1.0:23.16E}", ""]).encode()
+
+
+def _gltf() -> bytes:
+    points = base64.b64encode(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()).decode()
+    return json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"uri": f"data:application/octet-stream;base64,{points}", "byteLength": 36}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "count": 3, "componentType": 5126, "type": "VEC3"}],
+        }
+    ).encode()
+
+
+_SPARSE = sp.csc_array(np.eye(9) + np.eye(9)[::-1])
+CALCULIX = {
+    ".sti": b"".join(b"%d %d %e\n" % (k, k, 1e6) for k in range(1, 7)),
+    ".mas": b"".join(b"%d %d %e\n" % (k, k, 2.0) for k in range(1, 7)),
+    ".dof": b"1.1\n1.2\n1.3\n2.1\n2.2\n2.3\n",
+}
+GOOD |= {
+    "matrix": _bytes_of(lambda out: mmwrite(out, _SPARSE)),
+    "matrix of SciPy": _bytes_of(lambda out: sp.save_npz(out, _SPARSE, compressed=False)),
+    "grid of NumPy": _bytes_of(lambda out: np.save(out, np.ones((4, 5)))),
+    "bulk data": b"CORD2R,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,5,0.,1.,0.\n=,*(1),=,*(0.5),==\n=(3),\n",
+    "OUTPUT4": _output4(),
+    "deck of CalculiX": b"*HEADING\nx\n*NODE, NSET=N\n1,0.,0.,0.\n2,1.,0.,0.5\n*NSET,NSET=A,GENERATE\n1,2,1\n",
+    "mesh of glTF": _gltf(),
+}
+
+
 @pytest.mark.parametrize("kind", quick(set(GOOD) - {"car"}, GOOD))
 def test_an_altered_file_is_read_or_refused_in_one_sentence(kind: str, tmp_path: Path) -> None:
     """Cut files, changed bytes and values of other types; forty by their seeds."""
+    refused = _altered(kind, range(40), tmp_path)
+    assert 5 < refused < 40
+
+
+@pytest.mark.proof
+@pytest.mark.attack
+@pytest.mark.parametrize("kind", GOOD)
+def test_two_thousand_altered_files_are_read_or_refused(kind: str, tmp_path: Path) -> None:
+    """Seeds by chance, which are printed; within 2 GB of memory beyond what is held now, and 15 minutes."""
+    resource = pytest.importorskip("resource")
+    first, end, done = random.SystemRandom().randrange(2**40), time.monotonic() + 900, 0
+    print(f"{kind}: seeds from {first} on")
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (held + 2 * 10**9, limits[1]))
+    try:
+        while done < 2000 and time.monotonic() < end:
+            _altered(kind, range(first + done, first + done + 50), tmp_path / f"{done}")
+            shutil.rmtree(tmp_path / f"{done}")
+            done += 50
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, limits)
+    print(f"{kind}: {done} files")
+    assert done
+
+
+def _altered(kind: str, seeds: range, folder: Path) -> int:
+    """How many altered files are refused; all of them are read or refused in one sentence."""
     name, _, _, read = KINDS[kind]
     faults, refused = [], 0
-    for seed in range(40):
-        file = tmp_path / f"{seed}" / name
+    folder.mkdir(exist_ok=True)
+    for seed in seeds:
+        file = folder / f"{seed}" / name
         if kind == "car":  # a car has tables beside its file
             shutil.copytree(CAR, file.parent)
         file.parent.mkdir(exist_ok=True)
@@ -365,7 +465,7 @@ def test_an_altered_file_is_read_or_refused_in_one_sentence(kind: str, tmp_path:
         refused += fault != "it is read"
         faults += [f"{seed}: {fault}"] if fault not in ("", "it is read") else []
     assert not faults, "\n".join(faults)
-    assert 5 < refused < 40
+    return refused
 
 
 WHOLE = {  # every key that its kind has, or an example

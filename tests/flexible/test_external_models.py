@@ -175,7 +175,10 @@ def test_grid_points_in_systems_upon_systems_and_in_all_forms_of_fields(tmp_path
         ),
         ("GRID,1,,0.,a,0.\n=,*(1),=,=,*(1.),==", r"line 2: field 5 adds '1\.' to 'a', which are not both numbers"),
         ("INCLUDE 'frame.bdf'", "is included within itself"),
-        ("INCLUDE 'none.bdf'", "No such file"),
+        ("INCLUDE 'none.bdf'", r"^frame\.bdf, line 1: 'none\.bdf' cannot be read: there is no such file\.$"),
+        ("INCLUDE '../none.bdf'", r"^frame\.bdf, line 1: '\.\./none\.bdf' is not below the folder"),
+        ("INCLUDE '/dev/zero'", "'/dev/zero' is not below the folder"),
+        ("GRID,1,,0.,0.,0.\n=,*(1),==\n=(99999999),", "line 3: =\\(99999999\\) repeats a card more than 1000000 times"),
         ("GRDSET,,,,,,3\nGRID,1,,0.,0.,0.", "Grid point 1 has displacements in a system of its own"),
     ],
 )

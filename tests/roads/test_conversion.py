@@ -110,13 +110,13 @@ def test_bad_arrays_are_refused(tmp_path):
     (tmp_path / "text.npy").write_text("no array")
     np.save(tmp_path / "good.npy", HEIGHTS)
     for name, sentence in (
-        ("o.npy", "pickle"),
+        ("o.npy", "holds objects of Python"),
         ("c.npy", "type complex128"),
         ("flat.npy", r"shape \(5,\)"),
         ("inf.npy", "row 1, column 1 of the points is inf"),
         ("a.npz", "array 'height'; known are frictions, heights, origin, spacing"),
         ("b.npz", "no array 'heights'"),
-        ("text.npy", "cannot be read as a NumPy file"),
+        ("text.npy", "cannot be read as an array"),
         ("nothing.npy", "there is no such file"),
         ("a.xlsx", "of a kind that is not read"),
     ):

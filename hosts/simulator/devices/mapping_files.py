@@ -12,7 +12,7 @@ from platformdirs import user_config_path
 
 from ali3.errors import FileError, reason
 from ali3.files import whole_file
-from ali3.reading import read_toml
+from ali3.reading import LARGEST_TEXT, read_bytes, read_toml
 from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
@@ -78,7 +78,7 @@ class MappingFiles:
         except HostError:
             if file.is_file():
                 with whole_file(file.with_name(file.name + ".damaged")) as kept:
-                    kept.write_bytes(file.read_bytes())
+                    kept.write_bytes(read_bytes(file, LARGEST_TEXT))
         with whole_file(file) as made:
             made.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
 

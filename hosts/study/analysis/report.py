@@ -25,6 +25,7 @@ from hosts.study.analysis.study_section import (
     measures_section,
 )
 from hosts.study.analysis.summary_plots import plot_correlations
+from hosts.study.folder import refuse_links
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -58,6 +59,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
 
     from ali3.bars import bar as bar_of
 
+    refuse_links(folder)
     data = study_data(frame)
     pictures = Pictures(make_folder(folder / "analysis"))
     body = [

@@ -68,6 +68,18 @@ def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_nothing_is_written_through_a_link(frame: pd.DataFrame, tmp_path: Path) -> None:
+    other = tmp_path / "other.html"
+    other.write_text("mine")
+    folder = tmp_path / "study"
+    folder.mkdir()
+    (folder / "report.html").symlink_to(other)
+    with pytest.raises(HostError, match="report.html is a link; nothing is written through it"):
+        report_of(frame, folder, commands)
+    assert other.read_text() == "mine"
+    assert [file.name for file in folder.iterdir()] == ["report.html"]
+
+
 def test_half_a_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60]
     half.attrs = frame.attrs

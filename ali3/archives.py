@@ -1,0 +1,206 @@
+"""Archives (zip), such as FMUs and SSPs, are listed, read and unpacked here only."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import sys
+import zipfile
+import zlib
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+from ali3.errors import FileError, reason
+from ali3.reading import Error, is_file, open_file
+from ali3.words import brief, one_line
+
+LARGEST_ARCHIVE = 2_000_000_000
+"""Bytes of the file."""
+LARGEST_UNPACKED = 1_000_000_000
+"""Bytes of all entries of an archive."""
+MOST_ENTRIES = 50_000
+_END, _END_64 = b"PK\5\6", b"PK\6\6"
+_END_SIZE, _END_64_SIZE, _MOST_COMMENT = 22, 56 + 20, 65535  # bytes
+_ENTRY = 46 + 200
+"""Bytes of an entry in the directory of an archive, with a long name."""
+_METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+_DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, KeyError, RuntimeError, NotImplementedError)
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Why an archive is not unpacked."""
+
+    words: str
+    """The rest of a sentence that begins with the name of the archive."""
+    clause: str = ""
+    """What of a standard it is against; empty: it is refused here alone."""
+
+
+class Archive:
+    """An archive that is opened for reading; a context.
+
+    Parameters
+    ----------
+    file : path
+        A regular file.
+    error : type of exception
+        What is raised, with one sentence: it is no archive, it is damaged, or it has a fault of `faults_of`.
+    name, kind : str
+        How the sentence calls the file, by default by its path, and what it should be.
+    largest, unpacked : int
+        Bytes of the file, and of all its entries.
+    """
+
+    def __init__(
+        self,
+        file: str | os.PathLike[str],
+        error: Error = FileError,
+        name: str = "",
+        kind: str = "an archive",
+        largest: int = LARGEST_ARCHIVE,
+        unpacked: int = LARGEST_UNPACKED,
+    ) -> None:
+        self._name, self._error = name or str(file), error
+        self._held = ExitStack()
+        self._archive = self._held.enter_context(_opened(file, error, self._name, kind, largest))
+        self._sizes = {info.filename: info.file_size for info in self._archive.infolist()}
+        for fault in _faults(self._archive, unpacked):
+            self.close()
+            raise error(f"{self._name} {fault.words}.")
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the files, in their order."""
+        return [name for name in self._sizes if not name.endswith("/")]
+
+    def __contains__(self, entry: str) -> bool:
+        return entry in self._sizes
+
+    def read(self, entry: str, largest: int = LARGEST_UNPACKED) -> bytes:
+        """Content of a file. `largest`: bytes."""
+        what = f"{entry} in {self._name}"
+        if entry not in self._sizes:
+            raise self._error(f"{self._name} has no {entry}.")
+        if self._sizes[entry] > largest:
+            raise self._error(f"{what} has {self._sizes[entry]} bytes; it must have at most {largest}.")
+        try:
+            return self._archive.read(entry)
+        except _DAMAGED as fault:
+            raise self._error(f"{what} cannot be unpacked: {one_line(str(fault)).rstrip('.')}.") from None
+        except OSError as fault:
+            raise self._error(f"{what} cannot be read: {reason(fault)}.") from None
+
+    def unpack(self, folder: Path, wanted: Callable[[str], bool] = lambda name: True) -> None:
+        """Write the files whose names are `wanted` into a folder. Raises `OSError` too: it cannot be written."""
+        for entry in self.names:
+            if wanted(entry):
+                file = folder / entry
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(self.read(entry))
+
+    def close(self) -> None:
+        """Close the file."""
+        self._held.close()
+
+    def __enter__(self) -> Archive:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def is_archive(file: str | os.PathLike[str]) -> bool:
+    """Whether there is a regular file that ends as an archive does."""
+    if not is_file(file):
+        return False
+    with open_file(file, sys.maxsize) as stream:
+        return _directory_size(stream) is not None
+
+
+def faults_of(file: str | os.PathLike[str], error: Error = FileError, kind: str = "an archive") -> list[Fault]:
+    """All that keeps an archive from being unpacked; `file`, `error`, `kind`: as of `Archive`."""
+    with _opened(file, error, str(file), kind, LARGEST_ARCHIVE) as archive:
+        return list(_faults(archive, LARGEST_UNPACKED))
+
+
+@contextmanager
+def _opened(
+    file: str | os.PathLike[str], error: Error, name: str, kind: str, largest: int
+) -> Iterator[zipfile.ZipFile]:
+    with open_file(file, largest, error, name) as stream:
+        directory = _directory_size(stream)
+        if directory is None:
+            raise error(f"{name} is not {kind} (not a zip archive).")
+        if directory > MOST_ENTRIES * _ENTRY:  # which is read whole
+            raise error(f"{name} has a directory of {directory} bytes; it must have at most {MOST_ENTRIES * _ENTRY}.")
+        try:
+            archive = zipfile.ZipFile(stream)
+        except _DAMAGED as fault:
+            raise error(f"{name} is not {kind} that can be read: {one_line(str(fault)).rstrip('.')}.") from None
+        with archive:
+            yield archive
+
+
+def _directory_size(stream: BinaryIO) -> int | None:
+    """Bytes of the directory as the end of an archive says them; None where there is no such end."""
+    size = stream.seek(0, os.SEEK_END)
+    stream.seek(max(0, size - _END_SIZE - _MOST_COMMENT - _END_64_SIZE))
+    tail = stream.read()
+    plain = len(tail) - _END_SIZE
+    place = plain if plain >= 0 and tail[plain:].startswith(_END) and tail.endswith(b"\0\0") else tail.rfind(_END)
+    if place < 0 or len(tail) < place + _END_SIZE:
+        return None
+    begin, end = place + 12, place + 16
+    if (long := place - _END_64_SIZE) >= 0 and tail[long : long + 4] == _END_64:
+        begin, end = long + 40, long + 48
+    return int.from_bytes(tail[begin:end], "little")
+
+
+def _faults(archive: zipfile.ZipFile, unpacked: int) -> list[Fault]:
+    entries = archive.infolist()
+    found = [fault for info in entries if (fault := _fault_of(info)) is not None]
+    counts = Counter(info.filename.rstrip("/").casefold() for info in entries)
+    if twice := next((name for name, count in counts.items() if count > 1), None):
+        found.append(Fault(f"has the entry {brief(twice)} twice"))
+    files = {info.filename.casefold() for info in entries if not info.is_dir()}
+    if inside := next((name for name in counts for n in _folders(name) if n in files), None):
+        found.append(Fault(f"has the entry {brief(inside)} in a folder that is a file too"))
+    if len(entries) > MOST_ENTRIES:
+        found.append(Fault(f"has {len(entries)} entries; it must have at most {MOST_ENTRIES}"))
+    size = sum(info.file_size for info in entries)
+    if size > unpacked:
+        found.append(Fault(f"has {size} bytes when it is unpacked; it must have at most {unpacked}"))
+    return found
+
+
+def _folders(name: str) -> list[str]:
+    parts = name.split("/")
+    return ["/".join(parts[:k]) for k in range(1, len(parts))]
+
+
+def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
+    raw = info.orig_filename  # as it stands there: `filename` ends at a zero byte
+    what = f"the entry {brief(raw)}"
+    if raw.startswith("/") or re.match(r"[A-Za-z]:", raw):
+        return Fault(f"has {what}, which is an absolute path", "APPNOTE 4.4.17.1")
+    if "\\" in raw:
+        return Fault(f"has {what}, with a backslash", "APPNOTE 4.4.17.1")
+    parts = raw.removesuffix("/").split("/")
+    if ".." in parts:
+        return Fault(f"has {what}, which leads out of its folder")
+    if not raw.isprintable() or "" in parts or "." in parts:
+        return Fault(f"has {what}, which is no name of a file")
+    if info.flag_bits & 1:
+        return Fault(f"has {what}, which is encrypted", "ISO/IEC 21320-1")
+    if info.compress_type not in _METHODS:
+        return Fault(f"has {what}, packed by method {info.compress_type}; stored and deflate are", "ISO/IEC 21320-1")
+    kind = stat.S_IFMT(info.external_attr >> 16)
+    if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
+        return Fault(f"has {what}, which is {'a link' if kind == stat.S_IFLNK else 'no file'}")
+    return None

@@ -1,0 +1,65 @@
+"""Arrays of NumPy (``.npy``, ``.npz``), whose headers are held against what is there before they take memory."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from numpy.lib import format as npy
+from numpy.typing import NDArray
+
+from ali3.archives import Archive
+from ali3.errors import FileError
+from ali3.reader_stops import reader_stops
+from ali3.reading import Error, open_file
+from ali3.unpacked import MOST_MEMORY, check_memory
+
+_COPIES = 2
+"""In memory: the bytes and the array, or the array and what is made of it."""
+
+
+def read_arrays(
+    file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "", most: int = MOST_MEMORY
+) -> dict[str, NDArray[np.generic]]:
+    """Arrays by their names; that of a ``.npy`` file has an empty one.
+
+    `largest`, `error`, `name`: as of `check_file`; `most`: bytes of memory. Raises `error` with one sentence: it is no
+    such file, an array holds Python objects, or all would take more memory.
+    """
+    name = name or str(file)
+    if Path(file).suffix.lower() != ".npz":
+        with open_file(file, largest, error, name) as stream:
+            size = Path(file).stat().st_size
+            return {"": _array(stream, size, error, name, most)}
+    arrays: dict[str, NDArray[np.generic]] = {}
+    with Archive(file, error, name, "arrays of NumPy", largest, most // _COPIES) as archive:
+        for entry in archive.names:
+            if entry.endswith(".npy"):
+                data = archive.read(entry)
+                arrays[entry.removesuffix(".npy")] = _array(
+                    io.BytesIO(data), len(data), error, f"{entry} in {name}", most
+                )
+    return arrays
+
+
+def _array(stream: IO[bytes], size: int, error: Error, name: str, most: int) -> NDArray[np.generic]:
+    try:
+        version = npy.read_magic(stream)
+        header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+        shape, by_columns, kind = header(stream)
+    except Exception as fault:  # what a damaged header does to its parser is not declared
+        raise error(f"{name} cannot be read as an array: {reader_stops(fault)}") from None
+    if kind.hasobject:
+        raise error(f"{name} holds objects of Python, which are not read.")
+    count, there = math.prod(shape), size - stream.tell()
+    if any(n < 0 for n in shape) or count * kind.itemsize != there:
+        raise error(
+            f"{name} cannot be read: its shape {shape} of {kind} needs {count * kind.itemsize} bytes; it has {there}."
+        )
+    check_memory(_COPIES * there, error, name, most)
+    array = np.frombuffer(stream.read(there), kind)
+    return array.reshape(shape[::-1]).T if by_columns else array.reshape(shape)

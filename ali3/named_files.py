@@ -1,0 +1,41 @@
+"""Files that a file names are read only where they lie below one folder, and only so many."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ali3.reading import Error, check_file
+from ali3.words import brief
+
+MOST_FILES = 1000
+"""That one file names, those that are named by them included."""
+
+
+class NamedFiles:
+    """Files that a file names, and those that they name.
+
+    `folder`: below which they lie; `largest`: bytes of all; `error`: what is raised, with one sentence.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str], largest: int, error: Error) -> None:
+        self._folder, self._error = Path(folder), error
+        self._left, self._count = largest, 0
+
+    def file(self, name: str, beside: Path, where: str = "") -> Path:
+        """A regular file by its name in a file of the folder `beside`; `where`: file and line that name it."""
+        place = f"{where}: " if where else ""
+        try:
+            found = beside / name
+            if not found.resolve().is_relative_to(self._folder.resolve()):
+                raise self._error(f"{place}{brief(name)} is not below the folder {self._folder}.")
+        except (OSError, ValueError, RuntimeError) as fault:  # a circle of links is a RuntimeError
+            if isinstance(fault, self._error):
+                raise
+            raise self._error(f"{place}{brief(name)} is no name of a file.") from None
+        self._count += 1
+        if self._count > MOST_FILES:
+            raise self._error(f"{place}more than {MOST_FILES} files are named; {brief(name)} is the first too many.")
+        check_file(found, self._left, self._error, f"{place}{brief(name)}")
+        self._left -= found.stat().st_size
+        return found

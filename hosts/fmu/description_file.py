@@ -1,0 +1,117 @@
+"""The model description of an FMU: its size, depth and number of variables are held to bounds before it is read."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import NoReturn
+from xml.parsers import expat
+
+from fmpy import read_model_description
+from fmpy.model_description import ModelDescription, ScalarVariable
+
+from ali3.archives import Archive
+from ali3.processes import command_name
+from ali3.reading import DEEPEST, is_file, no_file
+from ali3.words import one_line
+from ali3.xml_memory import is_lack_of_memory
+from hosts.common.errors import HostError
+from hosts.fmu.scalars import ELEMENTS, Place, element_names, scalars
+
+DESCRIPTION = "modelDescription.xml"
+LARGEST_DESCRIPTION = 100_000_000
+"""Bytes."""
+MOST_VARIABLES = 200_000
+"""Of an FMU, the elements of its arrays counted."""
+_MOST_ELEMENTS = 20 * MOST_VARIABLES
+_DEPTH_OF_VARIABLES = 3
+
+
+def opened(path: Path) -> Archive:
+    """An FMU, to be read or unpacked. Raises `HostError`: there is none, or `ali3.archives` refuses it."""
+    if not is_file(path):
+        hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
+        raise HostError(no_file(path, hint))
+    return Archive(path, HostError, kind="an FMU")
+
+
+def read_description(
+    path: Path, validate: bool = True
+) -> tuple[ModelDescription, list[ScalarVariable], dict[str, Place]]:
+    """Read the description of an FMU of any version that FMPy reads.
+
+    `validate`: whether it must be as its schema has it. Raises `HostError`: it is no FMU that can be read, or has more
+    than the bounds of this file.
+
+    Returns
+    -------
+    description : ModelDescription
+    variables : list of ScalarVariable
+        Elements of arrays by names of their own.
+    places : dict of str to Place
+        Of these.
+    """
+    with opened(path) as archive:
+        content = archive.read(DESCRIPTION, LARGEST_DESCRIPTION)
+        elements = archive.read(ELEMENTS, LARGEST_DESCRIPTION) if ELEMENTS in archive else b""
+    _Bounds(path).check(content)
+    try:
+        description = read_model_description(str(path), validate=validate)
+        count = sum(math.prod(v.shape or ()) for v in description.modelVariables)
+        if count > MOST_VARIABLES:
+            raise HostError(_too_many(path, count))
+        return description, *scalars(description, element_names(elements.decode()))
+    except (ImportError, MemoryError, HostError):
+        raise
+    except Exception as error:  # what a description that is none does to its reader is not declared
+        if is_lack_of_memory(error):
+            raise MemoryError from None
+        words = " ".join(str(error).split()) or type(error).__name__
+        raise HostError(f"{path} is not an FMU that can be read: {one_line(words)}") from None
+
+
+def _too_many(path: Path, count: int) -> str:
+    return f"{path} has {count} variables, the elements of arrays counted; it must have at most {MOST_VARIABLES}."
+
+
+class _Bounds:
+    """Goes through the elements of a description, and keeps none."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._depth = self._elements = self._variables = 0
+        self._parser = expat.ParserCreate()
+        self._parser.StartElementHandler = self._begin
+        self._parser.EndElementHandler = self._end
+        self._parser.StartDoctypeDeclHandler = self._doctype
+
+    def check(self, content: bytes) -> None:
+        """Raises `HostError`: it is no XML, or too deep, or has too many elements."""
+        try:
+            self._parser.Parse(content, True)
+        except expat.ExpatError as error:
+            self._refuse(f"is no XML that can be read ({error})")
+        except (ValueError, LookupError) as error:
+            self._refuse(f"is in an encoding that is not read ({one_line(str(error))})")
+
+    def _begin(self, name: str, attributes: dict[str, str]) -> None:
+        if not self._elements and (name != "fmiModelDescription" or "fmiVersion" not in attributes):
+            self._refuse(f"begins with <{one_line(name, 60)}>; it must with <fmiModelDescription fmiVersion=...>")
+        self._depth += 1
+        self._elements += 1
+        self._variables += "valueReference" in attributes and self._depth == _DEPTH_OF_VARIABLES
+        if self._depth > DEEPEST:
+            self._refuse(f"has elements nested more than {DEEPEST} deep")
+        if self._variables > MOST_VARIABLES:
+            self._refuse(f"has more than {MOST_VARIABLES} variables")
+        if self._elements > _MOST_ELEMENTS:
+            self._refuse(f"has more than {_MOST_ELEMENTS} elements")
+
+    def _end(self, name: str) -> None:
+        self._depth -= 1
+
+    def _doctype(self, *_: object) -> None:
+        self._refuse("has a document type, which may name other files; it must have none")
+
+    def _refuse(self, words: str) -> NoReturn:
+        raise HostError(f"{DESCRIPTION} of {self._path} {words}.") from None
