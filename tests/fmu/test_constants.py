@@ -26,11 +26,10 @@ def files(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None])
     for name, (value, unit) in CONSTANTS.items():
         m.constant(name, value, unit, f"{name} as built")
     folder, system = tmp_path_factory.mktemp("told"), mbs.compile(m)
-    kinds = ("native", "fmi3", "python")
+    kinds = ("native", "python", "fmi3", "fmi3_scalar")
     return {k: build_fmu(system, "told", folder, [fmpy.platform], kind=k) for k in kinds}
 
 
-@pytest.mark.parametrize("kind", ["native", "fmi3", "python"])
 def test_the_description_tells_them_and_leaves_the_rest(
     files: dict[str, Path], build: Callable[..., Path], kind: str
 ) -> None:

@@ -47,8 +47,8 @@ def built(
 
 
 @pytest.fixture
-def car(built: Callable[[str], Path], kind: str) -> Path:
-    return built(kind)
+def car(built: Callable[[str], Path], kind_2: str) -> Path:
+    return built(kind_2)
 
 
 @pytest.fixture

@@ -41,7 +41,7 @@ def test_it_is_a_discrete_integer_with_its_range(build: Callable[..., Path], kin
     assert validate_fmu(str(fmu)) == []
     variables = {v.name: v for v in fmpy.read_model_description(str(fmu)).modelVariables}
     lever, used = variables["lever"], variables["lever_used"]
-    assert lever.type == used.type == ("Int32" if kind == "fmi3" else "Integer")
+    assert lever.type == used.type == ("Int32" if kind.startswith("fmi3") else "Integer")
     assert lever.variability == used.variability == "discrete"
     assert (lever.min, lever.max, lever.start) == ("-1", "1", "1")
     assert variables["torque"].variability == "continuous"
@@ -75,10 +75,11 @@ def test_it_has_no_derivatives_and_the_others_keep_theirs(stick: Path, host: Hos
     lever, torque, x = ([driven.references[n]] for n in ("lever", "torque", "rod.x"))
     assert driven.call("getDirectionalDerivative", x, lever, [1.0]) == ERROR
     assert "no derivatives by 'lever'; it is a whole number" in driven.messages[-1]
-    assert driven.call("setRealInputDerivatives", lever, [1], [1.0]) == ERROR
-    assert "'lever' was set; it is a whole number and has none" in driven.messages[-1]
     assert driven.slave.getDirectionalDerivative(x, torque, [1.0])[0] != 0.0
-    assert driven.call("setRealInputDerivatives", torque, [1], [1.0]) == OK
+    if not driven.three:  # the standard has none
+        assert driven.call("setRealInputDerivatives", lever, [1], [1.0]) == ERROR
+        assert "'lever' was set; it is a whole number and has none" in driven.messages[-1]
+        assert driven.call("setRealInputDerivatives", torque, [1], [1.0]) == OK
 
 
 def test_a_state_brings_the_lever_back(stick: Path, host: HostMaker) -> None:
