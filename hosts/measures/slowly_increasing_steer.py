@@ -8,28 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 G = 9.80665
+_WANTED, _LOWEST, _HIGHEST = 0.3 * G, 0.1 * G, 0.375 * G
 
 
-def angle_by_regression(
-    steering: NDArray[np.float64],
-    acceleration: NDArray[np.float64],
-    wanted: float = 0.3 * G,
-    lowest: float = 0.1 * G,
-    highest: float = 0.375 * G,
-) -> float:
-    """Angle at a lateral acceleration, from a straight line through a part of the run.
+def angle_by_regression(steering: NDArray[np.float64], acceleration: NDArray[np.float64]) -> float:
+    """Angle at a lateral acceleration of 0.3 g, from a straight line through the run from 0.1 g to 0.375 g.
 
-    `steering`, `acceleration`: in rad and m/s², of one turn, shape (n,); both of one sign, or both of the other;
-    `wanted`: m/s²; `lowest`, `highest`: sizes of the lateral acceleration between which the line is fitted, m/s²: from
-    the first sample that is reached to the one before the first beyond. Returns size of the angle, rad; NaN if the run
-    does not reach `highest`.
+    `steering`, `acceleration`: in rad and m/s², of one turn, shape (n,); both of one sign, or both of the other.
+    Returns size of the angle, rad; NaN if the run does not reach 0.375 g.
     """
     size = np.abs(acceleration)
-    if not (size >= highest).any():
+    if not (size >= _HIGHEST).any():
         return math.nan
-    last = int(np.argmax(size >= highest))
-    first = int(np.argmax(size >= lowest))
+    last = int(np.argmax(size >= _HIGHEST))
+    first = int(np.argmax(size >= _LOWEST))
     if last - first < 3:
         return math.nan
     line = np.polyfit(size[first:last], np.abs(steering[first:last]), 1)
-    return float(np.polyval(line, wanted))
+    return float(np.polyval(line, _WANTED))

@@ -12,8 +12,8 @@ from mbs.common.checks import not_negative, positive
 from mbs.elements import AutomaticDrive, EndStops, KerbRoad, PlaneRoad, SpringDamper, Tyre
 from mbs.elements.reals import NotNegative, Pair, Real, declared, reals_of
 from mbs.elements.record import ElementRecord, columns
+from tests.arguments.elements import TYRE, USES
 from tests.elements.harness import vectors
-from tests.elements.test_arguments import TYRE, USES
 
 NUMBERS = USES | {"Tyre that leans": (replace(TYRE, camber_slip=0.05), USES["Tyre"][1])}
 

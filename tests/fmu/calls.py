@@ -5,8 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
 OK, WARNING, DISCARD, ERROR = range(4)
 """Statuses; FMPy itself makes one of the first two."""
+
+FMI_2 = pytest.mark.parametrize("kind", ["native", "python"])
+"""What FMI 3.0 does not have."""
 
 HostMaker = Callable[..., Any]
 """Of the fixture `host`."""

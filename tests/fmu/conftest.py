@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import platform
 import sys
@@ -23,9 +24,11 @@ from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import able_platforms
 from hosts.fmu.fmu import unpack
 from tests.fmu.calls import OK
+from tests.fmu.host3 import Slave3
 
 SCENES = Path(__file__).parent / "scenes.py"
 PLATFORM = fmpy.platform
+DO_STEP_STATUS, LAST_SUCCESSFUL_TIME, TERMINATED = 0, 2, 3  # fmi2StatusKind
 SOLVER = (
     *("solver.status", "solver.halvings", "solver.energy_error", "solver.energy_balance"),
     *("solver.capped_steps", "solver.capped_residual"),
@@ -96,9 +99,15 @@ def kerb_fmus(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
     return made_once("kerb_test", fill)
 
 
-@pytest.fixture(params=["native", "python"])
+@pytest.fixture(params=["native", "python", "fmi3_scalar"])
 def kind(request: pytest.FixtureRequest) -> str:
-    """Both kinds of FMU of FMI 2.0 behave alike."""
+    """All kinds of FMU behave alike; that of FMI 3.0 here without arrays, so that each number has the same name."""
+    return str(request.param)
+
+
+@pytest.fixture(params=["native", "python"])
+def kind_2(request: pytest.FixtureRequest) -> str:
+    """Both kinds of FMI 2.0."""
     return str(request.param)
 
 
@@ -125,6 +134,7 @@ class Host:
 
     def __init__(self, path: Path, folder: Path | None = None, guid: str | None = None) -> None:
         self.description = fmpy.read_model_description(str(path))
+        self.three = self.description.fmiVersion.startswith("3")
         self.references = {v.name: v.valueReference for v in self.description.modelVariables}
         self.folder = folder or Path(tempfile.mkdtemp(prefix="fmu_"))
         unpack(path, self.folder)
@@ -135,15 +145,44 @@ class Host:
         self._callbacks.logger = fmi2CallbackLoggerTYPE(lambda e, n, s, c, text: self.messages.append(text.decode()))
         self.slave = self.instance(guid)
 
-    def instance(self, guid: str | None = None) -> FMU2Slave:
-        slave = FMU2Slave(
-            guid=guid or self.description.guid,
-            unzipDirectory=str(self.folder),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-            instanceName="test",
-        )
-        slave.instantiate(callbacks=self._callbacks)
+    def instance(self, guid: str | None = None, name: str = "test") -> Any:
+        given = {
+            "guid": guid or self.description.guid,
+            "unzipDirectory": str(self.folder),
+            "modelIdentifier": self.description.coSimulation.modelIdentifier,
+            "instanceName": name,
+        }
+        if self.three:
+            sizes = {v.valueReference: math.prod(v.shape or (1,)) for v in self.description.modelVariables}
+            slave = Slave3(sizes, **given)
+            slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode()))
+        else:
+            slave = FMU2Slave(**given)
+            slave.instantiate(callbacks=self._callbacks)
         return slave
+
+    def wishes_end(self) -> bool:
+        """Whether the last step wished the end; in FMI 2.0 what came after it may have taken that back."""
+        return bool(self.slave.end if self.three else self.slave.getBooleanStatus(TERMINATED))
+
+    def step_status(self) -> int:
+        """Status of the last step."""
+        return int(self.slave.status if self.three else self.slave.getStatus(DO_STEP_STATUS))
+
+    def last_time(self) -> float:
+        """Last successful time, s."""
+        return float(self.slave.last if self.three else self.slave.getRealStatus(LAST_SUCCESSFUL_TIME))
+
+    def whole_status(self, time: float, step: float) -> int:
+        """Status of a step, also a warning, which FMPy hides."""
+        if self.three:
+            self.call("doStep", time, step)
+            return int(self.slave.status)
+        return int(self.slave.dll.fmi2DoStep(self.slave.component, time, step, 1))
+
+    def free(self, slave: Any) -> None:
+        """Free an instance; its library stays."""
+        (slave.fmi3FreeInstance if self.three else slave.fmi2FreeInstance)(slave.component)
 
     def call(self, function: str, *arguments: Any) -> int:
         """Status of a method of FMPy's slave."""

@@ -1,42 +1,53 @@
-"""A host of FMI 3.0 that calls an FMU through FMPy."""
+"""An instance of FMI 3.0 that is called as one of FMI 2.0."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
+from ctypes import byref, c_bool, c_double
 from typing import Any
 
-import fmpy
-from fmpy.simulation import instantiate_fmu
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi3 import FMU3Slave
 
-STEP = 0.01
+from tests.fmu.calls import OK, WARNING
 
 
-class Host3:
-    """An instance of FMI 3.0, its variables by name."""
+class Slave3(FMU3Slave):  # type: ignore[misc]
+    """FMPy's class with the names of that of FMI 2.0, for what both standards have.
 
-    def __init__(self, fmu: Path) -> None:
-        self.description = fmpy.read_model_description(str(fmu))
-        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
-        self.messages: list[str] = []
-        self.slave: Any = instantiate_fmu(
-            fmpy.extract(str(fmu)), self.description, logger=lambda *a: self.messages.append(a[-1].decode())
-        )
+    `sizes`: numbers of values by reference; `status`, `end`, `last`: of the last step, its status, whether it wished
+    the end, and the last successful time.
+    """
 
-    def start(self) -> Host3:
-        self.slave.enterInitializationMode(startTime=0.0)
-        self.slave.exitInitializationMode()
-        return self
+    def __init__(self, sizes: dict[int, int], **more: Any) -> None:
+        super().__init__(**more)
+        self.sizes = sizes
+        self._experiment: tuple[float | None, float, float | None] = (None, 0.0, None)
+        self.status, self.end, self.last = OK, False, 0.0
+        self.getInteger, self.setInteger = self.getInt32, self.setInt32
+        self.getFMUstate, self.setFMUstate, self.freeFMUstate = self.getFMUState, self.setFMUState, self.freeFMUState
+        self.serializeFMUstate, self.deSerializeFMUstate = self.serializeFMUState, self.deserializeFMUState
 
-    def get(self, name: str, size: int = 1) -> list[float]:
-        return list(self.slave.getFloat64([self.references[name]], size))
+    def setupExperiment(
+        self, tolerance: float | None = None, startTime: float = 0.0, stopTime: float | None = None
+    ) -> None:
+        self._experiment = (tolerance, startTime, stopTime)
 
-    def set(self, name: str, value: float) -> None:
-        self.slave.setFloat64([self.references[name]], [value])
+    def enterInitializationMode(self) -> None:
+        super().enterInitializationMode(*self._experiment)
 
-    def run(self, steps: int, begin: int = 0) -> list[float]:
-        for k in range(begin, begin + steps):
-            self.slave.doStep(k * STEP, STEP)
-        return self.get(self.outputs()[0], 2 if "position" in self.outputs()[0] else 1)
+    def getReal(self, references: Sequence[int]) -> list[float]:
+        return list(self.getFloat64(references, sum(self.sizes.get(r, 1) for r in references)))
 
-    def outputs(self) -> list[str]:
-        return [v.name for v in self.description.modelVariables if v.causality == "output"]
+    def setReal(self, references: Sequence[int], values: Sequence[float]) -> None:
+        self.setFloat64(references, values)
+
+    def doStep(self, time: float, step: float) -> None:
+        event, end, early, last = c_bool(), c_bool(), c_bool(), c_double()
+        given = (c_double(time), c_double(step), c_bool(True), byref(event), byref(end), byref(early), byref(last))
+        self.status = int(self.dll.fmi3DoStep(self.component, *given))
+        self.end, self.last = end.value, last.value
+        assert not event.value
+        assert not early.value
+        if self.status > WARNING:
+            raise FMICallException("fmi3DoStep", self.status)

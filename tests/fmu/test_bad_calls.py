@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from ctypes import byref, c_double, c_int
 from pathlib import Path
 
 import pytest
 
-from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
-
-LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
+from tests.fmu.calls import DISCARD, ERROR, FMI_2, OK, HostMaker
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
@@ -79,7 +76,7 @@ def test_wrong_orders_of_calls(crane: Path, host: HostMaker) -> None:
     assert driven.call("exitInitializationMode") == ERROR
     assert driven.call("terminate") == ERROR
     driven.start()
-    assert driven.call("setupExperiment") == ERROR
+    assert driven.three or driven.call("setupExperiment") == ERROR
     assert driven.call("enterInitializationMode") == ERROR
     assert driven.call("exitInitializationMode") == ERROR
     assert driven.step(0.0, 0.01) == OK
@@ -87,7 +84,7 @@ def test_wrong_orders_of_calls(crane: Path, host: HostMaker) -> None:
     assert driven.step(0.01, 0.01) == ERROR
     assert driven.set("torque", 1.0) == ERROR
     assert math.isfinite(driven.get("rod.x"))
-    assert all(m.startswith("fmi2") or "cannot be set" in m for m in driven.messages)
+    assert all(m.startswith(("fmi2", "fmi3")) or "cannot be set" in m for m in driven.messages)
 
 
 def test_outputs_can_be_read_in_initialisation(crane: Path, host: HostMaker) -> None:
@@ -108,6 +105,7 @@ def test_a_wrong_guid_is_refused(crane: Path, host: HostMaker) -> None:
     assert "GUID" in driven.messages[-1]
 
 
+@FMI_2
 def test_what_is_not_supported_says_so(crane: Path, host: HostMaker) -> None:
     driven = host(crane).start()
     assert driven.call("setRealInputDerivatives", [0], [4], [1.0]) == ERROR
@@ -117,12 +115,8 @@ def test_what_is_not_supported_says_so(crane: Path, host: HostMaker) -> None:
 
 def test_status_after_steps(reach: Path, host: HostMaker) -> None:
     driven = host(reach).start()
-    slave = driven.slave
     driven.run(2, 0.01)
     driven.set("pull", 5.0)
     assert driven.step(0.02, 0.2) == DISCARD
-    time, terminated = c_double(), c_int(1)
-    slave.fmi2GetRealStatus(slave.component, LAST_SUCCESSFUL_TIME, byref(time))
-    slave.fmi2GetBooleanStatus(slave.component, TERMINATED, byref(terminated))
-    assert time.value == 0.02
-    assert terminated.value == 0
+    assert driven.last_time() == 0.02
+    assert not driven.wishes_end()

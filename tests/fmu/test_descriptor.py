@@ -17,6 +17,7 @@ from fmu_src.build.build import KINDS, build_fmu
 from fmu_src.build.scene_registry import load_scene
 from fmu_src.variables.units import DISPLAY_UNITS, parse_unit
 from fmu_src.variables.variables import variable_table
+from tests.fmu.calls import FMI_2
 
 SCENES = Path(__file__).parent / "scenes.py"
 ONE = {
@@ -70,6 +71,7 @@ def test_another_system_gives_another_guid(build: Callable[..., Path]) -> None:
     assert first.guid != second.guid
 
 
+@FMI_2
 def test_flags_and_experiment(crane: Path, kind: str) -> None:
     description = fmpy.read_model_description(str(crane))
     face = description.coSimulation

@@ -26,9 +26,9 @@ H = 0.01
 
 
 @pytest.fixture
-def kerb(kerb_fmus: Path, kind: str, need: Callable[[str], None]) -> Path:
-    need(kind)
-    return kerb_fmus / f"{kind}.fmu"
+def kerb(kerb_fmus: Path, kind_2: str, need: Callable[[str], None]) -> Path:
+    need(kind_2)
+    return kerb_fmus / f"{kind_2}.fmu"
 
 
 @pytest.fixture(scope="module")
@@ -173,16 +173,16 @@ def test_a_stress_needs_no_word(kerb: Path) -> None:
 
 @pytest.mark.slow
 def test_an_output_that_no_system_computes_is_told_once_a_run(
-    made_once: Callable[[str, Callable[[Path], None]], Path], kind: str, need: Callable[[str], None]
+    made_once: Callable[[str, Callable[[Path], None]], Path], kind_2: str, need: Callable[[str], None]
 ) -> None:
     """The rigid car alone: there is no System with ports beside it."""
-    need(kind)
+    need(kind_2)
 
     def fill(folder: Path) -> None:
-        built = build_fmu(compile(kerb_test.build(0)), "alone", folder, [fmpy.platform], kind=kind)
+        built = build_fmu(compile(kerb_test.build(0)), "alone", folder, [fmpy.platform], kind=kind_2)
         built.rename(folder / "alone.fmu")
 
-    alone = made_once(f"rigid_car_{kind}", fill) / "alone.fmu"
+    alone = made_once(f"rigid_car_{kind_2}", fill) / "alone.fmu"
     ((status, category, text),) = logged(alone, None, ["chassis.x", "stress.SG3", "bending_moment.SG1"])
     assert (status, category) == (1, "logNotComputed")
     assert text == "'stress.SG3' reads 0; this FMU does not compute it. This is said once."

@@ -6,12 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from fmpy.fmi1 import FMICallException
 
 import mbs
 from fmu_src.build.scene_registry import load_scene
 from tests.fmu.calls import ERROR, OK, HostMaker
-from tests.fmu.host3 import Host3
 
 SCENES = Path(__file__).parent / "scenes.py"
 H = 0.01
@@ -74,22 +72,3 @@ def test_it_is_free_again_after_a_reset(build: Callable[..., Path], host: HostMa
     driven.start({LENGTH: 0.3})
     assert driven.step(0.0, H) == OK
     assert driven.outputs() == expected({LENGTH: 0.3})
-
-
-def test_fmi_3_says_and_does_the_same(build: Callable[..., Path]) -> None:
-    fmu = build("sprung_reach", "fmi3")
-    driven = Host3(fmu)
-    variables = {v.name: v for v in driven.description.modelVariables}
-    assert (variables[LENGTH].variability, variables[STIFFNESS].variability) == ("fixed", "tunable")
-    driven.slave.enterInitializationMode(startTime=0.0)
-    driven.set(LENGTH, 0.3)
-    driven.slave.exitInitializationMode()
-    with pytest.raises(FMICallException):
-        driven.set(LENGTH, 0.2)
-    assert "it is a fixed parameter" in driven.messages[-1]
-    driven.set(STIFFNESS, 9.0)
-    driven.slave.doStep(0.0, H)
-    simulation = mbs.Simulation(load_scene(f"{SCENES}:sprung_reach")[1], parameters={LENGTH: 0.3})
-    simulation.set_parameter(STIFFNESS, 9.0)
-    simulation.step(H)
-    assert driven.get("bob.x") == [simulation.sensors["bob.x"]]

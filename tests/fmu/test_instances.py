@@ -39,7 +39,7 @@ def test_thirty_instances(crane: Path, host: HostMaker) -> None:
     values = [tuple(slave.getReal(outputs)) for slave in slaves]
     assert len(set(values)) == 30
     for slave in slaves:
-        slave.fmi2FreeInstance(slave.component)
+        first.free(slave)
     assert host(crane).start({"torque": 7.0}).run(20, 0.01)[-1][: len(outputs)] == list(values[7])
 
 
@@ -47,7 +47,7 @@ def test_many_lives_of_one_instance(crane: Path, host: HostMaker) -> None:
     driven = host(crane)
     expected = driven.start().run(5, 0.01)
     for _ in range(50):
-        driven.slave.fmi2FreeInstance(driven.slave.component)
+        driven.free(driven.slave)
         driven.slave = driven.instance()
         assert driven.start().run(5, 0.01) == expected
 

@@ -103,9 +103,8 @@ def test_an_instance_is_refused_alike(build: Callable[..., Path], host: HostMake
     said = []
     for kind in ("native", "python"):
         driven = host(build("sprung_reach", kind))
-        driven.slave.instanceName = ""
         with pytest.raises(Exception, match="instantiate"):
-            driven.slave.instantiate(callbacks=driven._callbacks)
+            driven.instance(name="")
         with pytest.raises(Exception, match="instantiate"):
             driven.instance("{0}")
         said.append([m.replace(str(driven.description.guid), "GUID") for m in driven.messages])

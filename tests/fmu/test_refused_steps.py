@@ -5,16 +5,13 @@ from __future__ import annotations
 import subprocess
 import sys
 from collections.abc import Callable
-from ctypes import byref, c_bool, c_double
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
-from tests.fmu.host3 import Host3
 
-DO_STEP_STATUS, TERMINATED = 0, 3
 # The mechanism is pulled beyond its reach within LONG, not within H.
 BEGIN, H, LONG, PULL = 0.05, 0.01, 0.2, 5.0
 SECONDS = 60.0
@@ -27,26 +24,24 @@ def at_the_edge(fmu: Path, host: HostMaker) -> Any:
     return driven
 
 
-def wants_end(driven: Any) -> bool:
-    return bool(driven.slave.getBooleanStatus(TERMINATED))
-
-
 def test_asked_again_it_wishes_the_end_and_then_is_an_error(reach: Path, host: HostMaker) -> None:
     driven = at_the_edge(reach, host)
     before = driven.outputs()
     time = BEGIN
     assert driven.step(time, LONG) == DISCARD
-    assert not wants_end(driven)
+    assert not driven.wishes_end()
     assert "step_size" in driven.messages[-1]
     assert driven.set("pull", PULL) == OK  # nothing new
     assert driven.step(time, LONG) == DISCARD
-    assert wants_end(driven)
-    assert driven.slave.getStatus(DO_STEP_STATUS) == DISCARD
+    assert driven.wishes_end()
+    assert driven.step_status() == DISCARD
     assert driven.step(time, LONG) == ERROR
-    assert driven.slave.getStatus(DO_STEP_STATUS) == ERROR
+    assert driven.step_status() == ERROR
     assert "step_size" in driven.messages[-1]
     assert driven.step(time, LONG) == ERROR
     assert driven.outputs() == before
+    assert driven.last_time() == pytest.approx(time, abs=1e-12)
+    assert driven.step(time, H) == OK
 
 
 @pytest.mark.parametrize("change", ["shorter step", "input", "state"])
@@ -55,7 +50,7 @@ def test_what_clears_it(reach: Path, host: HostMaker, change: str) -> None:
     time = BEGIN
     state = driven.slave.getFMUstate()
     assert driven.step(time, LONG) == driven.step(time, LONG) == DISCARD
-    assert wants_end(driven)
+    assert driven.wishes_end()
     if change == "shorter step":
         assert driven.step(time, H) == OK
         time += H
@@ -63,12 +58,11 @@ def test_what_clears_it(reach: Path, host: HostMaker, change: str) -> None:
         assert driven.set("pull", 0.9 * PULL) == OK
     else:
         driven.slave.setFMUstate(state)
-    assert not wants_end(driven)
+    assert driven.three or not driven.wishes_end()
     assert driven.step(time, LONG) in (OK, DISCARD)
-    assert driven.slave.getStatus(DO_STEP_STATUS) in (OK, DISCARD)
+    assert driven.step_status() in (OK, DISCARD)
 
 
-@pytest.mark.parametrize("kind", ["native", "python"])
 def test_what_has_left_its_table_is_named_with_its_range(
     build: Callable[..., Path], kind: str, host: HostMaker
 ) -> None:
@@ -84,35 +78,12 @@ def test_what_has_left_its_table_is_named_with_its_range(
     assert "its table goes from -0.2 to 0.2" in words
 
 
-def test_fmi_3_wishes_the_end_and_then_is_an_error(build: Callable[..., Path]) -> None:
-    driven = Host3(build("reach", "fmi3")).start()
-    slave = driven.slave
-
-    def step(time: float, length: float) -> tuple[int, bool, bool, float]:
-        event, end, early, last = c_bool(), c_bool(), c_bool(), c_double()
-        given = (c_double(time), c_double(length), c_bool(True), byref(event), byref(end), byref(early), byref(last))
-        return int(slave.dll.fmi3DoStep(slave.component, *given)), end.value, early.value, last.value
-
-    for k in range(5):
-        assert step(k * H, H)[0] == OK
-    driven.set("pull", PULL)
-    time = BEGIN
-    for expected, end in ((DISCARD, False), (DISCARD, True), (ERROR, True)):
-        status, wish, early, last = step(time, LONG)
-        assert (status, wish, early) == (expected, end, False)
-        assert last == pytest.approx(time, abs=1e-12)
-        assert "step_size" in driven.messages[-1]
-    assert step(time, H)[:2] == (OK, False)
-
-
-@pytest.mark.parametrize("kind", ["native", "fmi3", "python"])
-def test_fmpy_ends_soon_and_says_why(build: Callable[..., Path], kind: str, need: Callable[[str], None]) -> None:
-    fmu = build("reach", kind)
+def test_fmpy_ends_soon_and_says_why(reach: Path) -> None:
     code = (
         "import fmpy, numpy as np\n"
         f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"
         "pull = np.array(rows, dtype=[('time', float), ('pull', float)])\n"
-        f"fmpy.simulate_fmu({str(fmu)!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
+        f"fmpy.simulate_fmu({str(reach)!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=SECONDS)
     said = done.stdout + done.stderr

@@ -12,7 +12,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from tests.fmu.calls import DISCARD, OK
+from tests.fmu.calls import DISCARD, FMI_2, OK
 from tests.fmu.native import compile_host, unpack
 from tests.fmu.test_native_derivatives import slope
 
@@ -56,6 +56,7 @@ def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge)
     assert h.get("road_normal_x") == -0.05
 
 
+@FMI_2
 def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> None:
     """Asked again it wishes the end; without the derivative the step passes."""
     h = host(sledge).start(LEVEL)
@@ -176,6 +177,7 @@ def test_an_answer_ahead_is_reached_along_the_step_and_one_at_the_wheel_holds(ho
     assert heights[1] < heights[0]
 
 
+@FMI_2
 def test_an_answer_that_nobody_sets_any_more_holds_at_once(host, sledge) -> None:
     """A derivative has led the last one ahead: the one that holds lies behind, which is no way to go along."""
     heights = []

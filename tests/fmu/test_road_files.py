@@ -22,7 +22,6 @@ from mbs.roads.shipped import FOLDER
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import Fidelity
 from tests.fmu.calls import ERROR, OK
-from tests.fmu.host3 import Host3
 
 H = 0.002
 FRICTION = 1.2705
@@ -48,8 +47,8 @@ def built(
 
 
 @pytest.fixture
-def car(built: Callable[[str], Path], kind: str) -> Path:
-    return built(kind)
+def car(built: Callable[[str], Path], kind_2: str) -> Path:
+    return built(kind_2)
 
 
 @pytest.fixture
@@ -302,7 +301,7 @@ def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, ho
 def test_fmi_3_gives_the_same(
     built: Callable[[str], Path], host: Any, roads: Path, kind_3: str, tmp_path: Path
 ) -> None:
-    third = Host3(built(kind_3))
+    third = host(built(kind_3))
     slave, references = third.slave, third.references
     assert len(set(references.values())) == len(references)
     heights_of = {u.variable.name: u for u in third.description.initialUnknowns}["wheel_FL.travel"]

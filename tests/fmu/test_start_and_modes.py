@@ -23,7 +23,10 @@ G, STEP = 9.81, 0.01
 def hung(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> dict[str, Path]:
     system, folder = mbs.compile(hanging()), tmp_path_factory.mktemp("hung")
     need("python")
-    return {kind: build_fmu(system, "hung", folder, [fmpy.platform], kind=kind) for kind in ("native", "python")}
+    return {
+        kind: build_fmu(system, "hung", folder, [fmpy.platform], kind=kind)
+        for kind in ("native", "python", "fmi3_scalar")
+    }
 
 
 @pytest.fixture(scope="session")

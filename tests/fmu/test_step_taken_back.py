@@ -28,11 +28,11 @@ def step_size(request: pytest.FixtureRequest) -> float:
 
 
 @pytest.fixture
-def pair(build: Callable[..., Path], kind: str, host: HostMaker, step_size: float) -> tuple[Any, Any]:
+def pair(build: Callable[..., Path], kind_2: str, host: HostMaker, step_size: float) -> tuple[Any, Any]:
     """Two instances in one state with some motion, and energy lost to a damper."""
     made = []
     for _ in range(2):
-        driven = host(build("sprung_reach", kind)).start({"step_size": step_size, "pull": 0.02})
+        driven = host(build("sprung_reach", kind_2)).start({"step_size": step_size, "pull": 0.02})
         driven.run(BEFORE, H)
         made.append(driven)
     return made[0], made[1]

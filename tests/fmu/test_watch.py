@@ -32,8 +32,7 @@ def slider(build: Callable[..., Path], kind: str) -> Path:
 
 def run(driven: Any, h: float, end: float = 2.0) -> list[int]:
     driven.start({"torque": TORQUE, "step_size": h})
-    slave = driven.slave  # called past FMPy, which passes over warnings
-    return [slave.dll.fmi2DoStep(slave.component, k * h, h, 1) for k in range(round(end / h))]
+    return [driven.whole_status(k * h, h) for k in range(round(end / h))]
 
 
 def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMaker) -> None:
@@ -133,7 +132,7 @@ def test_a_wheel_that_swings_too_quickly_is_told_where_steps_stay_whole(
     kerb = {"road.kerb_x": 10.0, "road.kerb_height": 0.12}
     few = {"step_size": h, "solver.step_iterations": 8.0}
     driven = host(prototype_fmu).start({"initial.speed": 30.0} | kerb | few)
-    statuses = [driven.slave.dll.fmi2DoStep(driven.slave.component, 0.02 * k, 0.02, 1) for k in range(50)]
+    statuses = [driven.whole_status(0.02 * k, 0.02) for k in range(50)]
     words = "a wheel swings on its tyre too quickly for the step"
     lines = [m for m in driven.messages if words in m]
     assert len(lines) == told
@@ -172,9 +171,8 @@ def test_a_wheel_that_drops_onto_its_rebound_stop_is_told_once(
 ) -> None:
     """Let go 0.27 m above the ground: at 20 ms forces are 14 % off, at 1 ms they are right; in lanes too."""
     driven = host(prototype_fmu).start({"initial.speed": 3.0, "initial.z": 0.27, "step_size": h})
-    slave = driven.slave
     length = max(h, 0.01)
-    statuses = [slave.dll.fmi2DoStep(slave.component, length * k, length, 1) for k in range(round(0.8 / length))]
+    statuses = [driven.whole_status(length * k, length) for k in range(round(0.8 / length))]
     words = "a wheel dropped onto the metal of its rebound stop too hard for the step"
     lines = [m for m in driven.messages if words in m]
     assert statuses.count(WARNING) == len(lines) == int(told)

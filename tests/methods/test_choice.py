@@ -8,6 +8,7 @@ import pytest
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.scenes import double_four_bar
 from mbs.settings.settings import METHODS
+from tests.flexible_engine.bodies import bar
 from tests.methods.models import hinge, swing
 
 REFUSED = "takes no element states"
@@ -75,13 +76,18 @@ def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_do
     assert np.all(np.isfinite(kept))
 
 
+@pytest.mark.parametrize("flexible", [False, True])
 @pytest.mark.parametrize("rho", [0.2, 0.5, 1.0])
-def test_generalised_alpha_steps_as_its_recursion_says(rho):
-    """A mass on a spring, k = 40 N/m, against the recursion of Chung and Hulbert, whose acceleration has a memory."""
-    m = Model("oscillator", dimension=2, gravity=(0.0, 0.0))
-    mass = m.point_mass("mass", mass=1.0, position=(1.5, 0.0))
+def test_generalised_alpha_steps_as_its_recursion_says(rho, flexible):
+    """A mass on a spring, k = 40 N/m, against the recursion of Chung and Hulbert, whose acceleration has a memory; a
+    flexible body at rest beside it has no other past of steps.
+    """
+    m = Model("oscillator", gravity=(0.0, 0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.5, 0.0, 0.0))
     m.torsional_spring_damper("spring", mass.point(None).components[0], stiffness=40.0, free_angle=1.0)
-    m.sense_position("x", mass, (1.5, 0.0), "x")
+    m.sense_position("x", mass, (1.5, 0.0, 0.0), "x")
+    if flexible:
+        m.flexible_body("bar", bar((0, 0, 0), (1, 0, 0), dynamic=1), origin=(0.0, 5.0, 0.0))
     h, k = 0.05, 40.0
     s = Simulation(compile(m), settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho))
     am, af = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)

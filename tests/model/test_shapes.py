@@ -8,7 +8,7 @@ import pytest
 import mbs
 from ali3.errors import UserError
 from mbs.model.shapes import KINDS
-from tests.wrong_values import problems_of
+from tests.arguments.wrong_values import problems_of
 
 
 def model(dimension: int = 3) -> tuple[mbs.Model, mbs.model.body.Body]:

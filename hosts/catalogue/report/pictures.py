@@ -96,25 +96,6 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
     return Picture(title, content.getvalue(), said, (round(_PIXELS * _WIDTH), round(_PIXELS * height)))
 
 
-def draw_plot(axes: Axes, title: str, plots_by_car: Mapping[str, Sequence[Plot]]) -> None:
-    """Draw the plot of a title, as `pictures_of` does, into axes that stand somewhere else.
-
-    `plots_by_car`: by label of the car.
-    """
-    found = {
-        k: (label, _displayed(plot))
-        for k, (label, plots) in enumerate(plots_by_car.items())
-        for plot in plots
-        if plot.title == title
-    }
-    _drawn(axes, found, _shared([plot for _, plot in found.values()]), len(plots_by_car) > 1)
-    texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
-    if axes.get_legend_handles_labels()[0]:
-        texts += axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5)).get_texts()
-    for text in texts:
-        text.set_parse_math(False)
-
-
 def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
     """Draw lines, labels and scales of a plot; what they show in words."""
     first = next(iter(found.values()))[1]

@@ -194,8 +194,7 @@ struct ali3_system {
   ali3_contact_forces_of *contact; /* n_contact: elements with a depth or a rebound stop */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
-  int32_t *el_entry_signal,
-      *el_entry_local; /* per entry: signal within the element, its coordinate within the element */
+  int32_t *el_entry_local; /* per entry: its coordinate within the element */
   double *el_entry_value;
   unsigned char *el_entry_first; /* 1: no entry before it has its coordinate, nor of a triple one of the three */
   unsigned char *el_clear; /* ne: of a triple some have and some have not; then all are 0 */

@@ -37,7 +37,7 @@ static int compare_int32(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Entries of element e: signal, value and the coordinate within the element; its coordinates ascend as in the front. */
+/* Entries of element e: value and the coordinate within the element; its coordinates ascend as in the front. */
 static void derive_element(ali3_system *s, int32_t e) {
   const int32_t first = s->el_entry_ptr[e], start = s->el_coordinate_ptr[e];
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
@@ -46,7 +46,6 @@ static void derive_element(ali3_system *s, int32_t e) {
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
     const int32_t signal = s->el_sig[i];
     for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, n++) {
-      s->el_entry_signal[first + n] = i - s->el_sig_ptr[e];
       s->el_entry_value[first + n] = s->sig_val[k];
       s->el_entry_local[first + n] = 0;
     }

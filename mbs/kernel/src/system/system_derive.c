@@ -67,7 +67,6 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->work_element = ali3_pool_items(p, ne, sizeof(int32_t));
   s->work_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_entry_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
-  s->el_entry_signal = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_local = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_value = ali3_pool_items(p, n_entry, sizeof(double));
   s->el_entry_first = ali3_pool_items(p, n_entry, 1);

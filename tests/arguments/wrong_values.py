@@ -1,11 +1,12 @@
-"""Values that no argument may take in silence, and how a good refusal of them reads."""
+"""Values that no argument may take in silence, how a good refusal of them reads, and calls that are given them."""
 
 from __future__ import annotations
 
 import inspect
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -92,6 +93,27 @@ def problems_of(use: Callable[[Any], object], argument: str, allowed: Callable[[
     return found
 
 
-def arguments_of(function: Any) -> list[inspect.Parameter]:
-    """Arguments of a function beside `self`."""
-    return [p for p in inspect.signature(function).parameters.values() if p.name != "self"]
+@dataclass(frozen=True)
+class Call:
+    """A call that is tried with the right values and with wrong ones."""
+
+    make: Callable[[], tuple[Callable[..., object], dict[str, Any]]]
+    """Makes the function anew, with the right value of each argument."""
+    kinds: dict[str, str]
+    """The types of the arguments that are tried, as they are written."""
+    allowed: Callable[[str, str, Any], bool] = lambda argument, label, value: False
+    """Whether a value is right for an argument after all; `standing` answers for what a type says."""
+    state: Callable[[Any], object] = lambda function: None
+    """All that the function may change."""
+
+    def standing(self, argument: str, label: str, value: Any) -> bool:
+        """Whether an argument may have a value of `WRONG`."""
+        kind = self.kinds[argument]
+        by_kind = (value is None and "None" in kind) or (label == "True" and kind.startswith("bool"))
+        return by_kind or self.allowed(argument, label, value)
+
+
+def kinds_of(function: Any, arguments: Iterable[str] | None = None) -> dict[str, str]:
+    """Types of a function's arguments beside `self`, or of some of them."""
+    parameters = {n: str(p.annotation) for n, p in inspect.signature(function).parameters.items() if n != "self"}
+    return parameters if arguments is None else {n: kind for n, kind in parameters.items() if n in arguments}
