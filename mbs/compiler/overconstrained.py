@@ -47,7 +47,7 @@ MOST_BODIES = 40
 ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
-MOVES, NEARLY = 10, 5e-3
+MOVES, NEARLY = 10, 2e-3
 """Positions of a motion that is one; the largest misfit along it, parts of the size, of a loop that nearly moves."""
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
 """Attributes of a joint that its drawing makes."""
