@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from dataclasses import fields, replace
 
@@ -65,7 +66,8 @@ def with_settings(
     """The manoeuvre with settings of its driver in place of its own.
 
     `given`: by name; the car starts at another `speed` where `names`, those of the FMU's variables, have a parameter
-    for it, and a slower one has more time, so that it comes as far; `stop_time`: that was asked for, s, and stays.
+    for it, and a slower one has more time, whole
+    seconds, so that it comes as far; `stop_time`: that was asked for, s, and stays.
     Raises `HostError` if there is no driver.
     """
     if given and not manoeuvre.driver:
@@ -77,7 +79,7 @@ def with_settings(
             start[INITIAL_SPEED] = speed
         before = manoeuvre.start.get(INITIAL_SPEED)
         if stop_time is None and isinstance(before, (int, float)):
-            longest = max(longest, longest * before / speed)
+            longest = max(longest, math.ceil(longest * before / speed))
     return replace(manoeuvre, driver=driver, start=start, stop_time=longest)
 
 

@@ -95,6 +95,14 @@ def test_options_of_one_letter_and_their_values_stay_what_they_are() -> None:
     assert (found.manoeuvre, found.step, found.rest) == ("slalom", 0.01, ["-manoeuvre"])
 
 
+def test_a_value_may_begin_with_a_minus_sign() -> None:
+    parser = Parser(prog="p")
+    parser.add_argument("--travel", type=quantity("mm"), nargs=2)
+    parser.add_argument("--between")
+    found = parser.parse_args(["--travel", "-3cm", "-1e1", "--between", "-1:1"])
+    assert (found.travel, found.between) == ([-30.0, -10.0], "-1:1")
+
+
 def test_misspelt_cars_worlds_and_manoeuvres_are_told_before_anything_is_made(tmp_path: Path) -> None:
     for check, word, meant in (
         (lambda word: check_car(Path(word)), "hatchbak", "hatchback"),

@@ -50,6 +50,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
         "from far before": (whole - 500.0, "lane 1 was not reached"),
         "backwards": (whole[::-1], "lane 1 was not driven from its beginning"),
         "with rows far apart": (whole[::8], "rows are 4 m apart, lanes are seen by 1 m .*; run without --interval"),
+        "to the other side": (-whole, "lane 1 was not reached.* m; at last the car drives away from it$"),
         "at rest": (np.zeros(50), "lane 1 was not reached"),
         "one row": (whole[:1], "lane 1 was not reached"),
     }.values():  # fmt: skip
@@ -81,6 +82,7 @@ def test_the_start_follows_the_speed_of_the_driver() -> None:
     assert slow.start == {"initial.speed": 10.0}
     assert slow.driver["speed"] == "10.0"
     assert slow.stop_time == 2.0 * asked.stop_time  # as long a way
+    assert with_settings(asked, {"speed": 15.0}, ("initial.speed",), None).stop_time == 11.0  # whole steps end there
     assert with_settings(asked, {"speed": 10.0}, ("initial.speed",), 3.0).stop_time == asked.stop_time
     assert with_settings(asked, {"speed": 40.0}, ("initial.speed",), None).stop_time == asked.stop_time
     assert with_settings(asked, {"speed": 10.0}, (), None).start == asked.start
