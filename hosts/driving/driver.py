@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import fields, replace
 
 from ali3.decimal_number import parse_number
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
 from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
@@ -40,7 +41,9 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
         if name == "course":
             continue
         if name not in known:
-            raise HostError(f"[driver] has '{name}'; known are course, {', '.join(sorted(known))}.")
+            names = ["course", *sorted(known)]
+            near = did_you_mean(name, names, f"known are {', '.join(names)}")
+            raise HostError(f"[driver] has '{name}'{near}")
         try:
             numbers[name] = parse_number(text)
         except ValueError as error:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hosts.common.errors import HostError
 from hosts.driving.driver import make_driver, with_settings
 from hosts.driving.result import Result
 from hosts.recordings.load_manoeuvre import load_manoeuvre
@@ -87,6 +88,15 @@ def test_the_start_follows_the_speed_of_the_driver() -> None:
     assert with_settings(asked, {"speed": 40.0}, ("initial.speed",), None).stop_time == asked.stop_time
     assert with_settings(asked, {"speed": 10.0}, (), None).start == asked.start
     assert with_settings(asked, {"heading_gain": 1.0}, ("initial.speed",), None).start == asked.start
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "near"),
+    [("spead", "20", "'speed'"), ("coarse", "iso_3888_1", "'course'"), ("course", "iso_3888_7", "'iso_3888_1'")],
+)
+def test_a_misspelt_setting_or_course_is_told_with_the_near_one(name: str, value: str, near: str) -> None:
+    with pytest.raises(HostError, match=f"did you mean {near}"):
+        make_driver({"course": "iso_3888_1", "speed": "20"} | SIZE | {name: value}, {})
 
 
 def said_of(fmu: Path, out: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:

@@ -144,6 +144,7 @@ def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys
         (["--cheapest", "path=nan"], "path of --cheapest: the value is nan"),
         (["--cheapest", "loads=x"], "loads of --cheapest: 'x' is not a number."),
         (["--cheapest", "load=5"], "--cheapest takes path, loads, moments, drive and speed, each as NAME=VALUE"),
+        (["--cheapest", "pth=5"], "each as NAME=VALUE, not 'pth'; did you mean 'path'?"),
         (["--cheapest", "moments=5"], "The car 'saloon' has no moments in a frame"),
         (["--cheapest", "speed=5"], "give drive=FILE too"),
         (["--cheapest", "speed=72km/h", "path=2%"], "give drive=FILE too"),

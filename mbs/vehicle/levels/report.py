@@ -13,6 +13,7 @@ from typing import Any
 from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
+from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
 from ali3.words import brief
 from mbs.vehicle.fidelity import Fidelity
@@ -91,7 +92,8 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
     unknown = [name for name in numbers if name not in (*OUTPUTS, "speed")]
     if unknown:
         raise UserError(
-            f"--cheapest takes {', '.join(OUTPUTS)}, drive and speed, each as NAME=VALUE, not {brief(unknown[0])}."
+            f"--cheapest takes {', '.join(OUTPUTS)}, drive and speed, each as NAME=VALUE, not {brief(unknown[0])}"
+            f"{did_you_mean(unknown[0], [*OUTPUTS, 'drive', 'speed'])}"
         )
     values: dict[str, float] = dict(USUAL)
     for name, text in numbers.items():
