@@ -92,7 +92,7 @@ def test_the_start_follows_the_speed_of_the_driver() -> None:
 
 @pytest.mark.parametrize(
     ("name", "value", "near"),
-    [("spead", "20", "'speed'"), ("coarse", "iso_3888_1", "'course'"), ("course", "iso_3888_7", "'iso_3888_1'")],
+    [("spead", "20", "'speed'"), ("coarse", "iso_3888_1", "'course'"), ("course", "iso3888_1", "'iso_3888_1'")],
 )
 def test_a_misspelt_setting_or_course_is_told_with_the_near_one(name: str, value: str, near: str) -> None:
     with pytest.raises(HostError, match=f"did you mean {near}"):

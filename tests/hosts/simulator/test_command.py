@@ -288,7 +288,7 @@ def test_a_hello_has_our_names(renamed, tmp_path):
         (["--headless", "--stop-time", 1, "--step", 3], "The step is 3 s"),
         (["--headless", "--stop-time", 1, "--step", "nan"], "The step is nan s"),
         (["--headless", "-m", "waltz"], "There is no manoeuvre 'waltz'"),
-        (["--headless", "--stop-time", 1, "--world", "moon"], "has no parameter 'road.file', so that the world moon"),
+        (["--headless", "--stop-time", 1, "--world", "split"], "has no parameter 'road.file', so that the world split"),
         (["--headless", "--stop-time", 1, "--place", "start"], "of this FMU has no place 'start'; it has: none."),
         (["--headless", "--stop-time", 1, "--fidelity", 2], "no parameter or input 'fidelity'"),
         (["--headless", "--stop-time", 1, "--set", "steering=2"], "its range is -1 to 1"),
