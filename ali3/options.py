@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
-from ali3.decimal_number import number, short
+from ali3.decimal_number import DECIMAL, number, short
 from ali3.near_names import near_names
 from ali3.units import quantity
 from ali3.words import brief, shortened
@@ -20,6 +20,8 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, **given: Any) -> None:
         super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | given)
+        # values with a minus sign, such as -30mm, -1e3 or -1:1, of which argparse knows plain decimals only
+        self._negative_number_matcher = re.compile(rf"-{DECIMAL}")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As `argparse.ArgumentParser` does; a long option with one minus sign is none of one letter with its value."""
@@ -40,9 +42,6 @@ class Parser(argparse.ArgumentParser):
             word = message.split()[2]
             if word.startswith("-") and (near := self._near(f"--{word.lstrip('-')}")):
                 message += f"; did you mean {near[0]!r}?"
-        if message.endswith("expected one argument"):  # also where argparse takes -1:1 for an option
-            name = message.split()[1].split("/")[0].rstrip(":")
-            message += f"; one that begins with a minus sign is given as {name}=-..."
         super().error(shortened(message))
 
 

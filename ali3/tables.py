@@ -23,6 +23,7 @@ LARGEST = 4_000_000_000
 """Bytes of a table that is read as a stream."""
 HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 """A name with its unit, such as ``speed [m/s]``."""
+_WORD = re.compile(r"[^\W\d]\w*")
 _MARKS = (";", "\t", ",")
 _LONGEST_CELL = 1000
 
@@ -56,8 +57,9 @@ class TextTable:
         Whether there are names, in the first line or, where that has numbers, in a comment above it; None: where there
         are such. Without names the columns are told apart by their order.
     known : collection of str
-        Names of columns in small letters, without units: a comment that has one of them is a heading; by default any
-        with as many cells as the first line, none of them a number.
+        Names of columns in small letters, without units: a comment that has one of them is a heading, and one right
+        above the values whose cells are words, for there it names columns that are not known; by default any with as
+        many cells as the first line, none of them a number.
     units : bool
         Whether names may have units, as `HEADING`.
     whole : bool
@@ -190,8 +192,10 @@ class TextTable:
             return []
         if not any(is_number(cell, self.decimal) for cell in first):
             return first
-        for _, cells in self.comment_cells():
-            if not any(map(is_number, cells)) and (not known or any(plain_name(cell) in known for cell in cells)):
+        for line, cells in self.comment_cells():
+            if any(map(is_number, cells)):
+                continue
+            if not known or any(plain_name(cell) in known for cell in cells) or self._names_columns(line, cells):
                 return cells
         if not is_number(first[0], self.decimal):
             return first
@@ -201,6 +205,12 @@ class TextTable:
                 "first values there must be a heading with a name for each column."
             )
         return []
+
+    def _names_columns(self, line: int, cells: list[str]) -> bool:
+        """Whether a comment is right above the first values, divided as they are, and each of its cells is one word."""
+        if self._first is None or line != self._first[0] - 1 or (self._mark or ",") not in dict(self.comments)[line]:
+            return False
+        return all(_WORD.fullmatch(plain_name(cell)) for cell in cells)
 
     def comment_cells(self) -> list[tuple[int, list[str]]]:
         """Cells of the comments read so far that have as many as the first line, with the numbers of their lines."""

@@ -73,7 +73,7 @@ OTHER_NAMES = {
     "°/s": "deg/s", "deg/sec": "deg/s", "degree/s": "deg/s", "°/s2": "deg/s2",
     "1/min": "rpm", "U/min": "rpm", "r/min": "rpm", "min-1": "rpm",
     "meter": "m", "metre": "m", "kph": "km/h", "kmh": "km/h", "km/hr": "km/h", "knot": "kn", "knots": "kn",
-    "m/s/s": "m/s2", "m/sec2": "m/s2", "ms-2": "m/s2", "G": "g", "Nm": "N.m", "N*m": "N.m", "N m": "N.m", "kNm": "kN.m",
+    "m/s/s": "m/s2", "m/sec2": "m/s2", "ms-2": "m/s2", "G": "g", "Nm": "N.m", "kNm": "kN.m",
     "g's": "g", "mbar": "hPa", "°C": "degC", "C": "degC", "sec": "s", "rad/sec": "rad/s", "kmph": "km/h",
 }  # fmt: skip
 
@@ -117,9 +117,9 @@ def plain_unit(text: str) -> str:
     word = text.strip()
     while word[:1] + word[-1:] in ("[]", "()") and len(word) > 1:
         word = word[1:-1].strip()
-    for written, plain in (("²", "2"), ("^", ""), ("**", ""), ("·", "."), ("º", "°")):
+    for written, plain in (("²", "2"), ("^", ""), ("**", ""), ("·", "."), ("*", "."), ("º", "°")):
         word = word.replace(written, plain)
-    return word
+    return re.sub(r"\s+", ".", re.sub(r"\s*([./])\s*", r"\1", word))
 
 
 def number_with_unit(text: str, unit: str) -> float:

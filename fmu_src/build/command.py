@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ali3.errors import UserError
 from ali3.extras import missing_package
+from ali3.near_names import did_you_mean
 from ali3.options import Parser, add_option
 from ali3.running import run_command
 from ali3.told_warnings import told_warnings
@@ -270,7 +271,8 @@ def _platforms(text: str, here: str | None) -> list[str]:
     words = {"this": (here or "",), "all": PLATFORMS}
     chosen = list(dict.fromkeys(platform for word in asked for platform in words.get(word, (word,))))
     if set(chosen) - set(TARGETS):
-        raise UserError(f"Platform '{text}' is not known; the platforms are {', '.join(TARGETS)}, this and all.")
+        near = did_you_mean(text, [*TARGETS, "this", "all"], f"the platforms are {', '.join(TARGETS)}, this and all")
+        raise UserError(f"Platform '{text}' is not known{near}")
     return chosen
 
 

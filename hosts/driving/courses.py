@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ali3.iso_3888 import Track, lanes
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 
@@ -17,5 +18,6 @@ def course_of(name: str, vehicle_width: float, x_start: float = 15.0) -> Course:
     `HostError` if there is none.
     """
     if name not in TRACKS:
-        raise HostError(f"There is no course '{name}'; known are: {', '.join(TRACKS)}.")
+        near = did_you_mean(name, TRACKS, f"known are: {', '.join(TRACKS)}")
+        raise HostError(f"There is no course '{name}'{near}")
     return Course(TRACKS[name], lanes(TRACKS[name], vehicle_width, x_start))

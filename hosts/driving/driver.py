@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from dataclasses import fields, replace
 
 from ali3.decimal_number import parse_number
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
 from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
@@ -39,7 +41,9 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
         if name == "course":
             continue
         if name not in known:
-            raise HostError(f"[driver] has '{name}'; known are course, {', '.join(sorted(known))}.")
+            names = ["course", *sorted(known)]
+            near = did_you_mean(name, names, f"known are {', '.join(names)}")
+            raise HostError(f"[driver] has '{name}'{near}")
         try:
             numbers[name] = parse_number(text)
         except ValueError as error:
@@ -65,7 +69,8 @@ def with_settings(
     """The manoeuvre with settings of its driver in place of its own.
 
     `given`: by name; the car starts at another `speed` where `names`, those of the FMU's variables, have a parameter
-    for it, and a slower one has more time, so that it comes as far; `stop_time`: that was asked for, s, and stays.
+    for it, and a slower one has more time, whole
+    seconds, so that it comes as far; `stop_time`: that was asked for, s, and stays.
     Raises `HostError` if there is no driver.
     """
     if given and not manoeuvre.driver:
@@ -77,7 +82,7 @@ def with_settings(
             start[INITIAL_SPEED] = speed
         before = manoeuvre.start.get(INITIAL_SPEED)
         if stop_time is None and isinstance(before, (int, float)):
-            longest = max(longest, longest * before / speed)
+            longest = max(longest, math.ceil(longest * before / speed))
     return replace(manoeuvre, driver=driver, start=start, stop_time=longest)
 
 

@@ -30,7 +30,7 @@ class _Finder:
     """Holds the speed of its first act, and knows when the throttle does not change any more."""
 
     def __init__(self) -> None:
-        self.speed = math.nan
+        self.speed, self.least = math.nan, math.inf
         self._holder: SpeedHolder | None = None
         self._last: deque[tuple[float, float, float]] = deque()
 
@@ -39,6 +39,7 @@ class _Finder:
             self.speed = senses["speed"]
             self._holder = SpeedHolder(self.speed, gain=1.0, integral_gain=1.0, brakes=False)
         acts = self._holder.act(time, senses)
+        self.least = min(self.least, senses["speed"])
         self._last.append((time, senses["speed"], acts[THROTTLE]))
         while time - self._last[0][0] > _WINDOW + 1e-9:
             self._last.popleft()
@@ -88,6 +89,11 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
             f"{what}; straight on the car does not hold {finder.speed:.4g} m/s: after {found.simulated:.3g} s it is at "
             f"{speed:.4g} m/s with a throttle of {finder.throttle:.3g}; start at another speed, as --set "
             f"{INITIAL_SPEED}={max(0.9 * min(speed, finder.speed), 1.0):.3g}."
+        )
+    if finder.least < 0.5 * finder.speed:  # which has no sign
+        raise HostError(
+            f"{what}; from {finder.speed:.4g} m/s the car slows down to {finder.least:.3g} m/s before it holds it, as "
+            f"one that rolls backwards does; start forwards, as --set {INITIAL_SPEED}={finder.speed:.4g}."
         )
     fmu.reset()
     fmu.messages.clear()

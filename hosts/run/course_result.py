@@ -60,4 +60,6 @@ def _more(result: Result, driver: Driver) -> str:
         return "; run without --interval"
     if speed < _STANDS:
         return f"; the car stands at {result.time[-1]:.4g} s"
+    if x[-1] < x[-2:][0]:
+        return "; at last the car drives away from it"
     return f"; --stop-time {math.ceil(result.time[-1] + 1.1 * way / speed)} is long enough at its speed"

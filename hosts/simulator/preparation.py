@@ -10,6 +10,7 @@ from typing import Any
 
 from fmpy.model_description import ModelDescription
 
+from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import ROAD, Wishes
@@ -164,8 +165,8 @@ def _settings(asked: Asked, aliases: Aliases, variables: Variables, world: World
     start: dict[str, Value] = {} if world.road is None else {ROAD: str(world.road)}
     places = world.places()
     if asked.place is not None and asked.place not in places:
-        has = ", ".join(places) or "none"
-        raise HostError(f"The world {world.name or 'of this FMU'} has no place '{asked.place}'; it has: {has}.")
+        near = did_you_mean(asked.place, places, f"it has: {', '.join(places) or 'none'}")
+        raise HostError(f"The world {world.name or 'of this FMU'} has no place '{asked.place}'{near}")
     place = asked.place if asked.place is not None else next(iter(places), None)
     if place is not None:
         start |= places[place]

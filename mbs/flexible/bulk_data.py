@@ -80,7 +80,8 @@ def grid_points(path: Path, folder: str | Path | None = None) -> dict[int, tuple
     found: dict[str, list[_Card]] = {}
     lines = list(_lines(path, NamedFiles(path.parent if folder is None else folder, LARGEST, ModelError)))
     begin = next((k + 1 for k, line in enumerate(lines) if re.match(r"begin\s+bulk", line.text, re.IGNORECASE)), 0)
-    for card in _cards(lines[begin:]):
+    end = next((k for k, line in enumerate(lines) if re.match(r"enddata\b", line.text, re.IGNORECASE)), len(lines))
+    for card in _cards(lines[begin:end]):
         found.setdefault(card.name, []).append(card)
     systems = _Systems({card.whole(0): card for name in _SYSTEMS for card in found.get(name, [])})
     default = found.get("GRDSET", [_Card(_Line("", ""), "GRDSET", [])])[0]
@@ -211,25 +212,34 @@ def _replicated(rule: Sequence[str], before: Sequence[str], line: _Line) -> list
 
 def _joined(lines: Sequence[_Line]) -> Iterator[_Card]:
     """Cards as they stand there, each with the lines that continue it; of a card that is not used the name."""
-    card = _Card(_Line("", ""), "", [])
+    card, mark = _Card(_Line("", ""), "", []), ""
     for line in lines:
         first = (line.text.partition(",")[0] if "," in line.text else line.text.expandtabs(8)[:8]).strip()
         if first and first[0] not in "+*":
             yield card
             card = _Card(line, first.rstrip("*").upper(), [])
         if card.name in _USED or card.name.startswith("="):
-            card.data.extend(_data(line, first))
+            own = first[1:].strip()
+            if card.line is not line and mark and own and mark != own:
+                raise line.error(
+                    f"it continues a line that ends with {brief(own)}, and the one of the {card.name} before it ends "
+                    f"with {brief(mark)}; lines that continue a card must follow it."
+                )
+            data, mark = _data(line, first)
+            card.data.extend(data)
     yield card
 
 
-def _data(line: _Line, first: str) -> list[str]:
-    """The data of a line. `first`: its first field."""
+def _data(line: _Line, first: str) -> tuple[list[str], str]:
+    """The data of a line, and the mark that the line which continues it has too, without its sign. `first`: field 1."""
     wide = 16 if first.endswith("*") or first.startswith("*") else 8
     count = (_COLUMNS - 8) // wide
     if "," in line.text:
-        return ([field.strip() for field in line.text.split(",")[1:]] + [""] * count)[:count]
-    data = _without_tabs(line, wide)[8:_COLUMNS].ljust(_COLUMNS - 8)
-    return [data[k : k + wide].strip() for k in range(0, _COLUMNS - 8, wide)]
+        fields = [field.strip() for field in line.text.split(",")[1:]] + [""] * (count + 1)
+        return fields[:count], fields[count][1:].strip()
+    text = _without_tabs(line, wide)
+    data = text[8:_COLUMNS].ljust(_COLUMNS - 8)
+    return [data[k : k + wide].strip() for k in range(0, _COLUMNS - 8, wide)], text[_COLUMNS + 1 :].strip()
 
 
 def _without_tabs(line: _Line, wide: int) -> str:

@@ -33,6 +33,8 @@ def pose_of(origin: Any) -> Array:
 def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
     """Mass, centre and inertia about it of several links together, earth axes; a rotor may have an inertia alone.
 
+    Without a mass of all together the centre is at the origin, and the inertia is the sum.
+
     `parts`: links with their frames in earth axes. Raises `ModelError`: a link with a mass has no inertia.
     """
     found = []
@@ -45,7 +47,7 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
         found.append((float(given.mass or 0.0), own[:3, 3], own[:3, :3] @ inertia @ own[:3, :3].T))
     mass = sum(m for m, _, _ in found)
     if mass <= 0.0:
-        return 0.0, np.zeros(3), np.zeros((3, 3))
+        return mass, np.zeros(3), sum((tensor for _, _, tensor in found), np.zeros((3, 3)))
     com = sum((m * c for m, c, _ in found), np.zeros(3)) / mass
     inertia = np.zeros((3, 3))
     for m, c, tensor in found:

@@ -235,7 +235,12 @@ def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | No
         body = robot.model.ground
         if group != ground:
             mass, com, inertia = mass_of([(links[n], robot.poses[n]) for n in own])
-            if mass <= 0.0:
+            if mass < 0.0 or (mass == 0.0 and inertia.any()):
+                raise ModelError(
+                    f"{what}: the link '{group}', and what is fixed to it, moves with a mass of {mass:g} kg and an "
+                    "inertia; give it a mass above 0, or no inertia."
+                )
+            if mass == 0.0:
                 massless.add(group)
                 continue
             inertia = possible_inertia(inertia, f"{what}: the inertia of the link '{group}', and what is fixed to it,")

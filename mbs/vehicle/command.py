@@ -14,6 +14,7 @@ from ali3.columns import in_columns
 from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
+from ali3.units import quantity
 
 _OF_KINEMATICS = ("travel", "fidelity", "points", "out")
 
@@ -29,7 +30,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
     curves.add_argument("--kinematics", action="store_true", help="draw the curves of the axles")
     curves.add_argument(
         "--travel",
-        type=float,
+        type=quantity("mm"),
         nargs=2,
         metavar=("LOW", "HIGH"),
         help="range of wheel travel, mm, positive in bump; default: -80 80",

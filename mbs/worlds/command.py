@@ -13,6 +13,7 @@ from pathlib import Path
 from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
+from ali3.units import quantity
 from mbs.worlds.world import shipped_worlds, world
 
 _EPILOG = """\
@@ -45,14 +46,14 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
         help="of a grid: one number, or a file of its shape; default: as INPUT says, else 0.9",
     )
     parser.add_argument(
-        "--origin", type=_number, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"
+        "--origin", type=_metres, nargs=2, metavar=("X", "Y"), help="of a grid: its first point, m; default: 0 0"
     )
     parser.add_argument(
-        "--spacing", type=_number, nargs=2, metavar=("DX", "DY"), help="of a grid: distances of its points, m"
+        "--spacing", type=_metres, nargs=2, metavar=("DX", "DY"), help="of a grid: distances of its points, m"
     )
-    parser.add_argument("--range", type=_number, nargs=2, metavar=("BLACK", "WHITE"), help="heights in a picture, m")
+    parser.add_argument("--range", type=_metres, nargs=2, metavar=("BLACK", "WHITE"), help="heights in a picture, m")
     parser.add_argument(
-        "--friction-range", type=_number, nargs=2, metavar=("BLACK", "WHITE"), help="frictions in a picture"
+        "--friction-range", type=_finite, nargs=2, metavar=("BLACK", "WHITE"), help="frictions in a picture"
     )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the road, or a map of the world, as PNG")
     parser.add_argument(
@@ -65,11 +66,16 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     return run_command(lambda: _work(options, parser), (ValueError,))
 
 
-def _number(text: str) -> float:
-    value = float(text)
+def _finite(text: str, unit: str = "1") -> float:
+    """A number of the command line in a unit, which another of the same quantity may stand behind."""
+    value = quantity(unit)(text)
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"{text} is no finite number")
     return value
+
+
+def _metres(text: str) -> float:
+    return _finite(text, "m")
 
 
 def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

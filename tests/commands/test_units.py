@@ -22,6 +22,10 @@ from hosts.recordings.load_manoeuvre import check_asked
         ("20kN/m", "N/m", 20e3),
         ("20 N/mm", "N/m", 20e3),
         ("2.5kN.s/m", "N.s/m", 2500.0),
+        ("2.5 kN s/m", "N.s/m", 2500.0),
+        ("2500 N*s / m", "N.s/m", 2500.0),
+        ("5 kg m^2", "kg.m2", 5.0),
+        ("20 N mm", "N.m", 0.02),
         ("10ms", "s", 0.01),
         ("100mph", "m/s", 44.704),
         ("-45deg", "rad", -math.pi / 4.0),
@@ -93,6 +97,14 @@ def test_options_of_one_letter_and_their_values_stay_what_they_are() -> None:
     parser.add_argument("rest", nargs="*")
     found = parser.parse_args(["-mslalom", "--step", "10ms", "--", "-manoeuvre"])
     assert (found.manoeuvre, found.step, found.rest) == ("slalom", 0.01, ["-manoeuvre"])
+
+
+def test_a_value_may_begin_with_a_minus_sign() -> None:
+    parser = Parser(prog="p")
+    parser.add_argument("--travel", type=quantity("mm"), nargs=2)
+    parser.add_argument("--between")
+    found = parser.parse_args(["--travel", "-3cm", "-1e1", "--between", "-1:1"])
+    assert (found.travel, found.between) == ([-30.0, -10.0], "-1:1")
 
 
 def test_misspelt_cars_worlds_and_manoeuvres_are_told_before_anything_is_made(tmp_path: Path) -> None:

@@ -174,6 +174,14 @@ def test_grid_points_in_systems_upon_systems_and_in_all_forms_of_fields(tmp_path
             r"^frame\.bdf, line 2: =\(3\) repeats a replication, and the line before it is none",
         ),
         ("GRID,1,,0.,a,0.\n=,*(1),=,=,*(1.),==", r"line 2: field 5 adds '1\.' to 'a', which are not both numbers"),
+        (
+            "GRID*,1,,0.,1.,*A\nGRID*,2,,5.,6.,*B\n*A,2.\n*B,7.",
+            r"line 3: it continues a line that ends with 'A', and the one of the GRID before it ends with 'B'",
+        ),
+        (
+            f"{'GRID*':8}{1:<16}{'':16}{'0.':16}{'1.':16}+XY1\n*XY2    2.",
+            "line 2: it continues a line that ends with 'XY2', and the one of the GRID before it ends with 'XY1'",
+        ),
         ("INCLUDE 'frame.bdf'", "is included within itself"),
         ("INCLUDE 'none.bdf'", r"^frame\.bdf, line 1: 'none\.bdf' cannot be read: there is no such file\.$"),
         ("INCLUDE '../none.bdf'", r"^frame\.bdf, line 1: '\.\./none\.bdf' is not below the folder"),
@@ -196,7 +204,7 @@ def test_grid_points_behind_tabs_and_replicated_ones(tmp_path: Path) -> None:
         "GRID\t1\t\t1.5\t2.\t-3.\t0\nGRID*\t2\t\t0.123456789\t1.\t*\n*\t2.\nGRID    3       \t  4.\t5.\t6.\n"
         "GRID,4,,0.,1.,2.\n=,*(1),=,*(.5),==\n=(3)\n"
         "GRID    10              1.0     1.0     1.0\n=       *2      =       =       *-1.+0  ==\n=2\n"
-        "GRID,20,,=,7.,==\nENDDATA\n"
+        "GRID,20,,=,7.,==\nENDDATA\nGRID,99,,1.,1.,1.\n"
     )
     wanted = {1: (1.5, 2.0, -3.0), 2: (0.123456789, 1.0, 2.0), 3: (4.0, 5.0, 6.0)}
     wanted |= {4 + k: (0.5 * k, 1.0, 2.0) for k in range(5)}

@@ -103,7 +103,7 @@ def test_unknown_scene_lists_all() -> None:
 
 def test_unknown_platform(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert build_fmu.main(["--scene", f"{file}:swing", "--platforms", "amiga"]) == 2
-    assert "Platform 'amiga' is not known" in capsys.readouterr().err
+    assert "Platform 'amiga' is not known; the platforms are linux64" in capsys.readouterr().err
 
 
 def test_a_scene_that_cannot_be_built_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

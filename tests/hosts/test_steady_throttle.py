@@ -75,6 +75,17 @@ class Slider:
         self._speed += step * (self._force - lost)
 
 
+class Unsigned(Slider):
+    """Its speed has no sign, as that of a car, and losses are against the motion."""
+
+    def reader(self, names: Sequence[str]) -> Callable[[np.ndarray], None]:
+        return lambda into: into.fill(abs(self._speed))
+
+    def step(self, time: float, step: float) -> None:
+        self._force += step / 0.2 * (self.push * self._given["throttle"] - self._force)
+        self._speed += step * (self._force - np.copysign(ROLLING + DRAG * self._speed**2, self._speed))
+
+
 def asked(speed: float, steering: float = 0.0, stop: float = 6.0) -> Manoeuvre:
     table = {"steering": np.array([0.0, 0.0, steering, steering])}
     return Manoeuvre(
@@ -92,6 +103,14 @@ def test_the_throttle_is_that_of_the_resistance(speed: float) -> None:
     rows = dict(summary(result, H))
     assert re.match(rf"0\.\d+, which holds {speed:.4g} m/s straight on; the speed changes by ", rows["throttle"])
     assert "more than" not in rows["throttle"]
+
+
+def test_a_start_backwards_holds_no_speed() -> None:
+    assert "throttle" in dict(run(Unsigned(), asked(1.0), H).notes)  # type: ignore[arg-type]
+    with pytest.raises(
+        HostError, match=r"from 1 m/s the car slows down to 0\.0.* start forwards, as --set initial\.sp"
+    ):
+        run(Unsigned(), asked(-1.0), H)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("steering", "told"), [(0.02, False), (0.07, True), (-0.1, True)])

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hosts.common.errors import HostError
 from hosts.driving.driver import make_driver, with_settings
 from hosts.driving.result import Result
 from hosts.recordings.load_manoeuvre import load_manoeuvre
@@ -50,6 +51,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
         "from far before": (whole - 500.0, "lane 1 was not reached"),
         "backwards": (whole[::-1], "lane 1 was not driven from its beginning"),
         "with rows far apart": (whole[::8], "rows are 4 m apart, lanes are seen by 1 m .*; run without --interval"),
+        "to the other side": (-whole, "lane 1 was not reached.* m; at last the car drives away from it$"),
         "at rest": (np.zeros(50), "lane 1 was not reached"),
         "one row": (whole[:1], "lane 1 was not reached"),
     }.values():  # fmt: skip
@@ -81,10 +83,20 @@ def test_the_start_follows_the_speed_of_the_driver() -> None:
     assert slow.start == {"initial.speed": 10.0}
     assert slow.driver["speed"] == "10.0"
     assert slow.stop_time == 2.0 * asked.stop_time  # as long a way
+    assert with_settings(asked, {"speed": 15.0}, ("initial.speed",), None).stop_time == 11.0  # whole steps end there
     assert with_settings(asked, {"speed": 10.0}, ("initial.speed",), 3.0).stop_time == asked.stop_time
     assert with_settings(asked, {"speed": 40.0}, ("initial.speed",), None).stop_time == asked.stop_time
     assert with_settings(asked, {"speed": 10.0}, (), None).start == asked.start
     assert with_settings(asked, {"heading_gain": 1.0}, ("initial.speed",), None).start == asked.start
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "near"),
+    [("spead", "20", "'speed'"), ("coarse", "iso_3888_1", "'course'"), ("course", "iso3888_1", "'iso_3888_1'")],
+)
+def test_a_misspelt_setting_or_course_is_told_with_the_near_one(name: str, value: str, near: str) -> None:
+    with pytest.raises(HostError, match=f"did you mean {near}"):
+        make_driver({"course": "iso_3888_1", "speed": "20"} | SIZE | {name: value}, {})
 
 
 def said_of(fmu: Path, out: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:

@@ -327,6 +327,17 @@ def test_other_links_without_mass_are_refused_with_the_reason(text: str, words: 
         read_urdf(file)
 
 
+@pytest.mark.parametrize("mass", [0.0, -1.0])
+def test_an_inertia_that_moves_without_a_mass_is_not_left_out(mass: float, tmp_path: Path) -> None:
+    """Between hinges that meet it would turn with the first; without it they are a universal joint."""
+    file = tmp_path / "gimbal.urdf"
+    text = '<link name="base"/>' + LINK.format("l1", mass) + BAR
+    text += hinge("a", "base", "l1", "0 0 1") + hinge("b", "l1", "arm", "0 1 0")
+    file.write_text(f'<robot name="gimbal">{text}</robot>', encoding="utf-8")
+    with pytest.raises(ModelError, match=f"gimbal.urdf: the link 'l1'.* a mass of {mass:g} kg and an inertia; give it"):
+        read_urdf(file)
+
+
 def test_a_rotor_that_is_fixed_and_has_an_inertia_alone_is_carried(tmp_path: Path) -> None:
     """Two rotors of 1 kg m2 on a link of 1 kg m2: 15 N m give 5 rad/s2, wherever they sit."""
     extra = LINK.format("rotor", 0.0) + LINK.format("other", 0.0).replace(

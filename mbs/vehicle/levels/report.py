@@ -13,6 +13,8 @@ from typing import Any
 from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
+from ali3.near_names import did_you_mean
+from ali3.units import number_with_unit
 from ali3.words import brief
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.levels.choice import LEFT_OUT, Choice, cheapest, levels, nearest
@@ -90,14 +92,15 @@ def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path |
     unknown = [name for name in numbers if name not in (*OUTPUTS, "speed")]
     if unknown:
         raise UserError(
-            f"--cheapest takes {', '.join(OUTPUTS)}, drive and speed, each as NAME=VALUE, not {brief(unknown[0])}."
+            f"--cheapest takes {', '.join(OUTPUTS)}, drive and speed, each as NAME=VALUE, not {brief(unknown[0])}"
+            f"{did_you_mean(unknown[0], [*OUTPUTS, 'drive', 'speed'])}"
         )
     values: dict[str, float] = dict(USUAL)
     for name, text in numbers.items():
         try:
-            values[name] = parse_number(text)
-        except ValueError:
-            raise UserError(f"{name} of --cheapest is {brief(text)}; it must be a number.") from None
+            values[name] = number_with_unit(text, "m/s") if name == "speed" else parse_number(text.removesuffix("%"))
+        except ValueError as error:
+            raise UserError(f"{name} of --cheapest: {error}.") from None
         if name != "speed" and not values[name] > 0.0:
             raise UserError(f"{name} of --cheapest is {values[name]:g}; it is in percent and must be positive.")
     if "speed" in values and "drive" not in given:

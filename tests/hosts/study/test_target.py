@@ -162,9 +162,6 @@ def test_a_turn_is_two_pi_radians() -> None:
     assert conversion("Hz", "Hz") == 1.0
 
 
-def test_a_range_that_begins_with_a_minus_sign_is_told_how_to_be_given(
-    seek: Callable[..., int], capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit):
-        seek("--target", "lowest=-1.2", "--between", "-1:1", by="pull")
-    assert "one that begins with a minus sign is given as --between=-..." in capsys.readouterr().err
+def test_a_range_may_begin_with_a_minus_sign(seek: Callable[..., int], capsys: pytest.CaptureFixture[str]) -> None:
+    assert seek("--target", "lowest=-1.2", "--between", "-1:1", by="spring.stiffness") == 2
+    assert "--between: 'spring.stiffness' is -1 N/m; its range is" in capsys.readouterr().err

@@ -135,6 +135,8 @@ def refused(tmp_path, text, course=COURSE):
         ("x,y\n1,2\n3,nan\n", "'nan' is not a finite number"),
         ("x,height\n1,2\n", "column 'height'; known are x, y, z, width, or right and left"),
         ("# x,y,elevation\n1,2,3\n", "column 'elevation'; known are x, y, z, width, or right and left"),
+        ("# lap of Tuesday, dry\n# lon,lat,w_right,w_left\n1,2,3,3\n", "column 'lon'; known are x, y, z, width"),
+        ("# Easting [m];Northing [m];Altitude [m]\n1;2;3\n", "column 'Easting \\[m\\]'; known are x, y, z, width"),
         ("x [km],y [km]\n1,2\n", "column 'x \\[km\\]'; known are"),
         ("1,2,3,4,5\n", "has 5 columns without names, which are x, y, z, width .* heading above them. Known are x"),
         ("x,y,w_tr_right_m\n1,2,3\n", "must have the widths right and left, both"),
