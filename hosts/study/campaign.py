@@ -18,10 +18,11 @@ from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, free_space, read_record
+from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
 from hosts.study.parts import PartWriter, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
+from hosts.study.record import read_record
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
 
@@ -55,6 +56,7 @@ def run_study(
     folder = out_folder(out, study, file)
     if folder.exists() and not folder.is_dir():
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
+    check_no_link(folder)
     before = _before(folder)
     plan = _plan(study, file, folder, before)
     for note in plan.notes:
@@ -100,8 +102,8 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
     from hosts.fmu.built_fmu import car_digest
 
     digest = car_digest(_car(study.car, file))
-    kept = folder / before["fmu"] if before is not None and before.get("car") == digest else None
-    fmu = kept if kept is not None and kept.is_file() else fmu_of_study(study, file)
+    kept = before is not None and before.get("car") == digest and (folder / before["fmu"]).exists()
+    fmu = fmu_of_folder(folder, before) if before is not None and kept else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
 
@@ -194,8 +196,8 @@ def _check_space(needed: float, folder: Path) -> None:
     free = free_space(folder)
     if needed + _MARGIN > free:
         raise HostError(
-            f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free; make room, give another "
-            "--out, or keep fewer signals."
+            f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free, of which "
+            f"{_size(_MARGIN)} are left to others; make room, give another --out, or keep fewer signals."
         )
 
 

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hosts.common.errors import HostError
-from hosts.study.folder import RECORD, SIGNALS, read_record
+from hosts.study.folder import SIGNALS
 from hosts.study.parts import attributes, part_files, table_schema
+from hosts.study.record import RECORD, read_record
 
 if TYPE_CHECKING:
     import pandas as pd
