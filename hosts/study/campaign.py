@@ -19,12 +19,13 @@ from ali3.errors import FileError
 from ali3.locks import locked
 from hosts.common.errors import HostError
 from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
-from hosts.study.parts import PartWriter, part_files, runs_done
+from hosts.study.parts import PartWriter, forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
 from hosts.study.record import read_record
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
+from hosts.study.work import FAILED
 
 if TYPE_CHECKING:
     from hosts.study.signals import SignalWriter
@@ -72,7 +73,12 @@ def run_study(
         plan = _with_limits(plan, study)
     busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
     with nullcontext() if dry else locked(folder, busy):
-        if before is not None and not dry and not again and runs_done(folder, plan.runs).all():
+        if before is not None and not dry:
+            from hosts.study.damage import set_damaged_aside
+
+            for line in set_damaged_aside(folder, before):
+                print(f"note: {line}", file=sys.stderr)
+        if before is not None and not dry and not again and runs_done(folder, before).all():
             from hosts.study.earlier_start import keep_limits
 
             keep_limits(folder, before, plan.record["limits"], content)
@@ -179,10 +185,9 @@ def _run(
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
     if again:
-        from hosts.study.earlier_start import forget_failed
-
-        print(f"{forget_failed(folder)} failed runs are made again")
-    done = runs_done(folder, plan.runs)
+        failed = forget_rows(folder, record, lambda table: [status != FAILED for status in table["status"].to_pylist()])
+        print(f"{failed} failed runs are made again")
+    done = runs_done(folder, record)
     before = int(np.count_nonzero(done))
     if before:
         print(f"{before} of {plan.runs} runs are there", flush=True)
@@ -264,5 +269,5 @@ def _make(
 
 
 def _kept(plan: Plan, folder: Path) -> str:
-    count = int(np.count_nonzero(runs_done(folder, plan.runs)))
+    count = int(np.count_nonzero(runs_done(folder, plan.record)))
     return f"{count} of {plan.runs} runs are written and stay; the same command makes the others."

@@ -31,7 +31,7 @@ def check_no_link(folder: Path) -> None:
 
 def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
     """The FMU in a folder of results. Raises `HostError`: it is not there, or not the one that made the rows."""
-    file = folder / record["fmu"]
+    file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
     with file.open("rb") as stream:

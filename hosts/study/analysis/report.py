@@ -36,11 +36,14 @@ def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, done or half done.
 
     Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
-    study, no run in it yet, or a link in the folder.
+    study, no run in it yet, a link in the folder, or a
+    file of rows or signals that is damaged.
     """
-    from hosts.study.store import read_study
+    from hosts.study.damage import check_signals
+    from hosts.study.store import read_study, study_record
 
     frame = read_study(folder)
+    check_signals(folder, study_record(folder))
     check_no_link(folder)
 
     def commands(index: int) -> list[str]:
