@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time as clock
+from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
+from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
 from hosts.study.parts import PartWriter, forget_rows, part_files, runs_done
@@ -216,7 +218,7 @@ def _make(
     workers: int | None,
 ) -> Ended:
     from hosts.study.cluster import bring, connected, take_away
-    from hosts.study.execution import Execution, SchedulerLostError
+    from hosts.study.execution import Execution
     from hosts.study.missing import ChunkSize, missing_runs
 
     signals: SignalWriter | None = None
@@ -229,27 +231,34 @@ def _make(
         signals = SignalWriter(folder, plan.work.jobs, plan.work.signals)
     before, begin = int(np.count_nonzero(done)), clock.monotonic()
     bytes_a_run = max(8 * job.samples * len(plan.work.signals) for job in plan.work.jobs) + 1
-    with connected(scheduler, workers) as client, StudyProgress(plan.runs, before) as progress:
-        bring(client, plan)
-        size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
-        execution = Execution(client, plan, size, PartWriter(folder, record), signals, progress)
-        lost = False
-        try:
-            execution.run(missing_runs(done, size))
-        except (SchedulerLostError, KeyboardInterrupt) as error:
-            execution.keep()
-            if isinstance(error, KeyboardInterrupt):
-                print(_kept(plan, folder), file=sys.stderr)
+    lost: Exception | None = None
+    progress = StudyProgress(plan.runs, before)
+    try:
+        with progress, connected(scheduler, workers) as client:
+            bring(client, plan)
+            size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
+            execution = Execution(client, plan, size, PartWriter(folder, record), signals, progress)
+            try:
+                execution.run(missing_runs(done, size))
+            except FileError:
                 raise
-            lost = True
-        except FileError as error:
-            raise FileError(f"{error} {_kept(plan, folder)}") from None
-        else:
+            except BaseException:
+                execution.keep()
+                raise
             if scheduler is not None:
                 take_away(client, plan)
+    except KeyboardInterrupt:
+        print(_kept(folder, record), file=sys.stderr)
+        raise
+    except FileError as error:
+        raise FileError(f"{error} {_kept(folder, record)}") from None
+    except HostError:
+        raise
+    except Exception as error:  # of processes that were killed Dask raises many kinds
+        lost = error
     seconds = clock.monotonic() - begin
-    if lost:
-        print(f"The scheduler at {scheduler} has gone. {_kept(plan, folder)}", file=sys.stderr)
+    if lost is not None and not runs_done(folder, record).all():
+        print(f"{_gone(scheduler, lost)} {_kept(folder, record)}", file=sys.stderr)
         return Ended(folder, False, progress.failed)
     rate = progress.made / seconds
     words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
@@ -268,6 +277,13 @@ def _make(
     return Ended(folder, not bare, progress.failed)
 
 
-def _kept(plan: Plan, folder: Path) -> str:
-    count = int(np.count_nonzero(runs_done(folder, plan.record)))
-    return f"{count} of {plan.runs} runs are written and stay; the same command makes the others."
+def _gone(scheduler: str | None, error: Exception) -> str:
+    if scheduler is not None:
+        return f"The scheduler at {scheduler} has gone."
+    words = one_line(str(error)).rstrip(".") or type(error).__name__
+    return f"The workers of this machine have gone ({words})."
+
+
+def _kept(folder: Path, record: Mapping[str, Any]) -> str:
+    count, runs = int(np.count_nonzero(runs_done(folder, record))), record["runs"]
+    return f"{count} of {runs} runs are written and stay; the same command makes the others."

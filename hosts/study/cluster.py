@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import shutil
 import tempfile
@@ -39,15 +40,26 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
     if scheduler is not None:
         from hosts.study.scheduler import client_of
 
-        with client_of(scheduler) as client:
+        with _without_logs(), client_of(scheduler) as client:
             yield client
         return
     folder = _work_folder()
     try:
-        with local_cluster(workers or available_cores(), folder) as cluster, Client(cluster) as client:
+        with _without_logs(), local_cluster(workers or available_cores(), folder) as cluster, Client(cluster) as client:
             yield client
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextmanager
+def _without_logs() -> Iterator[None]:
+    """Without the tracebacks that Dask and its event loop log where a process has gone, which is told in a sentence."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(before)
 
 
 def _work_folder() -> Path:
