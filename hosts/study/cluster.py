@@ -58,6 +58,9 @@ def _without_logs() -> Iterator[None]:
     logging.disable(logging.CRITICAL)
     try:
         yield
+    except Exception:
+        logging.getLogger("asyncio").disabled = True  # of tasks that end after the block
+        raise
     finally:
         logging.disable(before)
 
