@@ -222,6 +222,8 @@ async def _send(connection: ServerConnection, head: Response, body: bytes) -> No
             transport.write(body[place : place + _PIECE])
             async with asyncio.timeout(READ_WITHIN):
                 await connection.drain()
+            if transport.is_closing():  # the other side has gone
+                return
         transport.close()
     except (TimeoutError, OSError):
         transport.abort()
