@@ -264,7 +264,7 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     del writer, numbers
     size = sum(f.stat().st_size for f in part_files(folder))
     begin = time.perf_counter()
-    assert runs_done(folder, rows).all()
+    assert runs_done(folder, plan.record).all()
     found = time.perf_counter() - begin
     begin, before = time.perf_counter(), psutil.Process().memory_info().rss
     frame = read_study(folder)

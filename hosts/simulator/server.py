@@ -26,7 +26,7 @@ from hosts.simulator.connected_page import ConnectedPage
 from hosts.simulator.guard import Guard
 from hosts.simulator.hands import Hands
 from hosts.simulator.server_needs import Content, ShownDevices
-from hosts.simulator.web import MOST_PAGES, Web
+from hosts.simulator.web import BACKLOG, MOST_PAGES, Web
 
 FRAME_PERIOD = 1 / 120
 """Frames of a page are at least so far apart, s."""
@@ -36,6 +36,7 @@ _NEW_STARTS = ("reset", "rewind", "upright")
 _PUMP_PERIOD = 0.05
 _POLICY_VIOLATION = 1008
 _CAR_ENDED = 1011  # of RFC 6455: the server cannot go on
+_ANSWER_TIMEOUT = 120  # s, for a world over a slow line
 _LONGEST_REASON = 120  # a close frame takes 123 bytes
 
 
@@ -98,15 +99,17 @@ class Server:
         self._first_frame = first_frame
         logger = logging.getLogger(__name__)
         logger.setLevel(logging.CRITICAL + 1)  # what others send that is no HTTP is not worth a line
+        self._web.watch(listening)
         async with serve(
             self._talk,
             sock=listening,
+            backlog=BACKLOG,
             process_request=lambda connection, request: self._web.answer(connection, request, len(self._pages)),
             create_connection=self._web.connection_type(),
             compression=None,
             max_size=protocol.LARGEST_MESSAGE,
             max_queue=32,
-            open_timeout=10,
+            open_timeout=_ANSWER_TIMEOUT,
             close_timeout=1,
             server_header=None,
             logger=logger,
@@ -138,21 +141,35 @@ class Server:
         if self.devices is not None:
             page.texts.append(_text("devices", devices=self.devices.state()))
         feed = asyncio.create_task(self._feed(page))
+        ending: list[asyncio.Task[None]] = []
+
+        def heard() -> None:
+            """Count a frame, of which a message may have any number without a byte."""
+            try:
+                page.heard()
+            except HostError as error:
+                if not ending:
+                    ending.append(asyncio.create_task(self._end(page, error)))
+
+        connection.heard = heard  # type: ignore[attr-defined]
         try:
             async for data in connection:
-                page.heard()
                 await self._take(page, data)
         except ConnectionClosed:
             pass
         except HostError as error:
-            self._tell("told", f"Page {page.number} is closed: {error}")
-            await connection.close(_POLICY_VIOLATION, str(error)[:_LONGEST_REASON])
+            await self._end(page, error)
         finally:
             feed.cancel()
             del self._pages[page.number]
             self._let_go(page, "was closed")
             if page.watched:
                 self._left()
+
+    async def _end(self, page: ConnectedPage, error: HostError) -> None:
+        """End the connection of a page that does what it must not."""
+        self._tell("told", f"Page {page.number} is closed: {error}")
+        await page.connection.close(_POLICY_VIOLATION, str(error)[:_LONGEST_REASON])
 
     def _left(self) -> None:
         """With nobody who sees it the car stands."""

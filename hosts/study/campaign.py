@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time as clock
+from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,13 +19,16 @@ from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
 from ali3.reading import is_file, is_folder
+from ali3.words import one_line
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, free_space, read_record, refuse_links
-from hosts.study.parts import PartWriter, part_files, runs_done
+from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
+from hosts.study.parts import PartWriter, forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
+from hosts.study.record import read_record
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
+from hosts.study.work import FAILED
 
 if TYPE_CHECKING:
     from hosts.study.signals import SignalWriter
@@ -56,7 +60,7 @@ def run_study(
     folder = out_folder(out, study, file)
     if folder.exists() and not is_folder(folder):
         raise HostError(f"{folder} is a file; the results of a study are a folder.")
-    refuse_links(folder)
+    check_no_link(folder)
     before = _before(folder)
     plan = _plan(study, file, folder, before)
     for note in plan.notes:
@@ -72,7 +76,12 @@ def run_study(
         plan = _with_limits(plan, study)
     busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
     with nullcontext() if dry else locked(folder, busy):
-        if before is not None and not dry and not again and runs_done(folder, plan.runs).all():
+        if before is not None and not dry:
+            from hosts.study.damage import set_damaged_aside
+
+            for line in set_damaged_aside(folder, before):
+                print(f"note: {line}", file=sys.stderr)
+        if before is not None and not dry and not again and runs_done(folder, before).all():
             from hosts.study.earlier_start import keep_limits
 
             keep_limits(folder, before, plan.record["limits"], content)
@@ -102,8 +111,8 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
     from hosts.fmu.built_fmu import car_digest
 
     digest = car_digest(_car(study.car, file))
-    kept = folder / before["fmu"] if before is not None and before.get("car") == digest else None
-    fmu = kept if kept is not None and is_file(kept) else fmu_of_study(study, file)
+    kept = before is not None and before.get("car") == digest and (folder / before["fmu"]).exists()
+    fmu = fmu_of_folder(folder, before) if before is not None and kept else fmu_of_study(study, file)
     plan = make_plan(study, file, fmu)
     return replace(plan, record={**plan.record, "car": digest})
 
@@ -179,10 +188,9 @@ def _run(
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
     if again:
-        from hosts.study.earlier_start import forget_failed
-
-        print(f"{forget_failed(folder)} failed runs are made again")
-    done = runs_done(folder, plan.runs)
+        failed = forget_rows(folder, record, lambda table: [status != FAILED for status in table["status"].to_pylist()])
+        print(f"{failed} failed runs are made again")
+    done = runs_done(folder, record)
     before = int(np.count_nonzero(done))
     if before:
         print(f"{before} of {plan.runs} runs are there", flush=True)
@@ -196,8 +204,8 @@ def _check_space(needed: float, folder: Path) -> None:
     free = free_space(folder)
     if needed + _MARGIN > free:
         raise HostError(
-            f"The results may need {_size(needed)} in {folder}, and {_size(_MARGIN)} are left to others, where "
-            f"{_size(free)} are free; make room, give another --out, or keep fewer signals."
+            f"The results may need {_size(needed)} in {folder}, where {_size(free)} are free, of which "
+            f"{_size(_MARGIN)} are left to others; make room, give another --out, or keep fewer signals."
         )
 
 
@@ -211,7 +219,7 @@ def _make(
     workers: int | None,
 ) -> Ended:
     from hosts.study.cluster import bring, connected, take_away
-    from hosts.study.execution import Execution, SchedulerLostError
+    from hosts.study.execution import Execution
     from hosts.study.missing import ChunkSize, missing_runs
 
     signals: SignalWriter | None = None
@@ -224,27 +232,34 @@ def _make(
         signals = SignalWriter(folder, plan.work.jobs, plan.work.signals)
     before, begin = int(np.count_nonzero(done)), clock.monotonic()
     bytes_a_run = max(8 * job.samples * len(plan.work.signals) for job in plan.work.jobs) + 1
-    with connected(scheduler, workers) as client, StudyProgress(plan.runs, before) as progress:
-        bring(client, plan)
-        size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
-        execution = Execution(client, plan, size, PartWriter(folder, record), signals, progress)
-        lost = False
-        try:
-            execution.run(missing_runs(done, size))
-        except (SchedulerLostError, KeyboardInterrupt) as error:
-            execution.keep()
-            if isinstance(error, KeyboardInterrupt):
-                print(_kept(plan, folder), file=sys.stderr)
+    lost: Exception | None = None
+    progress = StudyProgress(plan.runs, before)
+    try:
+        with progress, connected(scheduler, workers) as client:
+            bring(client, plan)
+            size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
+            execution = Execution(client, plan, size, PartWriter(folder, record), signals, progress)
+            try:
+                execution.run(missing_runs(done, size))
+            except FileError:
                 raise
-            lost = True
-        except FileError as error:
-            raise FileError(f"{error} {_kept(plan, folder)}") from None
-        else:
+            except BaseException:
+                execution.keep()
+                raise
             if scheduler is not None:
                 take_away(client, plan)
+    except KeyboardInterrupt:
+        print(_kept(folder, record), file=sys.stderr)
+        raise
+    except FileError as error:
+        raise FileError(f"{error} {_kept(folder, record)}") from None
+    except HostError:
+        raise
+    except Exception as error:  # of processes that were killed Dask raises many kinds
+        lost = error
     seconds = clock.monotonic() - begin
-    if lost:
-        print(f"The scheduler at {scheduler} has gone. {_kept(plan, folder)}", file=sys.stderr)
+    if lost is not None and not runs_done(folder, record).all():
+        print(f"{_gone(scheduler, lost)} {_kept(folder, record)}", file=sys.stderr)
         return Ended(folder, False, progress.failed)
     rate = progress.made / seconds
     words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
@@ -263,6 +278,13 @@ def _make(
     return Ended(folder, not bare, progress.failed)
 
 
-def _kept(plan: Plan, folder: Path) -> str:
-    count = int(np.count_nonzero(runs_done(folder, plan.runs)))
-    return f"{count} of {plan.runs} runs are written and stay; the same command makes the others."
+def _gone(scheduler: str | None, error: Exception) -> str:
+    if scheduler is not None:
+        return f"The scheduler at {scheduler} has gone."
+    words = one_line(str(error)).rstrip(".") or type(error).__name__
+    return f"The workers of this machine have gone ({words})."
+
+
+def _kept(folder: Path, record: Mapping[str, Any]) -> str:
+    count, runs = int(np.count_nonzero(runs_done(folder, record))), record["runs"]
+    return f"{count} of {runs} runs are written and stay; the same command makes the others."

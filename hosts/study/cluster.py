@@ -9,22 +9,17 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
-import cryptography  # noqa: F401 - Security.temporary needs it
-import dask
-from distributed import Client, KilledWorker, LocalCluster, Security
+from distributed import Client, KilledWorker
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.cache import cache_folder
-from ali3.children import stop_signals_blocked
 from ali3.cores import available_cores
 from ali3.reading import read_bytes
 from hosts.common.errors import HostError
+from hosts.study.local_cluster import local_cluster
 from hosts.study.plan import Plan
 from hosts.study.worker import StudyPlugin, why_wrong
-
-_DEATHS = 1  # of workers by a chunk, until its runs are made in processes of their own
 
 
 @contextmanager
@@ -47,15 +42,29 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
     if scheduler is not None:
         from hosts.study.scheduler import client_of
 
-        with client_of(scheduler) as client:
+        with _without_logs(), client_of(scheduler) as client:
             yield client
         return
     folder = _work_folder()
     try:
-        with _local_cluster(workers or available_cores(), folder) as cluster, Client(cluster) as client:
+        with _without_logs(), local_cluster(workers or available_cores(), folder) as cluster, Client(cluster) as client:
             yield client
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextmanager
+def _without_logs() -> Iterator[None]:
+    """Without the tracebacks that Dask and its event loop log where a process has gone, which is told in a sentence."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    except Exception:
+        logging.getLogger("asyncio").disabled = True  # of tasks that end after the block
+        raise
+    finally:
+        logging.disable(before)
 
 
 def _work_folder() -> Path:
@@ -71,36 +80,6 @@ def _is_alive(number: str) -> bool:
     import psutil
 
     return number.isdigit() and psutil.pid_exists(int(number))
-
-
-@contextmanager
-def _local_cluster(workers: int, folder: Path) -> Iterator[LocalCluster]:
-    # This machine's own name may resolve to a network; nothing but it is to reach the workers.
-    settings: dict[str, Any] = {
-        "distributed.scheduler.allowed-failures": _DEATHS,
-        "distributed.scheduler.http.routes": [],
-        "distributed.worker.http.routes": [],
-        "distributed.worker.daemon": True,
-        "temporary-directory": str(folder),
-    }
-    places = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
-    with dask.config.set(settings):
-        with stop_signals_blocked():
-            cluster = LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                processes=True,
-                host="127.0.0.1",
-                protocol="tls://",  # every user of this machine reaches 127.0.0.1
-                security=Security.temporary(),
-                dashboard_address="127.0.0.1:0",  # None would take the port 8787
-                scheduler_kwargs={"dashboard": False},
-                local_directory=str(folder),
-                silence_logs=logging.CRITICAL,
-                env=places | {"OMP_NUM_THREADS": "1"},
-            )
-        with cluster:
-            yield cluster
 
 
 def bring(client: Client, plan: Plan) -> None:

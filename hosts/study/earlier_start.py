@@ -1,4 +1,4 @@
-"""A study that goes on: whether it is the one that began, and what changes of the rows and limits that there are."""
+"""A study that goes on: whether it is the one that began, and what changes of its limits."""
 
 from __future__ import annotations
 
@@ -7,15 +7,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import pyarrow as pa
-
 from ali3.columns import some_of
 from ali3.files import whole_file
 from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
 from hosts.study.folder import write_record
-from hosts.study.parts import part_files, read_part, write_part
-from hosts.study.work import FAILED
 
 _FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
 """Keys of the record that may differ when a study goes on, or follow from others."""
@@ -77,17 +73,3 @@ def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any],
         made.write_bytes(content)
     write_record(folder, after)
     return after
-
-
-def forget_failed(folder: Path) -> int:
-    """Take the rows of failed runs out of the parts, so that they are made again; how many."""
-    forgotten = 0
-    for file in part_files(folder):
-        table = read_part(file)
-        kept = table.filter(pa.compute.not_equal(table["status"], FAILED))
-        forgotten += len(table) - len(kept)
-        if len(kept) == 0:
-            file.unlink()
-        elif len(kept) < len(table):
-            write_part(kept, file)
-    return forgotten

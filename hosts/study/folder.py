@@ -2,29 +2,46 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
 from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from ali3.files import make_folder, whole_file, write_text
-from ali3.json_reading import read_json
+from ali3.reading import no_file
 from hosts.common.errors import HostError
+from hosts.study.record import RECORD
 
-RECORD, RUNS, SIGNALS = "study.json", "runs", "signals"
+RUNS, SIGNALS, ANALYSIS, REPEAT = _WRITTEN = ("runs", "signals", "analysis", "repeat")
 
 
-def read_record(folder: Path) -> dict[str, Any] | None:
-    """What is known of the study in a folder; None where there is none. Raises `HostError`: the file is damaged."""
-    file = folder / RECORD
-    if not file.exists():
-        return None
-    record = read_json(file, HostError, finite=False)
-    if not isinstance(record, dict):
-        raise HostError(f"{file} is damaged: it is no JSON object.")
-    return record
+def check_no_link(folder: Path) -> None:
+    """Refuse a folder of results in which something is a link. Raises `HostError` with the link.
+
+    Whoever packed the folder would choose with a link which file of its reader is written over.
+    """
+    for path in chain(folder.glob("*"), *((folder / name).rglob("*") for name in _WRITTEN)):
+        if path.is_symlink():
+            raise HostError(f"{path} is a link; nothing is written through it. Remove it, or give another --out.")
+
+
+def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
+    """The FMU in a folder of results. Raises `HostError`: it is not there, or not the one that made the rows."""
+    file = folder / str(record["fmu"])
+    if not file.is_file():
+        raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
+    with file.open("rb") as stream:
+        found = hashlib.file_digest(stream, "sha256").hexdigest()
+    if found != record["fmu_sha256"]:
+        raise HostError(
+            f"{file} is another FMU than the one that made the rows: its SHA-256 is {found[:12]}..., that in {RECORD} "
+            f"is {record['fmu_sha256'][:12]}...; it is not run. Put the FMU back that was there."
+        )
+    return file
 
 
 def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu: Path) -> None:
@@ -40,14 +57,6 @@ def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu:
 def write_record(folder: Path, record: Mapping[str, Any]) -> None:
     """Write what is known of the study."""
     write_text(folder / RECORD, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
-
-
-def refuse_links(folder: Path) -> None:
-    """Raise `HostError` where a file or folder in that of a study is a link: what is written there lies elsewhere."""
-    for place, folders, files in os.walk(folder):
-        for name in (*folders, *files):
-            if (found := Path(place, name)).is_symlink():
-                raise HostError(f"{found} is a link; nothing is written through it. Remove it, or give another --out.")
 
 
 def free_space(folder: Path) -> int:

@@ -12,7 +12,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from ali3.columns import some_of
 from ali3.files import whole_file
+from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.parquet import opened_parquet
@@ -54,24 +56,43 @@ def part_files(folder: Path) -> list[Path]:
     return sorted((folder / RUNS).glob("part-*.parquet"))
 
 
-def read_part(file: Path, columns: Sequence[str] | None = None) -> pa.Table:
-    """Rows of a part, of all columns or of some; raises what pyarrow does."""
-    with opened_parquet(file) as part:
-        return part.read(columns)
+class DamagedPartError(HostError):
+    """A part that is not as it was written: `file`, and why in `words`."""
+
+    def __init__(self, file: Path, words: str) -> None:
+        super().__init__(f"{file} is damaged ({words}); the same study, started again, makes its runs again.")
+        self.file, self.words = file, words
 
 
-def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
+def read_part(file: Path, record: Mapping[str, Any]) -> Any:
+    """The rows of a part, whose pages are held against their checksums. Raises `DamagedPartError`."""
+    schema = table_schema(record)
+    try:
+        with opened_parquet(file, checksums=True) as part:
+            table = part.read()
+            written = [part.metadata.row_group(k).num_rows for k in range(part.metadata.num_row_groups)]
+    except HostError:
+        raise
+    except (pa.ArrowException, OSError, KeyError, ValueError) as error:
+        raise DamagedPartError(file, one_line((str(error).strip() or repr(error)).splitlines()[0])) from None
+    if not table.schema.equals(schema):
+        own = {field.name: str(field.type) for field in schema}
+        odd = [f.name for f in table.schema if own.get(f.name) != str(f.type)]
+        raise DamagedPartError(file, f"its columns are not those of the study: {some_of(odd or own, 3)}")
+    if sum(written) != len(table):  # the number of rows has no checksum
+        raise DamagedPartError(file, f"{sum(written)} rows were written, and it says {len(table)}")
+    return table
+
+
+def runs_done(folder: Path, record: Mapping[str, Any]) -> NDArray[np.bool_]:
     """Which runs have a row, of shape (runs,).
 
     Raises `HostError`: a part is damaged, or has a row that no study has.
     """
+    runs = record["runs"]
     done = np.zeros(runs, dtype=np.bool_)
     for file in part_files(folder):
-        try:
-            index = read_part(file, ["index"])["index"].to_numpy()
-        except (pa.ArrowException, OSError, KeyError) as error:
-            words = str(error).strip().splitlines()[0]
-            raise HostError(f"{file} is damaged ({words}); remove it, and its runs are made again.") from None
+        index = read_part(file, record)["index"].to_numpy()
         if len(index) and not 0 <= index.min() <= index.max() < runs:
             raise HostError(f"{file} has the run {index.max()}; the study has {runs} runs.")
         if done[index].any() or len(np.unique(index)) < len(index):
@@ -80,6 +101,20 @@ def runs_done(folder: Path, runs: int) -> NDArray[np.bool_]:
             )
         done[index] = True
     return done
+
+
+def forget_rows(folder: Path, record: Mapping[str, Any], kept: Callable[[Any], Any]) -> int:
+    """Take rows out of the parts, so that their runs are made again; how many. `kept`: of a table, which rows stay."""
+    forgotten = 0
+    for file in part_files(folder):
+        table = read_part(file, record)
+        left = table.filter(pa.array(kept(table)))
+        forgotten += len(table) - len(left)
+        if len(left) == 0:
+            file.unlink()
+        elif len(left) < len(table):
+            write_part(left, file)
+    return forgotten
 
 
 class PartWriter:
@@ -132,7 +167,7 @@ def _texts(values: Sequence[Value], kind: Any) -> Sequence[Value]:
 def write_part(table: Any, file: Path) -> None:
     """Write a part, whole or not at all."""
     buffer = pa.BufferOutputStream()
-    pq.write_table(table, buffer, compression="zstd")
+    pq.write_table(table, buffer, compression="zstd", write_page_checksum=True)
     with whole_file(file) as made:
         made.write_bytes(buffer.getvalue())
         sync(made)

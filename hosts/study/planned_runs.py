@@ -10,6 +10,7 @@ from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
+from hosts.study.folder import fmu_of_folder
 from hosts.study.job import Job
 from hosts.study.jobs import jobs_of
 from hosts.study.parameters import parameter_of
@@ -53,9 +54,9 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
-    """The study whose results a folder holds, and its runs."""
+    """The study whose results a folder holds, and its runs; `HostError` where its FMU is another one."""
     study, _ = read_study_file(folder / "study.toml")
-    with Fmu(folder / record["fmu"]) as opened:
+    with Fmu(fmu_of_folder(folder, record)) as opened:
         return study, planned_runs(study, Path(record["file"]), opened)
 
 

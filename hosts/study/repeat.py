@@ -16,12 +16,11 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.set_words import set_words
 from hosts.driving.write_manoeuvre import write_manoeuvre
-from hosts.study.folder import read_record
+from hosts.study.folder import REPEAT, check_no_link
+from hosts.study.store import study_record
 
 if TYPE_CHECKING:
     from hosts.study.job import Job
-
-FOLDER = "repeat"
 
 
 @dataclass(frozen=True)
@@ -38,14 +37,14 @@ class Repeat:
 def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
     """A function that gives the commands of a run by its number, and writes the manoeuvre that they name.
 
-    Raises `HostError`: the folder is of no study; the function raises it where there is no such run.
+    Raises `HostError`: the folder is of no study, has a link in it, or another FMU than the one that made the rows; the
+    function raises it where there is no such run.
     """
     from hosts.study.planned_runs import runs_of_folder
 
     place = Path(folder)
-    record = read_record(place)
-    if record is None:
-        raise HostError(f"{folder} is no folder of a study: there is no study.json in it.")
+    record = study_record(place)
+    check_no_link(place)
     runs = record["runs"]
     study, planned = runs_of_folder(place, record)
     aliases = ["--aliases", _alias_file(study.aliases, Path(record["file"]))] if study.aliases else []
@@ -57,10 +56,10 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
         values = {name: column[0] for name, column in planned.points.block(point, 1).items()}
         job, fmu = planned.jobs[number], place / record["fmu"]
         if job.manoeuvre is None:
-            return _test(job, fmu, values, aliases, place / FOLDER / f"run-{index}")
+            return _test(job, fmu, values, aliases, place / REPEAT / f"run-{index}")
         if aliases:
             return Repeat("", "")  # the command run knows the names of the FMU only
-        return _drive(job, fmu, values, place / FOLDER / f"run-{index}.toml")
+        return _drive(job, fmu, values, place / REPEAT / f"run-{index}.toml")
 
     return repeat
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import zarr
+from numcodecs import CRC32
 
 from ali3.errors import FileError, reason
 from hosts.study.folder import SIGNALS
@@ -50,7 +51,7 @@ def make_store(folder: Path, job: Job, record: Mapping[str, Any]) -> None:
         building = store.with_name(f".{store.name}")
         data.to_zarr(
             building,
-            encoding={name: {"_FillValue": np.nan, "chunks": chunks} for name in names},
+            encoding={name: {"_FillValue": np.nan, "chunks": chunks, "filters": [CRC32()]} for name in names},
             **options,
         )
         building.rename(store)

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hosts.common.errors import HostError
-from hosts.study.folder import RECORD, SIGNALS, read_record
+from hosts.study.folder import SIGNALS
 from hosts.study.parts import attributes, part_files, read_part, table_schema
+from hosts.study.record import RECORD, read_record
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,12 +37,8 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     import pyarrow as pa
 
     record = study_record(folder)
-    schema = table_schema(record)
-    try:
-        tables = [read_part(file) for file in part_files(Path(folder))]
-    except (pa.ArrowException, OSError) as error:
-        raise HostError(f"A part of {folder} is damaged: {str(error).splitlines()[0]}.") from None
-    table = pa.concat_tables(tables, promote_options="default") if tables else schema.empty_table()
+    tables = [read_part(file, record) for file in part_files(Path(folder))]
+    table = pa.concat_tables(tables) if tables else table_schema(record).empty_table()
     frame: pd.DataFrame = table.to_pandas().set_index("index").sort_index()
     frame.attrs = attributes(record)
     return frame

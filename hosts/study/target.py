@@ -23,6 +23,7 @@ from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variable, Variables
 from hosts.measures.limits import column_of
 from hosts.study.campaign import fmu_of_study, out_folder
+from hosts.study.folder import check_no_link
 from hosts.study.isolated import IsolatedBench
 from hosts.study.job import Job
 from hosts.study.parameters import Parameter
@@ -85,6 +86,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     search = _Search(plan, target)
     folder = out if out is not None else out_folder(None, study, file) / "target"
     make_folder(folder)
+    check_no_link(folder)
     with closing(IsolatedBench(search.work, fmu)) as bench:
         search.bench = bench
         found = search.found(_start(study, target.by, fmu))

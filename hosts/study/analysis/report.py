@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ from matplotlib import pyplot as plt
 from ali3.chart_style import STYLE
 from ali3.files import make_folder, whole_file, write_text
 from ali3.html_elements import element
+from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.measure_section import measure_section
@@ -25,7 +26,7 @@ from hosts.study.analysis.study_section import (
     measures_section,
 )
 from hosts.study.analysis.summary_plots import plot_correlations
-from hosts.study.folder import refuse_links
+from hosts.study.folder import ANALYSIS, check_no_link
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,20 +36,21 @@ def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, done or half done.
 
     Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
-    study, or no run in it yet.
+    study, no run in it yet, a link in the folder, or a
+    file of rows or signals that is damaged.
     """
-    from hosts.study.repeat import repeater
-    from hosts.study.store import read_study
+    from hosts.study.damage import check_signals
+    from hosts.study.store import read_study, study_record
 
-    # Whole paths: the report is read from any folder.
-    repeated = repeater(folder.absolute())
+    frame = read_study(folder)
+    check_signals(folder, study_record(folder))
+    check_no_link(folder)
 
-    @cache
     def commands(index: int) -> list[str]:
-        repeat = repeated(index)
-        return [line for line in (repeat.drive, repeat.view) if line]
+        # no run is opened for its commands: a report reads rows; the whole path, as it is read from any folder
+        return [f"{command_name('study')} {shlex.join([str(folder.absolute()), '--run', str(index)])}"]
 
-    return report_of(read_study(folder), folder, commands)
+    return report_of(frame, folder, commands)
 
 
 def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Path]:
@@ -59,9 +61,8 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
 
     from ali3.bars import bar as bar_of
 
-    refuse_links(folder)
     data = study_data(frame)
-    pictures = Pictures(make_folder(folder / "analysis"))
+    pictures = Pictures(make_folder(folder / ANALYSIS))
     body = [
         *head_section(data),
         *limits_section(data),
@@ -77,7 +78,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
         for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
             body += measure_section(data, response, k, pictures, commands, numbers)
-    file, rows = folder / "report.html", folder / "analysis" / "effects.csv"
+    file, rows = folder / "report.html", folder / ANALYSIS / "effects.csv"
     write_text(file, document(f"Study {data.about['study']}", body))
     with whole_file(rows) as made:
         pd.DataFrame(numbers).to_csv(made, index=False)

@@ -74,6 +74,11 @@ class RawClient:
         size = struct.pack(">B", 0x80 | len(data)) if len(data) < 126 else struct.pack(">BH", 0x80 | 126, len(data))
         self._line.sendall(b"\x81" + size + mask + bytes(b ^ mask[k % 4] for k, b in enumerate(data)))
 
+    def fragments(self, count: int) -> None:
+        """A text in so many frames, each of them empty, without its last one."""
+        empty = b"\x80" + bytes(4)  # masked by zeros
+        self._line.sendall(b"\x01" + empty + (count - 1) * (b"\x00" + empty))
+
     def receive(self) -> str | bytes:
         """The next whole message."""
         first, second = self._take(2)

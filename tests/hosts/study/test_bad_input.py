@@ -10,7 +10,9 @@ import pytest
 
 from hosts.study import trial
 from hosts.study.command import main
-from hosts.study.folder import RECORD
+from hosts.study.folder import begin_study
+from hosts.study.plan import make_plan
+from hosts.study.study_file import read_study_file
 
 RANGE = '"spring.stiffness" = { range = [50.0, 80.0] }'
 SOBOL = 'method = "sobol"\nruns = 16\nseed = 7'
@@ -61,17 +63,17 @@ def test_a_wrong_row_of_a_table_is_named(told: Callable[..., str], tmp_path: Pat
 
 
 def test_what_the_command_line_asks(
-    told: Callable[..., str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    study_file: Callable[..., Path], spring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([str(tmp_path / "none.toml")]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path}/none.toml cannot be read: there is no such file.\n"
     assert main([str(tmp_path)]) == 2
     assert capsys.readouterr().err == f"error: {tmp_path} is a folder; a study is a TOML file.\n"
     results = tmp_path / "my results"
-    results.mkdir()
-    (results / RECORD).write_text('{"file": "my study.toml"}')
+    file = study_file(name="my study.toml")
+    begin_study(results, make_plan(read_study_file(file)[0], file, spring).record, b"", spring)
     assert main([str(results)]) == 2
-    assert f"'my study.toml' --out '{results}'; else give --run or --report." in capsys.readouterr().err
+    assert f"'{file}' --out '{results}'; else give --run or --report." in capsys.readouterr().err
     with pytest.raises(SystemExit) as end:
         main([str(tmp_path), "--jobs", "0"])
     assert end.value.code == 2

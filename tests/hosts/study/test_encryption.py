@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import ssl
-import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,15 +22,6 @@ from hosts.study.scheduler import _check_encryption
 from hosts.study.store import read_study
 
 ROLES = ("scheduler", "worker", "nanny")
-PAGES = (
-    "/",
-    "/status",
-    "/health",
-    "/metrics",
-    "/info/main/workers.html",
-    "/json/counts.json",
-    "/api/v1/retire_workers",
-)
 
 
 def listening() -> set[tuple[str, int]]:
@@ -77,7 +67,7 @@ async def identity(address: str, **given: Any) -> str:
 def test_who_has_the_key_is_answered(cluster: Client, role: str) -> None:
     assert isinstance(cluster.security, Security)
     given = cluster.security.get_connection_args("client")
-    assert asyncio.run(identity(address_of(cluster, role), **given)).lower() == role
+    assert asyncio.run(identity(address_of(cluster, role), **given)).lower().endswith(role)
 
 
 def stranger(key: str) -> ssl.SSLContext:
@@ -102,23 +92,13 @@ def test_others_on_this_machine_are_refused(cluster: Client, role: str, key: str
         asyncio.run(identity(address.replace("tls:", "tcp:")))
 
 
-def test_every_port_is_of_this_machine_and_its_pages_show_nothing(
-    before: set[tuple[str, int]], cluster: Client
-) -> None:
-    """The encrypted ones answer no HTTP; those of HTTP, which Dask opens in any case, have no page."""
-    encrypted = {int(address_of(cluster, role).rpartition(":")[2]) for role in ROLES}
+def test_every_port_is_of_this_machine_and_encrypted(before: set[tuple[str, int]], cluster: Client) -> None:
+    """There is none beside those of scheduler, worker and nanny: pages, which speak plain HTTP, are not opened."""
     opened = listening() - before
-    assert {address for address, _ in opened} == {"127.0.0.1"}
-    found = {port for _, port in opened}
-    assert encrypted < found
-    for port in found:
-        for page in PAGES:
-            refused = OSError if port in encrypted else urllib.error.HTTPError
-            with pytest.raises(refused) as caught:
-                urllib.request.urlopen(f"http://127.0.0.1:{port}{page}", timeout=5)
-            if isinstance(caught.value, urllib.error.HTTPError):
-                assert caught.value.code == 404
-                caught.value.close()
+    assert opened == {("127.0.0.1", int(address_of(cluster, role).rpartition(":")[2])) for role in ROLES}
+    for _, port in opened:
+        with pytest.raises(OSError, match="(?i)closed|reset|end of file|status line"):
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5)
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -21,8 +22,11 @@ from distributed.comm import CommClosedError
 
 from hosts.common.errors import HostError
 from hosts.study.cluster import bring
+from hosts.study.command import main
+from hosts.study.execution import Execution
 from hosts.study.parts import part_files
 from hosts.study.store import read_study
+from hosts.study.work import Outcome
 
 ROOT = Path(__file__).parents[3]
 RUNS = 140
@@ -178,6 +182,58 @@ def test_the_scheduler_is_killed(slow_study: Path, tmp_path: Path) -> None:
     now = rows(out)
     assert {index: now[index] for index in before} == before
     check_complete(out)
+
+
+def spawned(process: subprocess.Popen[str]) -> list[psutil.Process]:
+    """Processes that the command has started for workers."""
+    found = []
+    for child in psutil.Process(process.pid).children(recursive=True):
+        with contextlib.suppress(psutil.Error):  # it may end meanwhile
+            found += [child] if "spawn_main" in " ".join(child.cmdline()) else []
+    return found
+
+
+@pytest.mark.slow
+def test_a_worker_is_killed_while_the_cluster_starts(slow_study: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    process = command(slow_study, "--out", out, "--jobs", 2)
+    while not (workers := spawned(process)):
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    workers[0].kill()
+    _, error = process.communicate(timeout=120.0)
+    assert process.returncode == 1
+    assert error == (
+        f"The workers of this machine have gone (Nanny failed to start). 0 of {RUNS} runs are written and stay; the "
+        "same command makes the others.\n"
+    )
+
+
+@pytest.mark.parametrize("count", [9, 16])
+def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
+    count: int, study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """The connection breaks when so many of 16 rows have come: in the middle, or when the study is taken away."""
+
+    @contextmanager
+    def broken(*_: object) -> Iterator[SimpleNamespace]:
+        yield SimpleNamespace(nthreads=lambda: {"a": 1})
+
+    def run(self: Execution, _: object) -> None:
+        chunk = self._plan.chunk(range(count))
+        self._take(chunk, [Outcome(measures={"lowest": 0.1, "highest": 0.2}) for _ in chunk.indices])
+        self.keep()
+        raise CommClosedError("in <TCP local=...>: Stream is closed")
+
+    monkeypatch.setattr("hosts.study.cluster.connected", broken)
+    monkeypatch.setattr("hosts.study.cluster.bring", lambda *_: None)
+    monkeypatch.setattr(Execution, "run", run)
+    code = main([str(study_file()), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9", "--no-report"])
+    assert len(read_study(tmp_path / "out")) == count
+    assert code == (0 if count == 16 else 1)
+    gone = "The scheduler at tcp://127.0.0.1:9 has gone. 9 of 16 runs are written and stay; the same command makes the"
+    assert (gone in capsys.readouterr().err) == (count == 9)
 
 
 @pytest.mark.slow

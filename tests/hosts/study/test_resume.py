@@ -126,11 +126,6 @@ def test_no_scheduler_is_one_sentence(half: Path, monkeypatch: pytest.MonkeyPatc
     assert refused(half).startswith("No scheduler of Dask answers at tcp://127.0.0.1:9: ")
 
 
-def test_a_damaged_part_is_named(half: Path) -> None:
-    (half / "out" / "runs" / "part-000007.parquet").write_bytes(b"PAR1 no PAR1")
-    assert refused(half).startswith("out/runs/part-000007.parquet is damaged (")
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
 @pytest.mark.slow
 def test_a_full_disk_keeps_what_is_written(finished: Path, half: Path, scheduler: str) -> None:

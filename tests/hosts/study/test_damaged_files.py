@@ -1,0 +1,87 @@
+"""One bit of a file of rows or signals is turned: a report tells it, and the study makes those runs again."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from hosts.common.errors import HostError
+from hosts.study.analysis.report import write_report
+from hosts.study.campaign import run_study
+from hosts.study.parts import part_files, read_part
+from hosts.study.record import read_record
+from hosts.study.store import open_signals, read_study
+
+SIGNALS = '\n[signals]\nnames = ["bob.y"]\ninterval = 0.01\n'
+
+
+def turned(data: bytes, bit: int) -> bytes:
+    """The data with one bit turned."""
+    changed = bytearray(data)
+    changed[bit // 8] ^= 1 << bit % 8
+    return bytes(changed)
+
+
+def data_page(part: Path) -> tuple[int, int]:
+    """Where the last bytes of the column `highest` begin and end, which are numbers."""
+    column = next(c for c in columns_of(part) if c.path_in_schema == "highest")
+    stop = (column.dictionary_page_offset or column.data_page_offset) + column.total_compressed_size
+    return stop - 4, stop
+
+
+def columns_of(part: Path) -> list[Any]:
+    group = pq.ParquetFile(part).metadata.row_group(0)
+    return [group.column(k) for k in range(group.num_columns)]
+
+
+def test_no_bit_of_a_part_is_read_as_other_rows(made: Callable[..., Path], tmp_path: Path) -> None:
+    folder = made()
+    record = read_record(folder)
+    assert record is not None
+    file, seed = part_files(folder)[0], random.SystemRandom().randrange(2**32)
+    print("seed", seed)
+    data, whole = file.read_bytes(), read_part(file, record)
+    odd, told = tmp_path / "odd.parquet", 0
+    for bit in random.Random(seed).sample(range(8 * len(data)), 2000):
+        odd.write_bytes(turned(data, bit))
+        try:
+            same = read_part(odd, record).equals(whole)
+        except HostError:
+            told += 1
+            continue
+        assert same, bit
+    assert 1000 < told < 2000  # names of columns, statistics and the like stand in the rest of a file
+
+
+@pytest.mark.slow
+def test_a_damaged_file_is_told_and_its_runs_are_made_again(
+    made: Callable[..., Path], scheduler: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    folder = made(more=SIGNALS)
+    rows = read_study(folder).drop(columns="wall_seconds")
+    samples = open_signals(folder)["bob.y"].to_numpy()
+    assert np.isfinite(samples).all()
+    for name in ("runs/part-000001.parquet", "signals/fall.zarr/bob.y/0.0", "signals/fall.zarr/.zmetadata"):
+        file = folder / name
+        data = file.read_bytes()
+        place = len(data) // 2
+        if name.startswith("runs"):  # half of this small file is the names of the columns, which no row depends on
+            start, stop = data_page(file)
+            place = (start + stop) // 2
+        file.write_bytes(data.replace(b"<f8", b">f8") if name.endswith("metadata") else turned(data, 8 * place + 3))
+        with pytest.raises(HostError, match="is damaged .*; the same study, started again, makes its runs again"):
+            write_report(folder)
+        capfd.readouterr()
+        assert run_study(tmp_path / "study.toml", folder, scheduler, None) is not None
+        told = capfd.readouterr().err
+        assert "is damaged (" in told
+        assert "its runs are made again" in told
+        assert read_study(folder).drop(columns="wall_seconds").equals(rows)
+        assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
+    assert len(list((folder / "runs").glob(".damaged-part-*"))) == 1
