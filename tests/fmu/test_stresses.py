@@ -98,6 +98,7 @@ def test_reading_stresses_leaves_no_trace(kerb_fmus: Path, kind: str, need: Call
 def test_reading_another_output_asks_nothing_of_the_frame(kerb_fmus: Path) -> None:
     """The System with ports is read with the first stress: without its file all but the stresses are there."""
     with Fmu(kerb_fmus / "native.fmu") as fmu:
+        fmu.load()
         next(fmu._folder.glob("resources/**/system_1.ali3")).unlink()
         fmu.initialise({"fidelity": 0.0})
         fmu.step(0.0, H)
