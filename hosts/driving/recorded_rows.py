@@ -20,10 +20,13 @@ def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
     """Memory for a table, which is that of a file where one is given."""
     if file is None or not all(shape):
         return np.empty(shape)
-    file.touch()
-    with file.open("r+b") as made:
-        made.truncate(8 * shape[0] * shape[1])
-        return np.asarray(np.memmap(made, np.float64, "r+", shape=shape))
+    try:
+        file.touch()
+        with file.open("r+b") as made:
+            made.truncate(8 * shape[0] * shape[1])
+            return np.asarray(np.memmap(made, np.float64, "r+", shape=shape))
+    except OSError:  # no room for a file: rows are lost if the FMU ends the process
+        return np.empty(shape)
 
 
 def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import subprocess
+import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -22,7 +23,7 @@ from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.wild_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.scalars import element_names
+from hosts.fmu.scalars import ELEMENTS, element_names
 from mbs import Pose, Simulation
 from mbs.vehicle.environment import GRAVITY
 from tests.fmu.native import compile_host, guid_of, unpack
@@ -115,7 +116,9 @@ def held(fmu: Path, name: str) -> Columns:
         list(zip(manoeuvre.time, *manoeuvre.inputs.values(), strict=True)),
         [(n, np.double) for n in ("time", *manoeuvre.inputs)],
     )
-    places = {e: (array, k) for array, elements in element_names(fmu).items() for k, e in enumerate(elements)}
+    with zipfile.ZipFile(fmu) as archive:
+        text = archive.read(ELEMENTS).decode() if ELEMENTS in archive.namelist() else ""
+    places = {e: (array, k) for array, elements in element_names(text).items() for k, e in enumerate(elements)}
     rows = fmpy.simulate_fmu(
         str(fmu),
         stop_time=manoeuvre.stop_time,

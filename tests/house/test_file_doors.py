@@ -31,7 +31,11 @@ BEHIND = {
 }
 OWN = {
     # What this program wrote a moment before, or what is installed with it.
+    "ali3/call_mark.py",
     "ali3/chart_words.py",
+    "ali3/guard.py",
+    "hosts/driving/recorded_rows.py",
+    "hosts/study/folder.py",
     "ali3/isolated.py",
     "fmu_src/native/archive.py",
     "fmu_src/native/compile.py",

@@ -57,6 +57,7 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     """The report of a frame of runs; see `write_report`."""
     if not len(frame):
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
+    check_no_link(folder)
     import pandas as pd
 
     from ali3.bars import bar as bar_of

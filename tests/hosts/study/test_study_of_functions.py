@@ -129,13 +129,16 @@ def test_what_the_fmu_has_done_is_in_the_table(folder: Path, effects: pd.DataFra
     assert effects.loc[("start_force", "spring.free_length"), "total"] > 0.5
 
 
-def test_the_worst_run_is_repeated_to_the_bit(folder: Path) -> None:
+def test_the_worst_run_is_repeated_to_the_bit(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     frame = read_study(folder)
     worst = int(frame["lowest"].idxmin())
     text = (folder / "report.html").read_text(encoding="utf-8")
     lines = [html.unescape(line) for line in re.findall(r"<code>(.*?)</code>", text)]
+    (asked,) = {line for line in lines if line.endswith(f"--run {worst}")}
+    capsys.readouterr()
+    assert main(shlex.split(asked)[2:]) == 0
+    lines = capsys.readouterr().out.splitlines()
     drives = [line for line in lines if f"run-{worst}." in line and " run " in line]
-    assert drives
     assert any(f"run-{worst}." in line and " view " in line for line in lines)
     words = shlex.split(drives[0])
     command(*words[words.index("-m") + 1 :])
