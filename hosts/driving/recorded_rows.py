@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.errors import reason
+from hosts.common.errors import HostError
 from hosts.driving.senses import Senses
 
 ROUND_OFF = 1e-9
@@ -25,8 +27,9 @@ def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
         with file.open("r+b") as made:
             made.truncate(8 * shape[0] * shape[1])
             return np.asarray(np.memmap(made, np.float64, "r+", shape=shape))
-    except OSError:  # no room for a file: rows are lost if the FMU ends the process
-        return np.empty(shape)
+    except OSError as error:
+        size = 8e-6 * shape[0] * shape[1]
+        raise HostError(f"The rows of the run take {size:.3g} MB, which cannot be kept: {reason(error)}.") from None
 
 
 def kept_rows(file: Path, columns: int) -> NDArray[np.float64]:
