@@ -11,8 +11,9 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from ali3.archives import LARGEST_ARCHIVE
 from ali3.files import make_folder, whole_file, write_text
-from ali3.reading import no_file
+from ali3.reading import no_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.study.record import RECORD
 
@@ -34,8 +35,7 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
     file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
-    with file.open("rb") as stream:
-        found = hashlib.file_digest(stream, "sha256").hexdigest()
+    found = hashlib.sha256(read_bytes(file, LARGEST_ARCHIVE, HostError)).hexdigest()
     if found != record["fmu_sha256"]:
         raise HostError(
             f"{file} is another FMU than the one that made the rows: its SHA-256 is {found[:12]}..., that in {RECORD} "

@@ -35,7 +35,6 @@ OWN = {
     "ali3/chart_words.py",
     "ali3/guard.py",
     "hosts/driving/recorded_rows.py",
-    "hosts/study/folder.py",
     "ali3/isolated.py",
     "fmu_src/native/archive.py",
     "fmu_src/native/compile.py",
