@@ -36,15 +36,13 @@ def write_report(folder: Path) -> list[Path]:
     """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, done or half done.
 
     Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
-    study, no run in it yet, a link in the folder, or a
-    file of rows or signals that is damaged.
+    study, no run in it yet, a link in the folder, or a file of rows or signals that is damaged.
     """
     from hosts.study.damage import check_signals
     from hosts.study.store import read_study, study_record
 
     frame = read_study(folder)
     check_signals(folder, study_record(folder))
-    check_no_link(folder)
 
     def commands(index: int) -> list[str]:
         # no run is opened for its commands: a report reads rows; the whole path, as it is read from any folder
@@ -57,11 +55,11 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     """The report of a frame of runs; see `write_report`."""
     if not len(frame):
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
-    check_no_link(folder)
     import pandas as pd
 
     from ali3.bars import bar as bar_of
 
+    check_no_link(folder)
     data = study_data(frame)
     pictures = Pictures(make_folder(folder / ANALYSIS))
     body = [
