@@ -6,6 +6,8 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
+from tqdm import tqdm
+
 if TYPE_CHECKING:
     from tqdm import tqdm
 
@@ -32,8 +34,6 @@ class _Lines:
 
 def bar(*things: Any, **options: Any) -> tqdm[Any]:
     """A bar on the standard error stream, silent for two seconds. `things`, `options`: of `tqdm.tqdm`."""
-    from tqdm import tqdm
-
     options = {"delay": _DELAY} | options
     if sys.stderr.isatty():
         return tqdm(*things, **options)

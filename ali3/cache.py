@@ -8,6 +8,8 @@ import os
 import tempfile
 from pathlib import Path
 
+import platformdirs
+
 from ali3.errors import FileError, reason
 
 VARIABLE = "ALI3_CACHE"
@@ -20,8 +22,6 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
     written, the folder is a temporary one that goes when this process ends. Raises `FileError`: the variable names a
     folder that cannot be written.
     """
-    import platformdirs
-
     given = os.environ.get(variable)
     try:
         cache = Path(given) if given else platformdirs.user_cache_path(name, appauthor=False, opinion=False)

@@ -6,6 +6,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 
 from ali3.signals import STOPPING
 
@@ -22,8 +23,6 @@ def stop_signals_blocked() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    from multiprocessing import resource_tracker
-
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)  # children inherit the mask
     try:
         resource_tracker.ensure_running()  # Python's own process; this call unblocks SIGINT and SIGTERM

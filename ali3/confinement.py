@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from pathlib import Path
 
+import ali3
 from ali3.errors import UserError
 
 _SWITCH = "ALI3_CONFINED"  # programs that this one starts, such as workers of a study, know it by their environment
@@ -74,8 +75,6 @@ def _bubblewrap() -> tuple[str, ...]:
 @cache
 def _places() -> tuple[str, ...]:
     """Folders of Python and of this program; those that `_SYSTEM` has are left out."""
-    import ali3
-
     root = Path(ali3.__file__).resolve().parents[1]
     found = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.executable).resolve().parents[1]]
     if not any(root.is_relative_to(place) for place in found):  # a clone: its packages alone

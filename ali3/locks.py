@@ -6,6 +6,8 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from filelock import FileLock, Timeout
+
 from ali3.errors import FileError, reason
 from ali3.files import make_folder
 
@@ -19,8 +21,6 @@ def locked(folder: str | os.PathLike[str], busy: str = "") -> Iterator[None]:
     `busy`: what is said where another program has locked it; by default its end is waited for. Raises `FileError`:
     another program has locked it, or it cannot be written.
     """
-    from filelock import FileLock, Timeout
-
     lock = FileLock(make_folder(folder) / ".lock", timeout=0 if busy else -1)
     try:
         lock.acquire()

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 
 from ali3.errors import UserError, reason
+from ali3.extras import missing_module
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened
 
@@ -44,8 +45,6 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ())
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
     """What a user is told of an error; None where the error is not the user's. `errors`: see `run_command`."""
     if isinstance(error, ModuleNotFoundError):
-        from ali3.extras import missing_module
-
         return missing_module(error)
     if _lacks_memory(error):
         return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."

@@ -24,6 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from ali3.commands import COMMANDS
 from ali3.extras import extras
@@ -233,7 +234,6 @@ def _environment(folder: Path, what: str, name: str) -> Path:
 def _make_files(folder: Path) -> None:
     """Good files, and bad ones of the same names in a folder for each way to be bad."""
     import trimesh
-    from PIL import Image
     from pyyeti.nastran import op4
 
     folder.mkdir()

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from viewer.browser import VARIABLE, BrowserError, find_chromium, launch_arguments
 from viewer.bundle import HERE, bundle
@@ -128,8 +129,6 @@ def _evaluated(page: Any, expression: str, arg: Any) -> Any:
 
 def picture_of_simulator(page: Any) -> np.ndarray:
     """Pixels of the page of the simulator (height, width, 3), without instruments."""
-    from PIL import Image
-
     page.evaluate(
         """() => {
           window.hiding = new CSSStyleSheet();

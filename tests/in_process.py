@@ -8,6 +8,8 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from subprocess import CompletedProcess
 
+from fmu_src.build.command import main as build
+
 
 def run(main: Callable[[Sequence[str]], int], *arguments: object) -> CompletedProcess[str]:
     """What a command's `main` gives back and prints."""
@@ -22,9 +24,7 @@ def run(main: Callable[[Sequence[str]], int], *arguments: object) -> CompletedPr
 
 def build_fmu(folder: Path, *options: str) -> Path:
     """The native FMU that ``ali3 build`` makes for this machine."""
-    from fmu_src.build.command import main
-
-    done = run(main, "--kind", "native", "--platforms", "this", *options, "--out", folder)
+    done = run(build, "--kind", "native", "--platforms", "this", *options, "--out", folder)
     assert done.returncode == 0, done.stderr
     (file,) = folder.glob("*.fmu")
     return file

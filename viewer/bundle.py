@@ -6,6 +6,7 @@ import hashlib
 from pathlib import Path
 
 from viewer.errors import REMEDY
+from viewer.page_build import build, locked_folder
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"
@@ -32,8 +33,6 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
             )
         return out / SCRIPT
     if not _fresh(page, out):
-        from viewer.page_build import build, locked_folder
-
         try:
             with locked_folder(out):
                 if not _fresh(page, out):  # another process may have built it meanwhile

@@ -16,8 +16,10 @@ from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
 from benchmarks.shared.pages import Row, table
 from benchmarks.shared.timing import best_time
+from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import with_names_of
+from hosts.fmu.fmu import Fmu
 from mbs import Trajectory
 
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
@@ -64,8 +66,6 @@ WITHOUT_INPUTS = ("kerb_drop", "drop")
 
 def time_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
     """Least processor time of the communication loop of a manoeuvre through FMPy, s."""
-    from hosts.fmu.fmu import Fmu
-
     manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
     steps = round(manoeuvre.stop_time / h)
     rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
@@ -96,8 +96,6 @@ def run_of_fmu(file: Path, name: str, h: float, follow: bool, car: str = manoeuv
 
     The inputs are held over a communication step, or follow their first derivatives (`follow`).
     """
-    from hosts.fmu.fmu import Fmu
-
     manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
     names, every = trajectories.SENSORS, round(manoeuvres.sampling(name, car) / h)
     inputs = list(manoeuvre.inputs)
@@ -191,8 +189,6 @@ def build_fmu_of(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
     except ImportError as error:
         print(f"{error.name} is not installed; the columns of the FMU stay empty.", file=sys.stderr)
         return None
-    from fmu_src.build.build import build_fmu
-
     say = partial(print, file=sys.stderr, flush=True)
     return build_fmu(manoeuvres.system_of("drop", car), f"{car}_car", folder, (fmpy.platform,), say)
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row
@@ -18,8 +19,6 @@ LOOK = {"fine": ("#009E73", "s"), "wrong": ("#E69F00", "v"), "refused": ("#56B4E
 def draw(rows: Sequence[Row], title: str, file: Path) -> None:
     """Draw the maps of one scene; the default settings are the line of ringed marks at the bottom."""
     plt = pyplot()
-    from matplotlib.lines import Line2D
-
     methods = list(dict.fromkeys(r["method"] for r in rows))
     columns = 5
     lines = -(-len(methods) // columns)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import multiprocessing
+import subprocess
 import tempfile
 import time
 from argparse import Namespace
@@ -19,8 +20,16 @@ import psutil
 
 import mbs
 from ali3.errors import UserError
+from ali3.processes import module_command
 from benchmarks.shared.command import watched
 from fmu_src.build.build import build_fmu
+from hosts.study.folder import begin_study
+from hosts.study.missing import ChunkSize, missing_runs
+from hosts.study.one_run import Bench
+from hosts.study.plan import make_plan
+from hosts.study.study_file import read_study_file
+from hosts.study.trial import try_out
+from hosts.study.work import Outcome
 
 Row = dict[str, Any]
 T = TypeVar("T")
@@ -110,9 +119,6 @@ def alone(work: Callable[..., T], *arguments: Any) -> T:
 
 def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path, method: str = "sobol") -> Any:
     """The plan of a study, and its file in a folder."""
-    from hosts.study.plan import make_plan
-    from hosts.study.study_file import read_study_file
-
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{case}.toml"
     text = TEXTS[case].format(fmu=fmu.absolute(), stop_time=stop_time, runs=runs, method=method)
@@ -128,8 +134,6 @@ def stop_time_for(case: str, fmu: Path, seconds: float, folder: Path) -> float:
 
 def loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
     """The same runs one after the other without Dask, after one to warm up."""
-    from hosts.study.one_run import Bench
-
     plan = plan_of(case, fmu, max(runs, 2), stop_time, folder)
     job, work = plan.work.jobs[0], replace(plan.work, reuse=True)
     bench, block = Bench(work, plan.fmu), plan.points.block(0, runs)
@@ -148,11 +152,8 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     """A study on a local cluster, without its start: time beside the runs, memory, disk."""
     from hosts.study.cluster import bring, connected
     from hosts.study.execution import Execution
-    from hosts.study.folder import begin_study
-    from hosts.study.missing import ChunkSize, missing_runs
     from hosts.study.parts import PartWriter, part_files
     from hosts.study.store import read_study
-    from hosts.study.trial import try_out
 
     plan = plan_of(case, fmu, runs, stop_time, folder)
     trial = try_out(plan)
@@ -206,10 +207,6 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
 
 def start_again(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
     """The command on a folder in which all rows are: what it takes to find that nothing is missing."""
-    import subprocess
-
-    from ali3.processes import module_command
-
     file = folder / f"{case}.toml"
     line = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")
     begin = time.perf_counter()
@@ -237,10 +234,8 @@ def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Ro
 
 def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     """The one writer, alone: rows that no run has made, in chunks of 20 as they come from workers; and finding them."""
-    from hosts.study.folder import begin_study
     from hosts.study.parts import PartWriter, part_files, runs_done
     from hosts.study.store import read_study
-    from hosts.study.work import Outcome
 
     plan = plan_of(case, fmu, rows, 1.0, folder)
     begin_study(folder, plan.record, b"", plan.fmu)

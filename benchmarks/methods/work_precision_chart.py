@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from matplotlib.ticker import NullFormatter
+
 from benchmarks.methods.kernel_methods import TITLES, controlled
 from benchmarks.references.cases import Case
 from benchmarks.shared.command import pyplot, save_chart
@@ -44,8 +46,6 @@ def draw(rows: Sequence[Row], case: Case, lost: float, file: Path) -> None:
     `lost`: error, in the unit of the case, from which a run has no point; `file`: PNG.
     """
     plt = pyplot()
-    from matplotlib.ticker import NullFormatter
-
     figure, axes = plt.subplots(1, 2, figsize=(11.0, 4.6), sharey=True, layout="constrained")
     for ax, (key, families) in zip(axes, PANELS.items(), strict=True):
         for family in families:

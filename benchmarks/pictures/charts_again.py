@@ -10,10 +10,15 @@ from io import StringIO
 from pathlib import Path
 
 from ali3.chart_words import description_of
+from ali3.charts import save_picture
 from benchmarks.car.frame_pictures import draw_gauges
 from benchmarks.shared.figures import Again
 from hosts.fmu.built_fmu import fmu_of_scene
+from hosts.run.command import main as run
 from mbs.vehicle import load
+from mbs.vehicle.kinematics.car_kinematics import kinematics
+from mbs.vehicle.kinematics.plots import travel_figure
+from mbs.worlds.command import main as draw_world
 
 
 def charts(_: bool) -> list[Again]:
@@ -34,10 +39,8 @@ def _prototype() -> Path:
 
 def _first_command(file: Path) -> None:
     """The picture of README.md's first command."""
-    from hosts.run.command import main
-
     out = file.with_suffix("")
-    if main([str(_prototype()), "--manoeuvre", "double_lane_change", "--out", str(out)]):
+    if run([str(_prototype()), "--manoeuvre", "double_lane_change", "--out", str(out)]):
         raise RuntimeError("The first command of README.md has refused steps.")
     (picture,) = out.glob("*.png")
     picture.rename(file)
@@ -48,17 +51,11 @@ def _frame(car: str, file: Path) -> None:
 
 
 def _travel(file: Path) -> None:
-    from ali3.charts import save_picture
-    from mbs.vehicle.kinematics.car_kinematics import kinematics
-    from mbs.vehicle.kinematics.plots import travel_figure
-
     save_picture(travel_figure(kinematics(load("hatchback")), "front"), file)
 
 
 def _map(file: Path) -> None:
-    from mbs.worlds.command import main
-
-    main(["--world", "proving_ground", "--out", str(file.parent), "--picture", str(file)])
+    draw_world(["--world", "proving_ground", "--out", str(file.parent), "--picture", str(file)])
 
 
 DRAWN: dict[str, Callable[[Path], None]] = {

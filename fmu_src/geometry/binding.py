@@ -11,7 +11,7 @@ import numpy as np
 
 import mbs
 from fmu_src.geometry.sensor_rows import Array, SensorRows
-from mbs.system.drawing import BodyPlace
+from mbs.system.drawing import BodyPlace, matrices
 
 Frame = dict[str, Any]
 Shared = tuple[str, Sequence[float], str, Sequence[float]]
@@ -98,8 +98,6 @@ def _by_columns(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bou
 
 def _shifted(start: Sequence[Sequence[float]], local: Array) -> list[float]:
     """Place of a local point of a start."""
-    from mbs.system.drawing import matrices
-
     turned = matrices(np.array([start[1]]))[0] @ local
     return [float(x) + 0.0 for x in np.array(start[0]) + turned]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from hosts.catalogue.car import TestedCar
@@ -95,8 +96,6 @@ def _ours(start: Mapping[str, Value], aliases: Aliases, path: Path) -> dict[str,
 
 def _told_apart(cars: Sequence[TestedCar]) -> list[TestedCar]:
     """The cars with labels of which none stands twice."""
-    from dataclasses import replace
-
     seen: dict[str, int] = {}
     told = []
     for car in cars:

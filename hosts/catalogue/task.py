@@ -17,6 +17,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import Reason, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.run.result_files import write_csv
 
 Outcome: TypeAlias = "TestRecord | Reason"
 """What a test has yielded, or why it was not done."""
@@ -66,8 +67,6 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
 
 def _write_runs(task: Task, folder: Path, record: TestRecord) -> None:
     """A table of each run, and beside it what `ali3 view` needs to draw it."""
-    from hosts.run.result_files import write_csv
-
     for name, result in record.runs.items():
         file = folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)

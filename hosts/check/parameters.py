@@ -7,9 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.columns import in_columns
+from ali3.files import check_writable
 from ali3.words import shortened
+from ali3.write_parameter_set import write_parameter_set
 from hosts.common.options import Wishes
+from hosts.fmu.fmu import described
+from hosts.fmu.parameter_file_settings import settings_of_file
 from hosts.fmu.parameters_as_set import parameter_set_of
+from hosts.fmu.settings import settings_of
+from hosts.fmu.variables import Variables
 
 if TYPE_CHECKING:
     from hosts.common.numbers import Value
@@ -24,13 +30,6 @@ def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, sh
     `given`: what is set in it before; `diff`: parameter set of which only what is other is printed; `show`: whether the
     table is printed when a set is written too. Result: exit code.
     """
-    from ali3.files import check_writable
-    from ali3.write_parameter_set import write_parameter_set
-    from hosts.fmu.fmu import described
-    from hosts.fmu.parameter_file_settings import settings_of_file
-    from hosts.fmu.settings import settings_of
-    from hosts.fmu.variables import Variables
-
     if out is not None:
         check_writable(out)
     description = described(fmu)

@@ -17,7 +17,9 @@ from ali3.reading import LARGEST_TEXT, is_file, no_file, read_toml
 from hosts.common.errors import HostError
 from hosts.common.numbers import text_of
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_table import read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
+from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv")
 """Of files that hold manoeuvres."""
@@ -43,8 +45,6 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     else:
         if not is_file(path):
             raise HostError(no_file(path))
-        from hosts.driving.manoeuvre_table import read_table
-
         made = read_table(path)
     if stop_time is not None:
         return replace(made, stop_time=stop_time)
@@ -146,6 +146,4 @@ def _state(table: Mapping[str, Any], path: Path) -> tuple[bytes | None, float]:
         return None, 0.0
     if set(table) != {"file", "time"} or not isinstance(table["file"], str):
         raise HostError(f"{path}: [state] must have the name of a file and a time.")
-    from hosts.driving.state_file import read_state
-
     return read_state(path.parent / table["file"], str(path)), _number(table["time"], f"{path}, time of the state")

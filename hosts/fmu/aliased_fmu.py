@@ -12,6 +12,7 @@ from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
+from hosts.common.units import unit_of
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.derivation import Derivation
 from hosts.fmu.fmu import Fmu
@@ -154,8 +155,6 @@ class AliasedFmu(NamedScalars):
 
 
 def _derived(name: str) -> ScalarVariable:
-    from hosts.common.units import unit_of
-
     variable = ScalarVariable(name=name, valueReference=None)
     variable.type, variable.causality, variable.variability = "Real", "output", "continuous"
     variable.unit, variable.description = unit_of(name), "derived from other variables"
@@ -169,8 +168,6 @@ def _is_plain(alias: Alias) -> bool:
 def _renamed(variable: ScalarVariable, alias: Alias) -> ScalarVariable:
     if alias.ours == alias.theirs and _is_plain(alias):
         return variable
-    from hosts.common.units import unit_of
-
     renamed = copy.copy(variable)
     renamed.name = alias.ours
     if not variable.unit or not _is_plain(alias):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hosts.common.package_names import check_car
+from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.car import is_car
 
 DIST = Path("dist", "PrototypeCar.fmu")
@@ -35,8 +36,6 @@ def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None 
         return FoundFmu(DIST)
     if given is not None and not is_car(given):
         return FoundFmu(given)
-    from hosts.fmu.built_fmu import fmu_of_car
-
     if given is not None:
         check_car(given)
     begin = time.monotonic()

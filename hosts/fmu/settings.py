@@ -9,6 +9,7 @@ from typing import Any
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes
+from hosts.fmu.parameter_file_settings import settings_of_file
 from hosts.fmu.setting import Setting
 from hosts.fmu.steering_ratios import steering_rows
 from hosts.fmu.variables import Variables
@@ -60,8 +61,6 @@ class Settings:
 
     def add_set(self, file: Path) -> None:
         """Values of an SSV file in the units of the FMU; those that are its own replace nothing: a set may list all."""
-        from hosts.fmu.parameter_file_settings import settings_of_file
-
         found, source = settings_of_file(file, self._variables), file.name
         self._put([setting for setting in found if setting.changes])
         own = {setting.variable.name for setting in found if not setting.changes}

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ali3.near_names import did_you_mean
 from ali3.reading import read_toml
+from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.common.numbers import or_null
 from hosts.common.units import conversion
@@ -35,8 +36,6 @@ def read_limits(file: Path) -> dict[str, LimitEntry]:
     try:
         return _LimitsFile.model_validate(record).limits
     except ValidationError as error:
-        from ali3.typed_sentences import Sentences
-
         raise HostError(f"{file}: {Sentences(_LimitsFile, record).of(error)[0]}") from None
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from hosts.common.display_units import shown_in
 from hosts.common.numbers import is_round_off
 
 
@@ -54,8 +55,6 @@ class Measure:
 
     def displayed(self) -> Measure:
         """The same in the unit in which reports show it, and 0 for what is rounding."""
-        from hosts.common.display_units import shown_in
-
         unit, factor = shown_in(self.unit, self.name)
         limit = self.limit
         if limit is not None:

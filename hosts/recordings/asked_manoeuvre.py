@@ -6,6 +6,7 @@ import numpy as np
 
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 
 def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
@@ -15,8 +16,6 @@ def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) 
     `stop_time`: in s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
     """
     if given is not None:
-        from hosts.recordings.load_manoeuvre import load_manoeuvre
-
         return load_manoeuvre(given, stop_time)
     if stop_time is None:
         experiment = fmu.description.defaultExperiment

@@ -8,6 +8,7 @@ from pathlib import Path
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_file import check_manoeuvre, read_manoeuvre
 from hosts.recordings.format import is_recording
+from hosts.recordings.last_drive import recorded_manoeuvre
 
 
 def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
@@ -18,8 +19,6 @@ def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     """
     if not is_recording(Path(manoeuvre)):
         return read_manoeuvre(manoeuvre, stop_time)
-    from hosts.recordings.last_drive import recorded_manoeuvre
-
     made = recorded_manoeuvre(Path(manoeuvre))
     return made if stop_time is None else replace(made, stop_time=stop_time)
 

@@ -23,6 +23,7 @@ from ali3.extras import missing_package
 from ali3.files import check_writable, make_folder, whole_file, write_text
 from hosts.common.closing import Closing
 from hosts.common.numbers import Value
+from hosts.fmu.fmu import described
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new
 from hosts.recordings.tables import Rows, recorded
 from hosts.recordings.written_tables import CsvTable, ParquetTable, Table
@@ -68,8 +69,6 @@ def recording_meta(
     HostError
         It is no FMU.
     """
-    from hosts.fmu.fmu import described
-
     description = described(fmu)
     causalities = [v.causality for v in description.modelVariables if v.type in ("Real", "Integer")]
     return {

@@ -8,7 +8,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.bars import bar as bar_of
 from ali3.columns import in_columns
+from hosts.fmu.fmu_file import fmu_file
+from hosts.recordings.recorded_drive import read_recording
+from hosts.recordings.replay import replay
+from hosts.recordings.to_manoeuvre import to_manoeuvre
 
 if TYPE_CHECKING:
     from hosts.recordings.recorded_drive import RecordedDrive
@@ -46,9 +51,6 @@ def show_recording(folder: Path) -> int:
 
 def replay_recording(folder: Path, fmu: Path | None) -> int:
     """Repeat a recording, by default in the FMU that was recorded; gives the exit code, 1 for other bits."""
-    from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.replay import replay
-
     drive = _drive(folder)
     with _bar(drive, "replay") as progress:
         found = replay(drive, None if fmu is None else fmu_file(fmu), progress)
@@ -65,9 +67,6 @@ def replay_recording(folder: Path, fmu: Path | None) -> int:
 
 def save_manoeuvre(folder: Path, file: Path, part: tuple[float | None, float | None], fmu: Path | None) -> int:
     """Write the last drive of a recording, or the part between two times of the FMU (s); gives the exit code."""
-    from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.to_manoeuvre import to_manoeuvre
-
     drive = _drive(folder)
     with _bar(drive, "finding the state") as progress:
         files = to_manoeuvre(drive, file, *part, None if fmu is None else fmu_file(fmu), progress)
@@ -83,8 +82,6 @@ def _outputs(drive: RecordedDrive) -> str:
 
 
 def _drive(folder: Path) -> RecordedDrive:
-    from hosts.recordings.recorded_drive import read_recording
-
     drive = read_recording(folder)
     for note in drive.notes:
         print(note)
@@ -93,7 +90,5 @@ def _drive(folder: Path) -> RecordedDrive:
 
 @contextmanager
 def _bar(drive: RecordedDrive, what: str) -> Iterator[Callable[[int], None]]:
-    from ali3.bars import bar as bar_of
-
     with bar_of(total=drive.meta.get("rows") or None, desc=what, unit="row") as bar:
         yield lambda done: bar.update(done - bar.n)

@@ -9,9 +9,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+from matplotlib import pyplot as plt
+
+from ali3.chart_style import BLACK, BLUE, RED
+from ali3.charts import save_picture
+from ali3.low_pass import low_pass
 from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
+from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.manoeuvre_settings import set_in
+from hosts.driving.run_checks import communication_step
+from hosts.driving.run_with_bar import run_with_bar
+from hosts.fmu.built_fmu import fmu_of_scene
+from hosts.fmu.fmu import Fmu
+from hosts.run.result_files import print_result, result_paths, write_csv, write_record
 
 if TYPE_CHECKING:
     from hosts.driving.result import Result
@@ -33,16 +46,6 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
     the FMU; `step`: communication step, s; by default `STEP`. Result: exit code. Raises `HostError`: the step is too
     long for the filter, or the FMU is none of this scene.
     """
-    import numpy as np
-
-    from hosts.driving.manoeuvre import Manoeuvre
-    from hosts.driving.manoeuvre_settings import set_in
-    from hosts.driving.run_checks import communication_step
-    from hosts.driving.run_with_bar import run_with_bar
-    from hosts.fmu.built_fmu import fmu_of_scene
-    from hosts.fmu.fmu import Fmu
-    from hosts.run.result_files import print_result, result_paths, write_csv, write_record
-
     step = STEP if step is None else step
     if not 0.0 < step < 0.5 / FREQUENCY:
         raise HostError(f"The step is {step:g} s; it must be positive and below {0.5 / FREQUENCY:g} s for the filter.")
@@ -78,8 +81,6 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
 
 def moments(result: Result, step: float) -> list[dict[str, float | str]]:
     """Per gauge: value at rest, range before and after the filter as differences from it, what is left at the end."""
-    from ali3.low_pass import low_pass
-
     rows: list[dict[str, float | str]] = []
     for gauge in GAUGES:
         x = result[f"bending_moment.{gauge}"]
@@ -101,12 +102,6 @@ def moments(result: Result, step: float) -> list[dict[str, float | str]]:
 
 def draw(result: Result, step: float, file: Path) -> None:
     """Moments as differences from rest, as gauges measure them."""
-    from matplotlib import pyplot as plt
-
-    from ali3.chart_style import BLACK, BLUE, RED
-    from ali3.charts import save_picture
-    from ali3.low_pass import low_pass
-
     figure, panels = plt.subplots(2, 2, figsize=(15, 8), sharex=True, layout="constrained")
     for axes, gauge in zip(panels.T.flat, GAUGES, strict=True):
         x = result[f"bending_moment.{gauge}"]

@@ -14,6 +14,7 @@ from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.driving.state_file import write_state
 from hosts.fmu.settings import Settings
 
 
@@ -64,8 +65,6 @@ def write_record(
     """
     state, road = None, Path(str(settings.start.get(ROAD, "")))
     if manoeuvre.state is not None:
-        from hosts.driving.state_file import write_state
-
         state = {"file": write_state(manoeuvre.state, file).name, "time": manoeuvre.state_time}
     record = {
         "fmu": str(fmu.path),

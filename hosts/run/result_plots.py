@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ali3.chart_style import COLOURS, STYLE
 from ali3.charts import save_picture
 from hosts.driving.result import Result
+from hosts.run.car_page import car_page
 from hosts.run.plot_panels import draw_lines, table_of
 
 _MAX_PANELS = 9
@@ -30,8 +31,6 @@ def plot_page(
     """
     with plt.rc_context(STYLE):
         if all(n in result for n in ("chassis.x", "chassis.y", "speed", "wheel_FL.Fz")):
-            from hosts.run.car_page import car_page
-
             figure = car_page(result, rows, gates)
         else:
             figure = _plain_page(result, rows)

@@ -15,6 +15,8 @@ from hosts.fmu.fmu import described
 from hosts.fmu.scalars import constants_of
 from hosts.fmu.steering_ratios import steering_as_set
 from hosts.fmu.variables import Variables
+from hosts.recordings.recorded_columns import recorded_columns
+from hosts.recordings.recording import Recorder, recording_meta
 from hosts.simulator.car_process import COMMANDS, Order
 from hosts.simulator.mail import Mail, Records
 from hosts.simulator.moments import CarSettings, Event, Moment
@@ -76,9 +78,6 @@ class Car(Closing):
         settings = self._settings
         if settings.record is None:
             return None
-        from hosts.recordings.recorded_columns import recorded_columns
-        from hosts.recordings.recording import Recorder, recording_meta
-
         outputs, interval = self.names[len(self.inputs) :], settings.interval
         every = recorded_columns(settings.fmu, self.inputs, outputs, settings.step, interval)
         meta = recording_meta(settings.fmu, settings.step, start, seed=settings.seed, world=settings.world)

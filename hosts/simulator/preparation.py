@@ -24,6 +24,7 @@ from hosts.fmu.fmu_file import FoundFmu, find_fmu
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables, check_co_simulation
+from hosts.recordings.recording import check_folder
 from hosts.simulator.drivable import not_drivable
 
 ITERATIONS = "solver.step_iterations"
@@ -95,8 +96,6 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
     Raises `HostError`: something is wrong or cannot be used; one sentence with what would be right.
     """
     if asked.record is not None:
-        from hosts.recordings.recording import check_folder
-
         check_folder(asked.record)
     if asked.world is not None:
         check_world(asked.world)

@@ -12,6 +12,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ali3.extras import missing_module
 from ali3.signals import handled, heeded
 from hosts.common.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
@@ -94,8 +95,6 @@ def _add_devices(stack: ExitStack, server: Server, hands: Hands, car: AliasedCar
     try:
         from hosts.simulator.devices import Devices, configuration_folder
     except ModuleNotFoundError as error:
-        from ali3.extras import missing_module
-
         server.say(f"Wheels and gamepads of this machine are not read. {missing_module(error)}")
         return
     torque = _torque(car) if _TORQUE in car.names else None

@@ -15,11 +15,20 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.bars import bar as bar_of
 from ali3.cores import available_cores
 from ali3.files import check_writable, make_folder, write_text
+from ali3.isolated import Lost
+from ali3.shared_tasks import as_completed
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
+from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
+from hosts.fmu.own_process import PATIENCE
+from hosts.fmu.settings import settings_of
+from hosts.soak.drive import Failure, Outcome, Task, drive
+from hosts.soak.grounds import IN_THE_FMU, jump_ground, world_ground
+from hosts.soak.table import is_good, print_outcomes
 
 if TYPE_CHECKING:
     from hosts.fmu.fmu import Fmu
@@ -39,11 +48,6 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 
     Result: exit code: 1 if something failed.
     """
-    from hosts.fmu.fmu import Fmu
-    from hosts.fmu.settings import settings_of
-    from hosts.soak.drive import Outcome, Task
-    from hosts.soak.table import is_good, print_outcomes
-
     seconds = SECONDS if options.stop_time is None else options.stop_time
     step = STEP if options.step is None else options.step
     if not 0.0 < seconds < math.inf or not 0.0 < step < math.inf:
@@ -79,12 +83,6 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 
 def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> None:
     """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
-    from ali3.bars import bar as bar_of
-    from ali3.isolated import Lost
-    from ali3.shared_tasks import as_completed
-    from hosts.fmu.own_process import PATIENCE
-    from hosts.soak.drive import Failure, Outcome, drive
-
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
     total = math.ceil(sum(task.seconds for task in tasks))
     with bar_of(total=total, desc="soak", bar_format=form, delay=0.0) as bar:
@@ -114,8 +112,6 @@ def _fidelities(fmu: Fmu, asked: Sequence[int]) -> list[int | None]:
 
 
 def _grounds(out: Path, worlds: Sequence[str]) -> list[Ground]:
-    from hosts.soak.grounds import IN_THE_FMU, jump_ground, world_ground
-
     folder = out / "roads"
     jumps = [jump_ground(folder), jump_ground(folder, (1e5, -1e5))]
     named = [world_ground(name, folder / f"world_{k}") for k, name in enumerate(worlds)]

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import psutil
 from distributed import Client, KilledWorker
 
 from ali3.archives import LARGEST_ARCHIVE
@@ -19,6 +20,7 @@ from ali3.reading import read_bytes
 from hosts.common.errors import HostError
 from hosts.study.local_cluster import local_cluster
 from hosts.study.plan import Plan
+from hosts.study.scheduler import client_of
 from hosts.study.worker import StudyPlugin, why_wrong
 
 
@@ -40,8 +42,6 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
         Nobody answers there.
     """
     if scheduler is not None:
-        from hosts.study.scheduler import client_of
-
         with _without_logs(), client_of(scheduler) as client:
             yield client
         return
@@ -77,8 +77,6 @@ def _work_folder() -> Path:
 
 
 def _is_alive(number: str) -> bool:
-    import psutil
-
     return number.isdigit() and psutil.pid_exists(int(number))
 
 

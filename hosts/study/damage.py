@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import zarr
 from numpy.typing import NDArray
 
 from ali3.words import one_line
@@ -71,8 +72,6 @@ def _damaged_signals(folder: Path, record: Mapping[str, Any]) -> Iterator[_Damag
 
 
 def _damaged_of(store: Path, names: list[str], number: int, points: int) -> Iterator[_Damaged]:
-    import zarr
-
     try:
         group = zarr.open_group(str(store), mode="r")
         arrays: dict[str, Any] = {name: group[name] for name in names}

@@ -11,11 +11,14 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.run_checks import check_columns, communication_step, steps_of
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.study.catalogue_tests import checked_test
 from hosts.study.job import Job
+from hosts.study.named_manoeuvre import named_manoeuvre
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 
 
@@ -47,8 +50,6 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFm
         assert entry.stop_time is not None
         manoeuvre = Manoeuvre(entry.name or "run", np.zeros(0), {}, entry.stop_time)
     else:
-        from hosts.study.named_manoeuvre import named_manoeuvre
-
         manoeuvre = named_manoeuvre(entry.manoeuvre, file)
         if entry.stop_time is not None:
             manoeuvre = replace(manoeuvre, stop_time=entry.stop_time)
@@ -56,8 +57,6 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFm
     try:
         check_columns(fmu, manoeuvre)
         if manoeuvre.driver:
-            from hosts.driving.driver import driver_of
-
             driver_of(fmu, manoeuvre)
         step = communication_step(fmu, manoeuvre, study.step)
     except HostError as error:
@@ -69,8 +68,6 @@ def _drive(entry: ManoeuvreEntry, study: StudyFile, file: Path, fmu: SimulatedFm
 
 
 def _test(entry: ManoeuvreEntry, study: StudyFile, fmu: SimulatedFmu, where: str) -> Job:
-    from hosts.study.catalogue_tests import checked_test
-
     assert entry.test is not None
     test, settings = checked_test(entry.test, entry.settings, fmu, where)
     start = {**study.start, **_checked(entry.start, fmu, f"{where}.start")}

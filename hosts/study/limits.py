@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.stats import binomtest
 
@@ -18,6 +19,7 @@ from ali3.files import whole_file, write_text
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
 from hosts.measures.measure import Limit
+from hosts.study.store import read_study
 from hosts.study.work import ALL, DONE, FAILED, MISSING
 
 if TYPE_CHECKING:
@@ -183,8 +185,6 @@ def share_notes(found: Sequence[Share], about: Mapping[str, Any]) -> list[str]:
 
 def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
     """Write ``limits.csv`` and ``limits.json`` into the folder of a study, in the units of the measures."""
-    import pandas as pd
-
     rows = [
         {
             "measure": s.measure,
@@ -211,8 +211,6 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
 
 def tell_limits(folder: Path) -> bool:
     """Print and write the shares of a study that has limits; whether all runs keep them."""
-    from hosts.study.store import read_study
-
     frame = read_study(folder)
     found = shares(frame)
     lines = in_columns([("limits", "", "within", "share", "95 %"), *share_rows(found, frame.attrs)])

@@ -15,11 +15,15 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
+from hosts.driving.derived_columns import derive_columns
+from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
+from hosts.study.catalogue_tests import performed
 from hosts.study.job import Job
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Work
 
@@ -78,19 +82,13 @@ class Bench:
         fmu, work = self._fresh(), self._work
         seen: SimulatedFmu = fmu
         if work.aliases is not None:
-            from hosts.fmu.aliased_fmu import seen_through
-
             seen = seen_through(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         driver: Driver | None = None
         if manoeuvre.driver:
-            from hosts.driving.driver import driver_of
-
             driver = driver_of(seen, manoeuvre)
         result = run(seen, manoeuvre, job.step, driver, self._progress)
         if work.aliases is not None:
-            from hosts.driving.derived_columns import derive_columns
-
             derive_columns(result, work.aliases)
         outcome = _of_result(result, job)
         if job.every:
@@ -102,8 +100,6 @@ class Bench:
         return outcome
 
     def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
-        from hosts.study.catalogue_tests import performed
-
         record = performed(job, self._path, self._work.fmu, self._work.aliases, values, self._progress)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)

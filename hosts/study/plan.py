@@ -18,6 +18,7 @@ from hosts.common.program import program_digest, versions
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.study.job import Job
+from hosts.study.measures.parse import parse_measure
 from hosts.study.parameters import Parameter
 from hosts.study.planned_runs import planned_runs
 from hosts.study.points import Points, digest
@@ -175,8 +176,6 @@ def _measures(
         raise HostError(f"{file}: [measures] are of manoeuvres; this study has tests only, which have their own.")
     if not study.measures:
         return [], {}
-    from hosts.study.measures.parse import parse_measure
-
     recorded = {n: units[n] for n in (*fmu.names("input"), *fmu.names("output"))}
     measures: list[StudyMeasure] = []
     columns: dict[str, str] = {}

@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 from hosts.study.folder import fmu_of_folder
 from hosts.study.job import Job
 from hosts.study.jobs import jobs_of
+from hosts.study.other_names import aliases_beside, renamed_variable
 from hosts.study.parameters import parameter_of
 from hosts.study.points import Points, sampled_points
 from hosts.study.study_file import StudyFile, read_study_file
+from hosts.study.table_points import table_points
 
 if TYPE_CHECKING:
     from hosts.fmu.aliases.alias import Aliases
@@ -44,9 +47,6 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     fmu: SimulatedFmu = opened
     aliases: Aliases | None = None
     if study.aliases is not None:
-        from hosts.fmu.aliased_fmu import seen_through
-        from hosts.study.other_names import aliases_beside
-
         aliases = aliases_beside(study.aliases, file, opened)
         fmu = seen_through(opened, aliases)
     points, parameters = _points(study, file, opened, fmu)
@@ -65,8 +65,6 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
 
     def variable_of(name: str, where: str) -> Variable:
         if study.aliases is not None:
-            from hosts.study.other_names import renamed_variable
-
             found = renamed_variable(fmu, name, where)
             if found is not None:
                 return found
@@ -75,8 +73,6 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
     for name, value in study.start.items():
         variable_of(name, f"{file}: start").check(value, f"{file}: start")
     if study.sampling.method == "table":
-        from hosts.study.table_points import table_points
-
         assert study.sampling.file is not None
         table = table_points(file.parent / study.sampling.file, variable_of, study.parameters)
         names = list(table.block(0, 0))

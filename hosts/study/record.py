@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ali3.json_reading import read_json
+from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.measures.limit_entry import Number
 from hosts.study.study_file import SamplingEntry, Setting, SignalsEntry
@@ -98,7 +99,5 @@ def read_record(folder: Path) -> dict[str, Any] | None:
     try:
         StudyRecord.model_validate(record)
     except ValidationError as error:
-        from ali3.typed_sentences import Sentences
-
         raise HostError(f"{file} is damaged: {Sentences(StudyRecord, record, forms=_FORMS).of(error)[0]}") from None
     return record

@@ -17,6 +17,7 @@ from hosts.common.numbers import Value
 from hosts.common.set_words import set_words
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import REPEAT, check_no_link
+from hosts.study.planned_runs import runs_of_folder
 from hosts.study.store import study_record
 
 if TYPE_CHECKING:
@@ -40,8 +41,6 @@ def repeater(folder: str | os.PathLike[str]) -> Callable[[int], Repeat]:
     Raises `HostError`: the folder is of no study, has a link in it, or another FMU than the one that made the rows; the
     function raises it where there is no such run.
     """
-    from hosts.study.planned_runs import runs_of_folder
-
     place = Path(folder)
     record = study_record(place)
     check_no_link(place)

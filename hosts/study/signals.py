@@ -7,13 +7,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import dask.array
 import numpy as np
+import xarray as xr
 import zarr
 from numcodecs import CRC32
 
 from ali3.errors import FileError, reason
 from hosts.study.folder import SIGNALS
 from hosts.study.job import Job
+from hosts.study.parts import attributes
 from hosts.study.work import Chunk, Outcome
 
 _CHUNK = 4e6  # bytes of one array in a file
@@ -27,11 +30,6 @@ def signal_store(folder: Path, label: str) -> Path:
 
 def make_store(folder: Path, job: Job, record: Mapping[str, Any]) -> None:
     """An empty group for a manoeuvre; all values are NaN."""
-    import dask.array
-    import xarray as xr
-
-    from hosts.study.parts import attributes
-
     store, points, units = signal_store(folder, job.label), record["points"], record["units"]
     if store.exists():
         return

@@ -6,6 +6,9 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import pyarrow as pa
+import xarray as xr
+
 from hosts.common.errors import HostError
 from hosts.study.folder import SIGNALS
 from hosts.study.parts import attributes, part_files, read_part, table_schema
@@ -34,8 +37,6 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     columns and the rest of what is known of the study. Raises `HostError`: it is no folder of a study, or a part is
     damaged.
     """
-    import pyarrow as pa
-
     record = study_record(folder)
     tables = [read_part(file, record) for file in part_files(Path(folder))]
     table = pa.concat_tables(tables) if tables else table_schema(record).empty_table()
@@ -51,8 +52,6 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
     parameters are coordinates along ``point``, as far as runs have been made. Raises `HostError`: there are no signals
     of it.
     """
-    import xarray as xr
-
     found = sorted(path.stem for path in Path(folder, SIGNALS).glob("*.zarr"))
     if not found:
         study_record(folder)

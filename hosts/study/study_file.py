@@ -9,6 +9,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
+from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
 from hosts.measures.limit_entry import LimitEntry, Number
 
@@ -151,8 +152,6 @@ def read_study_file(file: Path) -> tuple[StudyFile, bytes]:
     try:
         return StudyFile.model_validate(record), content
     except ValidationError as error:
-        from ali3.typed_sentences import Sentences
-
         raise HostError(
             f"{file}: {Sentences(StudyFile, record, names=NAME_WORDS, place=_place).of(error)[0]}"
         ) from None

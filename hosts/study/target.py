@@ -11,6 +11,10 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from matplotlib import pyplot as plt
+
+from ali3.chart_style import BLUE, RED, STYLE
+from ali3.charts import save_pictures
 from ali3.decimal_number import parse_number
 from ali3.files import make_folder, write_text
 from ali3.write_parameter_set import write_parameter_set
@@ -344,16 +348,10 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
 
 def _pictures(search: _Search, found: Found, stem: Path) -> list[Path]:
     """The measure over the parameter in all runs, as SVG and PNG."""
-    from ali3.charts import save_pictures
-
     return save_pictures(_figure(search, found), stem)
 
 
 def _figure(search: _Search, found: Found) -> Figure:
-    from matplotlib import pyplot as plt
-
-    from ali3.chart_style import BLUE, RED, STYLE
-
     factor, unit = search.shown.factor, search.shown.unit
     known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
     with plt.rc_context(STYLE):

@@ -11,15 +11,22 @@ from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
 
+from ali3.files import check_writable, whole_file
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.options import ROAD, Wishes
 from hosts.common.package_names import check_world
 from hosts.common.road import wishes_with_road
+from hosts.common.world_files import make_world
+from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu_file import fmu_file
+from hosts.fmu.settings import Settings
 from hosts.recordings.format import is_recording
-from hosts.recordings.load_manoeuvre import check_asked
+from hosts.recordings.load_manoeuvre import check_asked, load_manoeuvre
 from hosts.view.open_page import open_page
+from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
+from hosts.view.page_text import Page, script_of
+from hosts.view.view_sources import RunWishes, recordings_of
 
 if TYPE_CHECKING:
     from ali3.scene.recording import Recording
@@ -40,10 +47,6 @@ def live(options: argparse.Namespace) -> int:
 
 
 def _written(options: argparse.Namespace, given: Wishes) -> int:
-    from ali3.files import check_writable, whole_file
-    from hosts.view.page_parts import fmu_parts
-    from hosts.view.page_text import Page
-
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
@@ -92,8 +95,6 @@ def _world(options: argparse.Namespace, road: Value) -> World | None:
         return None
     if road:
         raise HostError(f"The road is given by --world {options.world} and by {road}; give it once.")
-    from hosts.common.world_files import make_world
-
     return make_world(options.world, lambda line: print(line, flush=True), thin=True)
 
 
@@ -111,10 +112,6 @@ def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:
     """Inputs over time, checked."""
     if given is None:
         return None
-    from hosts.driving.manoeuvre import with_names_of
-    from hosts.recordings.load_manoeuvre import load_manoeuvre
-    from hosts.view.page_text import script_of
-
     names = [name for fmu in fmus for name in fmu.variables.names]
     manoeuvre = with_names_of(load_manoeuvre(given), names)
     script_of(manoeuvre)
@@ -136,8 +133,6 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     """Results that are drawn beside the first FMU, with its drawing where they have none."""
     if not results:
         return []
-    from hosts.view.view_sources import RunWishes, recordings_of
-
     recordings, told = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
     for line in told:
         print(line)
@@ -180,8 +175,6 @@ def _plottable(fmu: FmuParts, name: str) -> bool:
 
 def _start(fmus: Sequence[FmuParts], wanted: Wishes) -> dict[str, Value]:
     """Start values that the first FMU must have; the others take those that they have too."""
-    from hosts.fmu.settings import Settings
-
     settings = Settings(fmus[0].variables)
     for file in wanted.sets:
         settings.add_set(file)
@@ -200,8 +193,6 @@ def with_binary(fmu: FmuParts) -> FmuParts:
 
     Raises `HostError`: it cannot be compiled here; with the command that builds one that has it.
     """
-    from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
-
     if fmu.wasm is not None:
         return fmu
     with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):

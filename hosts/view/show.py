@@ -16,6 +16,11 @@ from hosts.fmu.car import is_car
 from hosts.fmu.fmu_file import fmu_file
 from hosts.recordings.load_manoeuvre import check_asked
 from hosts.view.open_page import open_page
+from hosts.view.view_sources import RunWishes, recordings_of
+from viewer.gltf import write_gltf
+from viewer.page_file import write_page
+from viewer.pictures import write_picture
+from viewer.video import write_mp4
 
 if TYPE_CHECKING:
     from ali3.scene.recording import Recording
@@ -25,8 +30,6 @@ _PLOTTED = 3  # signals of a result that is not drawn
 
 def show(options: argparse.Namespace) -> int:
     """Write what is asked for and open the page; gives the exit code."""
-    from hosts.view.view_sources import RunWishes, recordings_of
-
     page = _page(options)
     check_asked(options.manoeuvre)
     options.what = [fmu_file(path) if is_car(path) else path for path in options.what]
@@ -94,8 +97,6 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
 
 
 def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> str:
-    from viewer.page_file import write_page
-
     made = write_page(page, recordings, options=_start(recordings, options), most=options.most)
     notes += made.notes
     return f"{made.path} ({1e-6 * made.size:.2g} MB)"
@@ -106,8 +107,6 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes
     start = _look(options)
     size = (options.size[0], options.size[1])
     if options.gltf is not None:
-        from viewer.gltf import write_gltf
-
         made = write_gltf(options.gltf, recordings[0])
         notes += made.notes
         notes.append(
@@ -116,14 +115,10 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes
         )
         yield options.gltf
     if options.png is not None:
-        from viewer.pictures import write_picture
-
         time = options.at if options.at is not None else float(recordings[0].t[0])
         notes += write_picture(options.png, recordings, time, size, options.camera, start)
         yield options.png
     if options.mp4 is not None:
-        from viewer.video import write_mp4
-
         notes += write_mp4(options.mp4, recordings, size=size, camera=options.camera, options=start).notes
         yield options.mp4
 

@@ -14,8 +14,18 @@ from ali3.reading import is_file, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
+from hosts.driving.course_scenery import with_course, with_marks
+from hosts.driving.courses import TRACKS, course_of
+from hosts.driving.driver import driver_of
+from hosts.driving.manoeuvre import with_names_of
+from hosts.driving.manoeuvre_settings import set_in
+from hosts.driving.pilots.pilot import ACTS, SENSES
+from hosts.driving.run_checks import check_columns, communication_step
+from hosts.driving.run_with_bar import run_with_bar
+from hosts.fmu.fmu import Fmu, described
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
+from hosts.recordings.asked_manoeuvre import manoeuvre_of
 from hosts.recordings.format import is_recording
 from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.recorded import Table, read_table
@@ -121,8 +131,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         source = geometry or _fmu_of(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
         if is_archive(source):
-            described, same = _units(source, str(record.get("token", "")))
-            units = described | units
+            known, same = _units(source, str(record.get("token", "")))
+            units = known | units
             if not same:
                 told.append(other_build(source, name))
         _add_names_of_fmu(table, units, record, record_file)
@@ -184,9 +194,6 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
     course = record.get("course")
     if course is None:
         return scene
-    from hosts.driving.course_scenery import with_course
-    from hosts.driving.courses import TRACKS, course_of
-
     track, width = (course.get(key) if isinstance(course, dict) else None for key in ("track", "vehicle_width"))
     name = next((name for name, known in TRACKS.items() if known == track), None)
     if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
@@ -198,8 +205,6 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
 
 def _with_marks(scene: dict[str, Any], record: dict[str, Any], file: Path) -> dict[str, Any]:
     """The scene with what else the manoeuvre has on the ground, where the record names it."""
-    from hosts.driving.course_scenery import with_marks
-
     try:
         return with_marks(scene, record.get("marks") or [], _ON_THE_GROUND)
     except (KeyError, TypeError, ValueError, OverflowError):
@@ -224,8 +229,6 @@ def _fmu_of(record: dict[str, Any], file: Path) -> Path:
 
 def _units(fmu: Path, token: str) -> tuple[dict[str, str], bool]:
     """Units of the variables of an FMU, and whether its token is that of the record."""
-    from hosts.fmu.fmu import described
-
     description = described(fmu)
     units = {v.name: v.unit or "" for v in description.modelVariables}
     return units, not token or str(description.guid or description.instantiationToken) == token
@@ -240,16 +243,6 @@ def _foreign(path: Path) -> str:
 
 def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str]]:
     """Run an FMU: through a manoeuvre, or for its default experiment."""
-    from hosts.driving.course_scenery import with_course, with_marks
-    from hosts.driving.driver import driver_of
-    from hosts.driving.manoeuvre import with_names_of
-    from hosts.driving.manoeuvre_settings import set_in
-    from hosts.driving.pilots.pilot import ACTS, SENSES
-    from hosts.driving.run_checks import check_columns, communication_step
-    from hosts.driving.run_with_bar import run_with_bar
-    from hosts.fmu.fmu import Fmu
-    from hosts.recordings.asked_manoeuvre import manoeuvre_of
-
     told = []
     with Fmu(path) as fmu:
         given = wanted.manoeuvre

@@ -7,6 +7,10 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from tqdm import tqdm
+
+from ali3.bars import bar
+
 if TYPE_CHECKING:
     from tqdm import tqdm
 
@@ -41,12 +45,8 @@ class Progress:
             if self._clock() < self._from:
                 return
             if self._everywhere:
-                from tqdm import tqdm
-
                 self._bar = tqdm(total=1.0, initial=share, bar_format=_FORM)
             else:
-                from ali3.bars import bar
-
                 self._bar = bar(total=1.0, initial=share, bar_format=_FORM, delay=0.0)
         self._bar.update(share - self._bar.n)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import array, is_number, not_negative
@@ -144,6 +145,4 @@ def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _curve(rows: NDArray[np.float64]) -> PchipInterpolator:
-    from scipy.interpolate import PchipInterpolator  # most of the time in which programs that read roads start
-
     return PchipInterpolator(*rows.T)

@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.scene.mesh_file import read_mesh
 from mbs.common.affine import Affine
 from mbs.common.checks import (
     LARGEST,
@@ -293,8 +294,6 @@ def _made(
             f"The rim {fields['rim']:g} m of {what} must be smaller than its radius {fields['radius']:g} m."
         )
     if kind == "mesh":
-        from ali3.scene.mesh_file import read_mesh
-
         if not isinstance(given["file"], (str, Path)):
             raise ModelError(f"The file of {what} must be the path of a file, not {shown(given['file'])}.")
         scale = fields.pop("scale", 1.0)

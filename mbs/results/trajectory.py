@@ -15,6 +15,9 @@ from ali3.columns import some_of
 from ali3.errors import TableError, UserError
 from ali3.files import whole_file
 from ali3.near_names import did_you_mean
+from ali3.scene.drawer import drawer
+from ali3.scene.recording import Recording
+from ali3.scene.scene import check_scene
 from ali3.tables import TextTable
 from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
@@ -157,9 +160,6 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         mbs.RoadFileError
             The file of its road cannot be read any more.
         """
-        from ali3.scene.recording import Recording
-        from ali3.scene.scene import check_scene
-
         if scene is None:
             if self.drawing is None:
                 raise ValueError(
@@ -205,8 +205,6 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         if self.drawing is None or len(self.t) < 2:
             return None
         try:
-            from ali3.scene.drawer import drawer
-
             return drawer().html_of(self.recording())
         except (UserError, ValueError) as error:
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"

@@ -17,6 +17,7 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.enumerations import RoadType
 from mbs.kernel.header.limits import ROAD_FRICTION, ROAD_TILE
 from mbs.roads.road_header import REALS, Header, RoadFileError, check_grid
+from mbs.roads.shared_tiles import SharedWriter
 from mbs.roads.steep_faces import RoadWarning, steep_face
 
 
@@ -59,8 +60,6 @@ def write_road(
 
 
 def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:
-    from mbs.roads.shared_tiles import SharedWriter
-
     nx, ny, x0, y0, dx, dy, factor, *_ = road.real
     heights, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float) * factor
     check_grid(heights, np.atleast_2d(frictions), name)

@@ -17,6 +17,7 @@ from ali3.reading import read_bytes
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
 from mbs.common.later import Later
+from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.system.compiled_model import (
     BYTES,
     ENTRY,
@@ -169,8 +170,6 @@ class System(CompiledModel):
             With one sentence that says what is wrong.
         """
         data = bytes(instance_of((bytes, bytearray, memoryview), data, "The content of a System file", "bytes"))
-        from mbs.kernel.binding import KernelError, LoadedSystem
-
         found = _parse(data)
         try:
             LoadedSystem(data)

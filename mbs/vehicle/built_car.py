@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
+from ali3.typed_sentences import Sentences
 from ali3.words import one_line
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
@@ -17,6 +18,7 @@ from mbs.elements.road import Road, RoadOfFile
 from mbs.model.carried import Spin
 from mbs.model.ends import End
 from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of
@@ -33,12 +35,16 @@ from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import FORMS, NAME_WORDS
+from mbs.vehicle.outputs import car_outputs
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within
 from mbs.vehicle.schema_version import check_version
+from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
+from mbs.vehicle.steep_road import tell_steep_face
 from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.tabled_axle import tabled_axle
 
 if TYPE_CHECKING:
     from mbs.model.model import Model
@@ -107,8 +113,6 @@ class BuiltCar(CarContent):
         flexible = None if fidelity.rigid else self.flexible_frame
         b = self._builder(m, road)
         if road is not None:
-            from mbs.vehicle.steep_road import tell_steep_face
-
             tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with m.together():
             self._build(b, outputs, road, flexible, fidelity, drive)
@@ -122,8 +126,6 @@ class BuiltCar(CarContent):
         drive: Callable[[Affine], object] | None = None,
     ) -> CarBuilder:
         """`build` with all that an FMU of the car reports, which its drawing follows."""
-        from mbs.vehicle.outputs import car_outputs
-
         frame = self.flexible_frame if self.has_frame else None
         return self.build(m, partial(car_outputs, m, self, frame, fidelity), road, fidelity, drive)
 
@@ -182,8 +184,6 @@ class BuiltCar(CarContent):
 
     def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
         """Add all shapes, when somebody asks for the drawing."""
-        from mbs.vehicle.shapes.car_shapes import car_shapes
-
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def empty(self, kind: type[M]) -> M:
@@ -220,8 +220,6 @@ class BuiltCar(CarContent):
                 f"suspensions have no tables, fidelity {Fidelity.TABLE.value}, with it. Take "
                 "'rack_by_angle' or fidelity 0."
             )
-        from mbs.vehicle.tabled_axle import tabled_axle
-
         b.rack = steered.travel()
         for name, axle in self.axles.items():
             if axle.suspension.linked:
@@ -257,8 +255,6 @@ def checked_car(
     try:
         car = kind.model_validate(data)
     except ValidationError as error:
-        from ali3.typed_sentences import Sentences
-
         raise CarFileError(_told(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder
@@ -284,8 +280,6 @@ def checked_car(
                 frame.recorded_loads()
         except ModelError as error:
             raise CarFileError(_told(what, [str(error)])) from error
-    from mbs.model.model import Model
-
     try:
         model = car.empty(Model)
         car.reported(model)

@@ -16,6 +16,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.built_car import BuiltCar, checked_car
 from mbs.vehicle.changes import changed_content
 from mbs.vehicle.chassis.flexible_chassis import amplitude_outputs
+from mbs.vehicle.chassis.stress_scene import flexible_part
 from mbs.vehicle.fidelity import Fidelity
 
 
@@ -79,8 +80,6 @@ class Car(BuiltCar):
     @cached_property
     def flexible_parts(self) -> list[dict[str, Any]]:
         """The list `flexible` of the scene of the car: its frame, deformed and coloured by stress."""
-        from mbs.vehicle.chassis.stress_scene import flexible_part
-
         return flexible_part(self.flexible_frame, self.model(fidelity=Fidelity.DYNAMIC), self.vehicle.reference_point)
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:

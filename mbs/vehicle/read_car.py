@@ -11,6 +11,7 @@ from ali3.reading import read_toml
 from mbs.common.checks import shown
 from mbs.vehicle.built_car import C, checked_car
 from mbs.vehicle.errors import CarFileError, CarWarning
+from mbs.vehicle.linkages.free_travel import notes_without_stops
 
 FILE = "car.toml"
 CARS = Path(__file__).parent / "cars"
@@ -33,8 +34,6 @@ def read_car(kind: type[C], car: str | Path) -> C:
         raise CarFileError(f"{path} is an FMU; a car is the name of one, a folder with a file {FILE}, or such a file.")
     found = checked_car(kind, read_toml(path, CarFileError), path.parent, str(path), warn=True)
     if found.front.suspension.stop_left_out or None in (found.front.stops, found.rear.stops):
-        from mbs.vehicle.linkages.free_travel import notes_without_stops
-
         for sentence in notes_without_stops(found):
             warnings.warn(f"{path}: {sentence}", CarWarning, stacklevel=3)
     return found

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from ali3.named_files import NamedFiles
 from ali3.tables import LARGEST, TextTable
@@ -209,8 +210,6 @@ def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float,
 
 def _crossings(line: CentreLine, course: Course) -> None:
     """A course may not cross itself: it would have two heights there."""
-    from scipy.spatial import cKDTree
-
     s = line.stations[:-1] if line.closed else line.stations
     points = line.points[: len(s)]
     width = course.width

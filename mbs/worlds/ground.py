@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates, spline_filter
 
 from ali3.named_files import NamedFiles
+from mbs.roads.description import grid_road
 from mbs.roads.grid_files import MOST_BYTES
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.profiles import spaced
@@ -88,8 +89,6 @@ def ground_of(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
 
 
 def _map(world: WorldDescription, folder: Path) -> tuple[Surface, float]:
-    from mbs.roads.description import grid_road
-
     ground = world.ground
     assert ground.heights is not None
     file = NamedFiles(folder, MOST_BYTES, RoadFileError).file(ground.heights, folder, "The heights of the ground")

@@ -8,9 +8,20 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pydantic import ValidationError
+
 from ali3.json_reading import read_json
 from ali3.reading import LARGEST_IN_PARTS, open_file, read_toml
+from ali3.typed_sentences import Sentences
+from mbs.roads.read_road import read_road
 from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
+from mbs.roads.scene_part import read_thinned, scene_part
+from mbs.roads.write_road import write_road
+from mbs.worlds.road_of_world import points_of, write_world_road
+from mbs.worlds.terrain import Terrain
+from mbs.worlds.thin_world import STEP, off_by, thinner
+from mbs.worlds.world_record import record_of, world_record
+from mbs.worlds.world_types import WorldDescription
 
 if TYPE_CHECKING:
     from mbs.worlds.world_types import WorldDescription
@@ -25,11 +36,6 @@ MOST_AREA = 1e8
 
 def read_world(file: Path) -> WorldDescription:
     """A checked description. Raises `RoadFileError` with file, key, value and what would be right."""
-    from pydantic import ValidationError
-
-    from ali3.typed_sentences import Sentences
-    from mbs.worlds.world_types import WorldDescription
-
     table = read_toml(file, RoadFileError)
     try:
         world = WorldDescription.model_validate(table)
@@ -57,11 +63,6 @@ def make_world(
     `RoadFileError` with what is wrong.
     """
     if file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world":
-        from mbs.worlds.road_of_world import write_world_road
-        from mbs.worlds.terrain import Terrain
-        from mbs.worlds.thin_world import STEP, off_by, thinner
-        from mbs.worlds.world_record import world_record
-
         world = read_world(file)
         if thin:
             world = world.model_copy(update={"spacing": thinner(world.spacing)})
@@ -80,8 +81,6 @@ def make_world(
 
 def _check_size(world: WorldDescription, file: Path) -> None:
     """Refuse what would take hours and be too large in the end, before anything is made."""
-    from mbs.worlds.road_of_world import points_of
-
     x0, y0, x1, y1 = world.bounds
     if (x1 - x0) * (y1 - y0) > MOST_AREA:
         raise RoadFileError(
@@ -117,11 +116,6 @@ def part_of_world(road: Path) -> dict[str, Any] | None:
 
 def _of_road(file: Path, name: str, target: Path) -> dict[str, Any]:
     """A world that is a road alone."""
-    from mbs.roads.read_road import read_road
-    from mbs.roads.scene_part import read_thinned, scene_part
-    from mbs.roads.write_road import write_road
-    from mbs.worlds.world_record import record_of
-
     road = read_thinned(file) if file.suffix.lower() == ".road" else read_road(file)
     if file.suffix.lower() == ".road":
         shutil.copyfile(file, target)

@@ -7,7 +7,19 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ali3.errors import UserError
+from ali3.files import whole_file, write_text
+from ali3.told_warnings import told_warnings
+from mbs.elements.road import GridRoad, PlaneRoad
+from mbs.roads.picture import draw_road
+from mbs.roads.read_road import read_road
+from mbs.roads.road_file import RoadFile
+from mbs.roads.sampled_road import SampledRoad
+from mbs.roads.scene_part import scene_part
+from mbs.roads.write_road import write_road
+from mbs.worlds.make_world import part_of_world
 
 if TYPE_CHECKING:
     from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
@@ -15,23 +27,15 @@ if TYPE_CHECKING:
 
 def make_road(options: argparse.Namespace) -> int:
     """Do what the options of the command say with a road; gives the exit code."""
-    from ali3.files import whole_file, write_text
-    from ali3.told_warnings import told_warnings
-    from mbs.roads.read_road import read_road
-    from mbs.roads.road_file import RoadFile
-    from mbs.roads.write_road import write_road
-
     output: Path | None = options.output
     if output is not None and output.suffix.lower() != ".road":
         raise UserError(f"{output} would be a road file; give it the suffix .road.")
     given = _given(options)
-    if options.part is not None and output is None and options.picture is None:
-        from mbs.worlds.make_world import part_of_world
-
-        if (part := part_of_world(options.input)) is not None:
-            write_text(options.part, json.dumps(part, allow_nan=False))
-            print(f"written: {options.part}, as the world beside {options.input} draws it")
-            return 0
+    part = part_of_world(options.input) if options.part is not None and output is options.picture is None else None
+    if part is not None:
+        write_text(options.part, json.dumps(part, allow_nan=False))
+        print(f"written: {options.part}, as the world beside {options.input} draws it")
+        return 0
     with told_warnings():
         road = read_road(options.input, **given)
     if output is not None:
@@ -39,13 +43,9 @@ def make_road(options: argparse.Namespace) -> int:
             write_road(road, output)
         RoadFile(output).read()  # as it lies on the disk
     if options.picture is not None:
-        from mbs.roads.picture import draw_road
-
         with whole_file(options.picture) as made:
             draw_road(road, made, options.input.name)
     if options.part is not None:
-        from mbs.roads.scene_part import scene_part
-
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
     for line in _lines(road):
         print(line)
@@ -77,11 +77,6 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 
 def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
     """What the road is, for people."""
-    import numpy as np
-
-    from mbs.elements.road import GridRoad, PlaneRoad
-    from mbs.roads.sampled_road import SampledRoad
-
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
         words = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))

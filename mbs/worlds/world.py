@@ -16,6 +16,11 @@ from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
 from ali3.reading import is_file
 from ali3.told_warnings import told_warnings
+from mbs.roads.kinds import CRG, MESHES
+from mbs.worlds.make_world import make_world
+from mbs.worlds.map_picture import draw_map
+from mbs.worlds.stored import add_file, key_of, world_files
+from mbs.worlds.world_file import named_files
 
 WORLDS = Path(__file__).parent
 ROADS = Path(__file__).parents[1] / "roads" / "files"
@@ -32,15 +37,11 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
     `given`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers, for a
     page. Raises `UserError`: it is no world.
     """
-    from mbs.worlds.stored import add_file, key_of, world_files
-
     begin = time.perf_counter()
     file = _file(given)
     name = file.stem
     files = [file]
     if file.suffix.lower() == ".toml":
-        from mbs.worlds.world_file import named_files
-
         name, others = named_files(file)
         files += others
     key = key_of(files) + ("-thin" if thin else "")
@@ -63,8 +64,6 @@ def _file(given: str) -> Path:
     """The file that a name or path means."""
     path = Path(given)
     if is_file(path):
-        from mbs.roads.kinds import CRG, MESHES
-
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
             raise UserError(f"{given} is no world; a world or a road is a file of these kinds: {', '.join(kinds)}.")
         return path
@@ -77,8 +76,6 @@ def _file(given: str) -> Path:
 
 
 def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
-    from mbs.worlds.make_world import make_world
-
     with told_warnings() as told:
         record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
     if told:
@@ -89,8 +86,6 @@ def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
 
 
 def _draw(record: Path, target: Path) -> None:
-    from mbs.worlds.map_picture import draw_map
-
     draw_map(read_json(record), target)
 
 

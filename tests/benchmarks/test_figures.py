@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from matplotlib.figure import Figure
 
 from ali3.chart_words import description_of
 from ali3.charts import save_picture
@@ -53,7 +54,6 @@ def test_an_altered_sentence_is_told():
 
 def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path):
     """A panel less, another unit, a curve more, a figure of the summary that is another."""
-    from matplotlib.figure import Figure
 
     def drawn(name, panels, load):
         figure = Figure()

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from tests.bits import doors, tables
 from tests.bits.store import Entry, entry_of
@@ -76,8 +77,6 @@ def catalogue(car: str, test: str, settings: Sequence[str], fmus: Path, scratch:
 
 def studies(fmus: Path, scratch: Path) -> Entries:
     """Rows of studies by all ways to choose points, in the order of their index."""
-    import pandas as pd
-
     for name, (sampling, count, grip) in SAMPLINGS.items():
         text = STUDY.format(fmu=doors.fmu_file("hatchback", "fmi2", fmus), sampling=sampling, count=count, grip=grip)
         file = scratch / f"{name}.toml"

@@ -31,10 +31,12 @@ import mbs.roads
 import mbs.vehicle
 from ali3.alias_file import read_content
 from ali3.commands import COMMANDS
+from ali3.decimal_number import parse_number
 from ali3.errors import UserError
 from ali3.read_parameter_set import read_parameter_set
 from ali3.scene.mesh_file import read_mesh
 from ali3.scene.scene import read_scene
+from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect, read_log_aliases
 from hosts.compare.log_file import read_log
 from hosts.driving.manoeuvre_file import read_manoeuvre
@@ -225,9 +227,6 @@ def _car_table(path: Path) -> list[float]:
 
 
 def _variable(name: str, where: str) -> Any:
-    from ali3.decimal_number import parse_number
-    from hosts.common.errors import HostError
-
     class Mass:
         kind, unit = "Real", "kg"
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -92,9 +94,6 @@ def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Pa
 
 def test_workflows_are_valid() -> None:
     pytest.importorskip("check_jsonschema")
-    import subprocess
-    import sys
-
     files = sorted(map(str, (ROOT / ".github" / "workflows").glob("*.yml")))
     command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.github-workflows", *files]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -17,6 +17,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import scipy.sparse as sp
+from scipy.io import mmwrite
 
 from ali3.errors import FileError
 from ali3.named_files import MOST_FILES, NamedFiles
@@ -141,8 +142,6 @@ def test_text_is_counted_while_it_is_unpacked(tmp_path: Path) -> None:
 @pytest.mark.parametrize("symmetry", ["general", "symmetric", "skew-symmetric"])
 @pytest.mark.parametrize("form", ["coordinate", "array"])
 def test_matrix_market_is_read_as_scipy_writes_it(symmetry: str, form: str, tmp_path: Path) -> None:
-    from scipy.io import mmwrite
-
     half = sp.random_array((7, 7), density=0.4, rng=np.random.default_rng(3))
     matrix = {"general": half, "symmetric": half + half.T, "skew-symmetric": half - half.T}[symmetry]
     mmwrite(tmp_path / "a.mtx", matrix if form == "coordinate" else matrix.toarray(), symmetry=symmetry, precision=17)

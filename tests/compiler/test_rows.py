@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mbs import Model, compile
+from mbs.common.affine import Affine
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.rows import rigid_rows
@@ -24,8 +25,6 @@ def test_rigid_rows_vanish_for_rotations_and_only_for_those(dimension):
     body = m.body("b", mass=1.0, com=np.zeros(dimension), inertia=0.2 if dimension == 2 else (0.2, 0.25, 0.3))
     for p in ((1.0, 0.2, 0.3), (0.1, 0.9, -0.4)):
         m.spherical(f"ball {p[0]}", m.ground, body, point=p[:dimension])
-    from mbs.common.affine import Affine
-
     full = [Affine({i: 1.0}) for i in range(body.size)]
     rows = rigid_rows(body, full)
     assert len(rows) == (1 if dimension == 2 else 6)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.elements import TorsionBar
+from mbs.elements import InputForce, ScalarSpringDamper, TorsionBar
 from tests.elements.harness import Element, signals
 from tests.elements.stepper import Part, Stepper
 
@@ -59,8 +59,6 @@ def test_the_tangent_is_that_of_the_force_but_for_what_the_wheel_does_through_th
 @pytest.mark.parametrize("h", [pytest.param(0.001, marks=pytest.mark.slow), 0.005, 0.02])
 def test_steps_converge_with_a_strong_assistance(h: float) -> None:
     """Wheel and pinion with a spring at the rack: the wheel ends where its torque has the spring in balance."""
-    from mbs.elements import InputForce, ScalarSpringDamper
-
     one, spring, hand = np.eye(2), 60.0, 2.0
     parts = [
         Part(bar(12.0, 80.0), one, np.zeros(2)),

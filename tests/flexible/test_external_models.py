@@ -14,6 +14,7 @@ from scipy.linalg import eigh
 
 from mbs.common.errors import ModelError
 from mbs.flexible.bulk_data import grid_points
+from mbs.flexible.calculix import calculix_matrices, read_calculix
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.lumping import lumped_masses
@@ -241,8 +242,6 @@ def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
 def test_a_calculix_model_is_read() -> None:
     """A free steel bar of 3 solid elements (C3D8I), with the frequencies of CalculiX 2.20 on the same deck."""
     pytest.importorskip("meshio", reason="extra 'fem'")
-    from mbs.flexible.calculix import calculix_matrices, read_calculix
-
     K, M, positions, numbers = calculix_matrices(DATA / "bar.inp")
     assert numbers == list(range(101, 117))
     np.testing.assert_allclose(np.ptp(positions, axis=0), [0.3, 0.05, 0.05])
@@ -262,8 +261,6 @@ def test_a_calculix_model_is_read() -> None:
 
 def test_a_calculix_model_with_supports_is_refused(tmp_path: Path) -> None:
     pytest.importorskip("meshio", reason="extra 'fem'")
-    from mbs.flexible.calculix import read_calculix
-
     for suffix in (".inp", ".sti", ".mas", ".dof"):
         (tmp_path / f"bar{suffix}").write_text((DATA / f"bar{suffix}").read_text())
     freedoms = (tmp_path / "bar.dof").read_text().replace("101.1\n", "999.1\n")
@@ -276,8 +273,6 @@ def test_a_calculix_model_with_supports_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kept", [0.0, 0.5, None])
 def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: float | None) -> None:
     pytest.importorskip("meshio", reason="extra 'fem'")
-    from mbs.flexible.calculix import read_calculix
-
     for file in DATA.iterdir():
         (tmp_path / file.name).write_bytes(file.read_bytes())
     data = (tmp_path / f"bar{suffix}").read_bytes()
@@ -287,8 +282,6 @@ def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: f
 
 
 def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    from mbs.flexible.calculix import read_calculix
-
     monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):
         read_calculix("a.inp")

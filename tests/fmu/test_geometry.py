@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+import fmpy
 import numpy as np
 import pytest
 
@@ -248,8 +250,6 @@ def pendulum() -> mbs.System:
 
 @pytest.mark.parametrize("kind", ["native", "fmi3", "fmi3_scalar", "python"])
 def test_every_kind_of_fmu_carries_its_scene_by_names_of_its_scalars(kind: str, tmp_path: Path) -> None:
-    import fmpy
-
     file = build_fmu(pendulum(), "pendulum", tmp_path, ["linux64"], kind=kind)
     folder = Path(fmpy.extract(str(file), unzipdir=str(tmp_path / "fmu")))
     scene = json.loads((folder / "resources" / "geometry.json").read_text(encoding="utf-8"))
@@ -260,8 +260,6 @@ def test_every_kind_of_fmu_carries_its_scene_by_names_of_its_scalars(kind: str, 
 
 
 def test_the_kernel_in_an_fmu_reads_no_drawing(tmp_path: Path) -> None:
-    import zipfile
-
     with zipfile.ZipFile(build_fmu(pendulum(), "pendulum", tmp_path, ["linux64"])) as archive:
         assert b"ALi3 scene" not in archive.read("resources/system_0.ali3")
 

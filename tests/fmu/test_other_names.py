@@ -16,6 +16,8 @@ from ali3.alias_file import read_content
 from ali3.errors import UserError
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from fmu_src.variables.other_names import renamed
+from fmu_src.variables.variables import variable_table
 from tests.fmu.libcosim import by_libcosim
 from tests.fmu.native import compile_host, unpack
 
@@ -142,9 +144,6 @@ def test_names_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
 
 def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
     """Points, normals and places of a wheel are triples; its friction is watched by nobody."""
-    from fmu_src.variables.other_names import renamed
-    from fmu_src.variables.variables import variable_table
-
     bound = ("road_x", "road_y", "road_height", "road_normal_y", "road_normal_z", "y", "z", "vx")
     lines = [f'"{name}" = {{ name = "other.{name}", factor = 1e3 }}' for name in (*bound, "road_friction", "load")]
     (tmp_path / "names.toml").write_text("\n".join(lines), encoding="utf-8")
@@ -165,9 +164,6 @@ def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
     ],
 )
 def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) -> None:
-    from fmu_src.variables.other_names import renamed
-    from fmu_src.variables.variables import variable_table
-
     (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
     system = load_scene(f"{SCENES}:crane")[1]
     found = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))

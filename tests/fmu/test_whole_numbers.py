@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import fmpy
 import pytest
 
+import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.variables.variables import variable_table
 from tests.fmu.calls import ERROR, OK, HostMaker
@@ -48,14 +50,11 @@ def test_the_fidelity_is_an_integer_with_a_range(
     tmp_path: Path, need: Callable[[str], None], kind: str, host: HostMaker
 ) -> None:
     need(kind)
-    import mbs
 
     def system(fidelity: int) -> mbs.System:
         from scenes import crane
 
         return mbs.compile(crane(2.0 + fidelity))
-
-    import sys
 
     sys.path.insert(0, str(Path(__file__).parent))
     fmu = build_fmu([system(0), system(1)], "two", tmp_path, [fmpy.platform], kind=kind, fidelity=1)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from hosts.check.command import main
 from hosts.check.deviations import deviations
@@ -209,8 +210,6 @@ def test_what_is_no_reference_is_one_sentence(
 
 def test_the_free_swing_is_that_of_a_pendulum_on_a_spring(fmu: Path, tmp_path: Path) -> None:
     """A reference from elsewhere: the equation of motion in polar coordinates, by an integrator of SciPy."""
-    from scipy.integrate import solve_ivp
-
     mass, k, c, free, g = 2.0, 100.0, 1.0, 0.8, 9.81
 
     def rates(t: float, y: list[float]) -> list[float]:

@@ -14,6 +14,7 @@ import numpy as np
 import psutil
 import pytest
 
+from ali3 import confinement
 from ali3.confinement import confine
 from ali3.errors import UserError
 from hosts.run.command import main
@@ -158,8 +159,6 @@ def test_a_car_gives_the_same_bits_where_it_is_confined(prototype_fmu: Path, tmp
 def test_without_bubblewrap_nothing_is_run(
     faults: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, confining: None
 ) -> None:
-    from ali3 import confinement
-
     confinement._bubblewrap.cache_clear()
     monkeypatch.setenv("PATH", str(tmp_path))
     done = run(main, faults, "--confined", "--out", tmp_path / "out")

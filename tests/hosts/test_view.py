@@ -17,11 +17,13 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
+from PIL import Image
 
 import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts.run.command import main as run_fmu
+from hosts.view import recorded
 from hosts.view.command import main as view
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import open_browser
@@ -279,8 +281,6 @@ def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> No
 def test_a_table_that_would_fill_the_memory_is_read_in_part(
     result: Path, said: Said, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from hosts.view import recorded
-
     monkeypatch.setattr(recorded, "_FEWEST_ROWS", 11)
     monkeypatch.setattr(recorded, "_MOST_VALUES", 0)
     status, text = said(result, "--no-open")
@@ -372,8 +372,6 @@ def test_without_a_browser_for_pictures_there_is_one_sentence(
 
 @pytest.mark.slow
 def test_pictures_and_animations_are_written_without_a_page(result: Path, said: Said) -> None:
-    from PIL import Image
-
     pytest.importorskip("playwright")
     try:
         find_chromium()

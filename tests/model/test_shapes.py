@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+
 import numpy as np
 import pytest
 
 import mbs
 from ali3.errors import UserError
+from ali3.scene.scene import check_scene
 from mbs.model.shapes import KINDS
 from tests.arguments.wrong_values import problems_of
 
@@ -40,8 +43,6 @@ GOOD = {
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_every_kind_stands_in_the_scene(kind, tmp_path):
-    from ali3.scene.scene import check_scene
-
     m, arm = model()
     given = GOOD[kind] if kind != "mesh" else {"file": stl(tmp_path / "part.stl"), "scale": 0.001}
     m.shape(arm, kind, name="part", color="#AABBCC", material="steel", opacity=0.5, **given)
@@ -82,8 +83,6 @@ def test_planar_places_have_two_numbers():
 
 
 def test_a_mesh_is_in_metres_where_the_drawing_has_it(tmp_path):
-    import base64
-
     m, arm = model()
     m.shape(arm, "mesh", file=stl(tmp_path / "part.stl"), scale=0.001)
     m.shape(arm, "mesh", file=tmp_path / "part.stl", scale=0.001, at=(1.0, 2.0, 3.5))

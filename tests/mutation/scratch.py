@@ -20,6 +20,8 @@ import pytest
 
 from tests.modules import module_of
 from tests.mutation.table import ROOT, SOURCES
+from viewer import page_build
+from viewer.bundle import bundle
 
 KILLED, SURVIVED, BROKEN, GONE = "killed", "survived", "broken", "gone"
 NOT_BUILT = 99
@@ -85,8 +87,6 @@ def compiles(root: Path, changed: Path) -> None:
     """
     build: Any = module_of(root / "mbs" / "kernel" / "build.py")  # of the copy, without the package around it
     if changed.suffix == ".js":
-        from viewer.bundle import bundle
-
         bundle()
     elif "kernel" in changed.parts:
         build.compile_library()
@@ -134,8 +134,6 @@ def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, w
 
 
 def _run_in_node(root: Path, test: str, notes: _Notes) -> int:
-    from viewer import page_build
-
     page = root / "viewer" / "page"
     page_build.packages(page)
     notes.write("at", test)

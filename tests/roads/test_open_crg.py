@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mbs.roads import RoadFileError, RoadWarning, SampledRoad, read_road
+from mbs.roads import RoadFileError, RoadWarning, SampledRoad, read_road, write_road
 from mbs.roads.sampled_road import grid_heights
 from tests.roads.test_conversion import arrays
 
@@ -158,8 +158,6 @@ NAN_STAYS = b"$ROAD_CRG_MODS\nGRID_NAN_MODE = 0\n$\n$ROAD_CRG\n"
     ],
 )
 def test_a_file_that_is_no_road_is_refused(tmp_path: Path, content: bytes, sentence: str) -> None:
-    from mbs.roads import write_road
-
     path = written(tmp_path, content)
     if not sentence:
         with pytest.warns(RoadWarning, match=r"a\.crg: (?!.*a\.crg).*\.$"):

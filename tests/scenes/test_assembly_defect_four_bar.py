@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.interpolate import PPoly
 
 from benchmarks.references.assembly_defect import COMPONENTS, reference
 from mbs import compile, simulate
@@ -67,6 +68,4 @@ def test_a_drive_that_no_velocity_satisfies_is_named() -> None:
 
 
 def _ramp(speed: float) -> object:
-    from scipy.interpolate import PPoly
-
     return PPoly([[speed], [0.0]], [0.0, 10.0])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import importlib
+import json
 import math
 import pkgutil
 
@@ -16,7 +18,9 @@ from ali3.scene.recording import Recording
 from ali3.scene.scene import check_scene
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.scenes import double_four_bar, flyball, pendulum, puma, spinning_beam, squeezer
+from mbs.scenes import bicycle, double_four_bar, flyball, pendulum, prototype_car, puma, spinning_beam, squeezer
+from mbs.system.compiled_model import SystemFileError
+from mbs.system.drawing import Drawing, matrices
 
 SCENES = [found.name for found in pkgutil.iter_modules(mbs.scenes.__path__)]
 
@@ -173,8 +177,6 @@ def test_the_place_whose_position_is_sensed_is_the_end_of_a_rod(component):
 
 
 def test_wheels_have_the_radius_of_what_they_roll_on():
-    from mbs.scenes import bicycle, prototype_car
-
     wheels = shapes_of(mbs.compile(bicycle.build()).scene, kind="wheel")
     assert [(w["frame"], w["radius"]) for w in wheels] == [("rear wheel", 0.3), ("front wheel", 0.35)]
     car = prototype_car.build()
@@ -214,15 +216,11 @@ def test_roads(road, expected):
 
 
 def test_a_beam_that_bends_is_drawn_where_its_nodes_are():
-    import base64
-
     system = mbs.compile(spinning_beam.build(2))
     run = mbs.Simulation(system).run(0.3, 0.01)
     last = system.scene["flexible"][-1]
     modes = np.frombuffer(base64.b64decode(last["modes"]), "<f4").reshape(len(last["nodes"]), 3, -1)
     columns = run.recording().columns
-    from mbs.system.drawing import matrices
-
     amplitudes = np.column_stack([columns[name] for name in last["amplitudes"]])
     local = np.array(last["nodes"][-1]) + amplitudes @ modes[-1].T
     R = matrices(run.poses.quaternion("part 1"))
@@ -295,11 +293,6 @@ def test_a_scene_is_a_copy():
 
 
 def test_damaged_drawings_are_refused():
-    import json
-
-    from mbs.system.compiled_model import SystemFileError
-    from mbs.system.drawing import Drawing
-
     system = mbs.compile(pendulum.build())
     content = json.loads(system.drawing.to_bytes())
     content["places"]["shape"][1] += 1

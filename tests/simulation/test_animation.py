@@ -10,6 +10,9 @@ import pytest
 import mbs
 import viewer.drawer
 from ali3.scene.errors import ViewerError
+from ali3.scene.scene import check_scene
+from fmu_src.geometry.roads import with_parameters
+from mbs.elements import ContactPoints, KerbRoad, PlaneRoad, PortRoad
 from mbs.results import poses as poses_module
 from mbs.scenes import bicycle, double_four_bar, pendulum
 from tests.shapes.test_scene import rod_with_a_sensor_of_its_name
@@ -152,9 +155,6 @@ def test_poses_of_a_body_whose_sensor_has_its_name_come_back(tmp_path):
 
 
 def rolling_brick() -> mbs.Model:
-    from mbs.elements.contact_points import ContactPoints
-    from mbs.elements.road import KerbRoad
-
     m = mbs.Model("brick")
     brick = m.body("brick", mass=1.0, com=(0, 0, 2.0), inertia=(0.1, 0.1, 0.1))
     road = m.road(KerbRoad(3.0, 0.1, -0.1), file="road.file")
@@ -165,10 +165,6 @@ def rolling_brick() -> mbs.Model:
 
 
 def test_roads_behind_one_at_ports_keep_their_numbers():
-    from ali3.scene.scene import check_scene
-    from fmu_src.geometry.roads import with_parameters
-    from mbs.elements import ContactPoints, KerbRoad, PlaneRoad, PortRoad
-
     m = mbs.Model("brick")
     brick = m.body("brick", mass=1.0, com=(0, 0, 2.0), inertia=(0.1, 0.1, 0.1))
     roads = [m.road(PortRoad([m.road_answer("answered")])), m.road(PlaneRoad(0.1)), m.road(KerbRoad(3.0, 0.1))]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.interpolate import PPoly
+from scipy.interpolate import BPoly, PPoly
 
 from mbs import Model, Settings, Simulation, compile, floquet, linearise
 
@@ -58,8 +58,6 @@ def test_a_shaken_pendulum_has_the_multipliers_of_its_reduced_equation(amplitude
 
 
 def _quintic(t, amplitude, omega):
-    from scipy.interpolate import BPoly
-
     c, s = np.cos(omega * t), np.sin(omega * t)
     values = amplitude * np.column_stack([c - 1.0, -omega * s, -(omega**2) * c])
     return BPoly.from_derivatives(t, values)

@@ -13,6 +13,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible import natural_modes
 from mbs.model.mechanism import Mechanism
 from mbs.vehicle import Car, Fidelity, load
+from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 from mbs.vehicle.errors import CarFileError
 from tests.vehicle.frame_cars import (
     PROTOTYPE,
@@ -97,8 +98,6 @@ def test_mounts_may_be_named(small: Car) -> None:
 
 def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
     """As drawn."""
-    from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
-
     b = car._builder(car.empty(Mechanism), None)
     mount = flexible_chassis(b.m, car.chassis, car.flexible_frame, Fidelity.DYNAMIC)
     reference = np.array([c.reference for c in b.m.coordinates])

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy import ndimage
 
 from ali3.cones import cone_places
 from hosts.driving.courses import TRACKS, course_of
@@ -48,8 +49,6 @@ def opened(
 
 def middles_of(picture: NDArray[np.int64]) -> NDArray[np.float64]:
     """Column and row of the middle of each thing that is orange; white bands within a cone count as it."""
-    from scipy import ndimage
-
     mask = _orange(picture)
     labels, count = ndimage.label(ndimage.binary_dilation(mask, np.ones((3, 3)), 2))
     found = ndimage.find_objects(np.where(mask, labels, 0), count)

@@ -13,6 +13,7 @@ from ali3.scene.recording import Recording
 from tests.viewer.hand_scenes import floats, moving
 from tests.viewer.test_player import Opened
 from tests.viewer.test_player import opened as opened
+from viewer.page_file import write_page
 
 pytestmark = pytest.mark.slow
 
@@ -60,8 +61,6 @@ def straight(speed: float) -> Recording:
 
 @pytest.fixture(scope="module")
 def seen(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
-    from viewer.page_file import write_page
-
     file = tmp_path_factory.mktemp("paths") / "run.html"
     cones = [{"kind": "cone", "at": [way(1.9)[0], way(1.9)[1] - 0.6, 0.0]}]
     write_page(file, [run("one", scenery=cones)], options={"camera": "top"})

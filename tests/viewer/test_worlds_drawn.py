@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL.Image import open as open_picture
 
 from tests.viewer.hand_scenes import floats, octets
 from tests.viewer.hand_world import LANES, NAMES, height, scenery, terrain
@@ -116,8 +117,6 @@ def test_between_two_surfaces_of_one_channel_there_is_no_third(drawn, eye):
     """Gravel and concrete, lanes side by side: what has neither is asphalt, which is darker."""
     drawn.show(world(roads=[terrain()], extent=62.0), at(0, 0, 0), quality="draft")
     drawn.picture()
-    from PIL.Image import open as open_picture
-
     drawn.ask(_FROM, [eye, [25.0, 11.0, 0.0]])
     seen = np.asarray(open_picture(io.BytesIO(drawn.page.screenshot())).convert("L")).astype(int)
     edge = [drawn.project((x, 7.0, 0.0)) for x in np.linspace(14.0, 60.0, 2000)]

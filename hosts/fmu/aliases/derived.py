@@ -6,6 +6,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from hosts.fmu.aliases.formulas import FORMULAS
+
 if TYPE_CHECKING:
     from hosts.fmu.aliases.formulas import Formula
 
@@ -23,8 +25,6 @@ class Derived:
     @property
     def how(self) -> Formula:
         """The formula itself."""
-        from hosts.fmu.aliases.formulas import FORMULAS
-
         return FORMULAS[self.formula]
 
     @property

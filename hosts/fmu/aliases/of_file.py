@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.variables import Variables
 
 
@@ -15,6 +16,4 @@ def aliases_of(file: str | Path | None, variables: Variables) -> Aliases:
     """
     if file is None:
         return Aliases()
-    from hosts.fmu.aliases.file import find_aliases
-
     return find_aliases(file, variables)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from ali3.units import known_unit
 from hosts.common.display_units import shown_in
@@ -172,8 +173,6 @@ def _round_off_of(unit: str) -> float:
 
 def _numbers(column: pd.Series[Any]) -> tuple[NDArray[np.float64], tuple[str, ...]]:
     """Values of a parameter, or codes and what they stand for."""
-    from pandas.api.types import is_bool_dtype, is_numeric_dtype
-
     if is_bool_dtype(column):
         return column.to_numpy(dtype=np.float64), ("false", "true")
     if is_numeric_dtype(column):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from SALib.analyze import rbd_fast, sobol
 
 from hosts.common.numbers import is_round_off
 
@@ -53,8 +54,6 @@ def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray
     takes blocks to be independent, which scrambled Sobol' points are not: with most numbers of blocks the intervals are
     wider than they need be, but with 384 and 512 one index of six was held for 87 % and 83 %.
     """
-    from SALib.analyze import sobol
-
     width = len(names) + 2
     blocks = np.full((int(points.max()) // width + 1, width), np.nan)
     blocks.flat[points] = y
@@ -109,8 +108,6 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
     S. Tarantola, D. Gatelli, T. Mara, Reliability Engineering and System Safety 91, 2006, 717-727; with the correction
     of bias of J.-Y. Tissot and C. Prieur, 2012; by SALib.
     """
-    from SALib.analyze import rbd_fast
-
     if len(y) < _FEWEST_FOR_ESTIMATE:
         return f"{len(y)} runs yield the measure; from {_FEWEST_FOR_ESTIMATE} on indices are estimated."
     if same := _all_the_same(y):

@@ -6,8 +6,10 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pandas as pd
 from matplotlib import pyplot as plt
 
+from ali3.bars import bar as bar_of
 from ali3.chart_style import STYLE
 from ali3.files import make_folder, whole_file, write_text
 from ali3.html_elements import element
@@ -26,7 +28,9 @@ from hosts.study.analysis.study_section import (
     measures_section,
 )
 from hosts.study.analysis.summary_plots import plot_correlations
+from hosts.study.damage import check_signals
 from hosts.study.folder import ANALYSIS, check_no_link
+from hosts.study.store import read_study, study_record
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,8 +42,6 @@ def write_report(folder: Path) -> list[Path]:
     Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
     study, no run in it yet, a link in the folder, or a file of rows or signals that is damaged.
     """
-    from hosts.study.damage import check_signals
-    from hosts.study.store import read_study, study_record
 
     frame = read_study(folder)
     check_signals(folder, study_record(folder))
@@ -55,10 +57,6 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     """The report of a frame of runs; see `write_report`."""
     if not len(frame):
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
-    import pandas as pd
-
-    from ali3.bars import bar as bar_of
-
     check_no_link(folder)
     data = study_data(frame)
     pictures = Pictures(make_folder(folder / ANALYSIS))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hosts.study.measures.expression import Expression
 from hosts.study.measures.study_measure import StudyMeasure
+from hosts.study.measures.user_function import read_user_function
 
 _FUNCTION = re.compile(r"(.+\.py):\s*([^:\s]*)")
 
@@ -21,6 +22,4 @@ def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeas
     function = _FUNCTION.fullmatch(text.strip())
     if function is None:
         return Expression.read(text, name)
-    from hosts.study.measures.user_function import read_user_function
-
     return read_user_function(folder / function[1], function[2], name)

@@ -10,8 +10,10 @@ import numpy as np
 
 from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.load_paths import load_path_deformations, load_path_modes
 from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.relief_matrices import InertiaRelief
@@ -66,9 +68,6 @@ class FlexibleFrame:
         return self._reduced[which]
 
     def _reduce(self, fidelity: Fidelity) -> ReducedBody:
-        from mbs.flexible.component_modes import craig_bampton
-        from mbs.flexible.load_paths import load_path_deformations, load_path_modes
-
         s, model = self.section, self.model
         if fidelity is Fidelity.PAPER:
             return craig_bampton(model, self.reference, self.interfaces, s.dynamic_modes, damping=self.damping)
@@ -128,9 +127,6 @@ class FlexibleFrame:
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
-        from mbs.flexible.component_modes import craig_bampton
-        from mbs.flexible.load_paths import load_path_deformations
-
         body = craig_bampton(self.model, self.reference, self.interfaces, 0, inertia_modes=True)
         deformation = load_path_deformations(body, forces)
         return np.asarray(deformation.T @ body.K @ deformation)

@@ -10,7 +10,18 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import UserError
+from ali3.files import check_writable, write_text
 from ali3.told_warnings import told_warnings
+from mbs.common.progress import progress_for
+from mbs.vehicle.car_file import load
+from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
+from mbs.vehicle.kinematics.compliance import compliance, fidelity_of
+from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
+from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
+from mbs.vehicle.kinematics.table import rows, text
+from mbs.vehicle.linkages.curve_grid import write_curve_table
+from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
+from mbs.vehicle.suspensions.curve_table import RACK
 
 LEAST_RANGE = 1e-3  # m: who gives metres finds less
 TRAVEL = (-80.0, 80.0)  # mm
@@ -20,18 +31,7 @@ def report(options: argparse.Namespace) -> int:
     """Print what the axles are as drawn, and write page and tables; gives the exit code, 1 where a curve has notes."""
     import matplotlib  # noqa: F401  # missing, it is told before the work
 
-    from ali3.files import check_writable, write_text
-    from mbs.common.progress import progress_for
-    from mbs.vehicle.car_file import load
-    from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
-    from mbs.vehicle.kinematics.compliance import compliance, fidelity_of
-    from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
-    from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
     from mbs.vehicle.kinematics.page import page
-    from mbs.vehicle.kinematics.table import rows, text
-    from mbs.vehicle.linkages.curve_grid import write_curve_table
-    from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
-    from mbs.vehicle.suspensions.curve_table import RACK
 
     travel = TRAVEL if options.travel is None else options.travel
     low, high = checked_travel(tuple(1e-3 * v for v in travel))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 Positions = NDArray[np.float64]
 Triangles = NDArray[np.int64]
@@ -48,6 +49,4 @@ def interpolated(table: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray
 
     `table`: rows, the first number rising; `at`: values of the first column, shape (n,).
     """
-    from scipy.interpolate import PchipInterpolator
-
     return np.asarray(PchipInterpolator(table[:, 0], table[:, 1:], axis=0)(np.clip(at, table[0, 0], table[-1, 0])))

@@ -12,6 +12,7 @@ from pydantic import Field, PrivateAttr
 
 from mbs.elements.magic_tyre import FACTORS, MagicTyre
 from mbs.elements.tyre_bore import TyreBore
+from mbs.tyre_files import TyreFileError, read_tyre
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
@@ -53,8 +54,6 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     def open(self, folder: Path) -> None:
         """Read the tyre property file."""
-        from mbs.tyre_files import TyreFileError, read_tyre
-
         try:
             self._read = read_tyre(beside(folder, self.file, self.key("file")))
             self._tyre = self.tyre("left")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import re
 import shutil
 import time
@@ -12,6 +13,7 @@ from pathlib import Path
 import html5lib
 import numpy as np
 import pytest
+from lxml import etree
 
 from ali3.errors import FileError
 from hosts.catalogue.output import print_measures
@@ -161,10 +163,6 @@ def test_tables_have_headers_and_pictures_have_words(report):
 
 
 def svg_of(picture):
-    import base64
-
-    from lxml import etree
-
     return etree.fromstring(base64.b64decode(picture.source.partition(",")[2]))
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lsim
 
 from hosts.catalogue.dwell_series import table
 from hosts.catalogue.perform import perform
@@ -55,8 +56,6 @@ def test_steady_values_of_a_step(step: TestRecord) -> None:
 
 def test_transients_of_a_step(step: TestRecord) -> None:
     # the ramp of the steering is short against the mode: shifted by its half it is a step
-    from scipy.signal import lsim
-
     found = values(step)
     angle = found["level_2.steering_wheel_angle"]
     rise = angle / math.radians(500.0)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+import hosts.simulator.priority as room
 from hosts.simulator.clock import Clock, LinuxClock, SleepingClock, make_clock
 from hosts.simulator.priority import ask_for_priority
 
@@ -79,8 +80,6 @@ def test_time_that_others_ran_is_told_apart_from_sleep(other: bool) -> None:
 
 
 def test_priority_says_what_was_got(monkeypatch: pytest.MonkeyPatch) -> None:
-    import hosts.simulator.priority as room
-
     tried = []
     for name, words in (("_fifo", ""), ("_nice", ""), ("_keep_memory", "")):
         monkeypatch.setattr(room, name, lambda name=name, words=words: tried.append(name) or words)

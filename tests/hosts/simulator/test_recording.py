@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
+from hosts.driving.co_simulation import run
 from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.last_drive import last_drive
@@ -153,8 +154,6 @@ def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.Mo
 
 def assert_driven_again(fmu: Path, manoeuvre: Path, folder: Path, steps: int) -> None:
     """The command drive gives the outputs of the last steps of the recording, bit for bit."""
-    from hosts.driving.co_simulation import run
-
     drive = read_recording(folder)
     with Fmu(fmu) as again:
         result = run(again, load_manoeuvre(str(manoeuvre)), STEP)
@@ -180,8 +179,6 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
         assert made.stop_time == pytest.approx(0.55)
         assert made.step == STEP
         assert made.start == {"initial.speed": 6.0, "initial.x": 12.5, "initial.yaw": 0.1}
-    from hosts.driving.co_simulation import run
-
     rows = drive.rows()
     begin = int(np.flatnonzero(rows.epoch == 7)[0])
     kept = np.r_[begin : begin + 41, len(rows) - 15 : len(rows)]

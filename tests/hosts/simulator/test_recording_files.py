@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from ali3.processes import module_command
@@ -93,8 +94,6 @@ def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
         rows = read_recording(tmp_path / table).rows()
         assert rows.values.tobytes() == np.array(values).tobytes()
         assert rows.time.tolist() == [0.0, 0.1, 0.2]
-    import pyarrow.parquet as pq
-
     schema = pq.read_schema(tmp_path / "parquet" / "inputs_outputs.parquet")
     assert schema.names == ["time", "count", "epoch", "u", "a", "b"]
     assert schema.field("a").metadata == {b"unit": b"m"}
@@ -102,8 +101,6 @@ def test_every_bit_survives_both_tables(tmp_path: Path) -> None:
 
 def test_a_table_that_grows_is_mostly_numbers(tmp_path: Path) -> None:
     """Directories of parts, one every two seconds, take less than their rows; with statistics and units far more."""
-    import pyarrow.parquet as pq
-
     names = [f"signal {k}" for k in range(200)]
     table = ParquetTable(tmp_path, names, dict.fromkeys(names, "m"))
     steps = np.arange(1000)

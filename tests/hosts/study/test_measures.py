@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -218,8 +219,6 @@ def test_a_users_functions(functions: Path, result: Result) -> None:
 def test_a_function_that_fails_is_nan_with_a_reason(
     functions: Path, result: Result, function: str, sentence: str
 ) -> None:
-    import re
-
     (found,) = parse_measure(f"mine.py:{function}", folder=functions).evaluate(result)
     assert math.isnan(found.value)
     assert re.search(sentence, found.note), found.note

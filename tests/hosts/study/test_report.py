@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 from matplotlib import image
 from matplotlib import pyplot as plt
+from SALib.sample import sobol
 from scipy.stats import qmc
 
 from hosts.common.errors import HostError
@@ -239,8 +240,6 @@ def test_two_manoeuvres_are_two_responses() -> None:
 @pytest.mark.slow
 def test_a_design_of_saltellis_with_failed_runs(tmp_path: Path) -> None:
     """A linear model: the indices of the report are those of the closed form."""
-    from SALib.sample import sobol
-
     problem = {"num_vars": 2, "names": ["a", "b"], "bounds": [[0.0, 1.0]] * 2}
     x = sobol.sample(problem, 256, calc_second_order=False, seed=4)
     y = 3.0 * x[:, 0] - x[:, 1]

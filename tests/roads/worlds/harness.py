@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
+from ali3.scene.base64_numbers import decoded
 from mbs.roads import RoadFile
 from tests.elements.harness import library
 
@@ -75,8 +76,6 @@ def drawn(road, x, y):
 
     Returns (low, high).
     """
-    from ali3.scene.base64_numbers import decoded
-
     low, high = np.full(len(x), np.nan), np.full(len(x), np.nan)
     for patch in road["patches"]:
         (x0, y0), (dx, dy), (n, m) = patch["origin"], patch["spacing"], patch["shape"]

@@ -16,6 +16,7 @@ from mbs.worlds.command import main
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
 from mbs.worlds.terrain import Terrain
+from mbs.worlds.world import ROADS
 from tests.roads.worlds.harness import drawn, opened
 
 PAGE = (Path(__file__).parents[3] / "docs" / "worlds.md").read_text(encoding="utf-8")
@@ -312,8 +313,6 @@ def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys,
 
 @pytest.mark.parametrize("name", ["plane", "kerb", "washboard", "rough", "split"])
 def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
-    from mbs.worlds.world import ROADS
-
     assert main(["--world", name, "--out", str(tmp_path / "out")]) == 0
     assert (tmp_path / "out" / f"{name}.road").read_bytes() == (ROADS / f"{name}.road").read_bytes()
     record = json.loads((tmp_path / "out" / f"{name}.json").read_text(encoding="utf-8"))
