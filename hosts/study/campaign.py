@@ -33,7 +33,6 @@ from hosts.study.parts import PartWriter, forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
 from hosts.study.record import read_record
-from hosts.study.signals import SignalWriter, make_store
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
 from hosts.study.work import FAILED
@@ -214,6 +213,8 @@ def _make(
 ) -> Ended:
     signals: SignalWriter | None = None
     if plan.work.signals:
+        from hosts.study.signals import SignalWriter, make_store
+
         for job in plan.work.jobs:
             if job.manoeuvre is not None:
                 make_store(folder, job, record)

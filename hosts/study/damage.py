@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.study.parts import DamagedPartError, forget_rows, part_files, read_part
-from hosts.study.signals import signal_store
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,11 @@ def _others(runs: NDArray[np.int64], table: Any) -> NDArray[np.bool_]:
 
 
 def _damaged_signals(folder: Path, record: Mapping[str, Any]) -> Iterator[_Damaged]:
-    names = record["signals"]["names"] if record["signals"] else []
+    if not record["signals"]:
+        return
+    from hosts.study.signals import signal_store
+
+    names = record["signals"]["names"]
     for number, manoeuvre in enumerate(record["manoeuvres"]):
         store = signal_store(folder, manoeuvre["name"])
         if names and store.exists():

@@ -23,18 +23,7 @@ PATHS = (
 )
 
 
-OPTIONAL_OF_A_STUDY = {
-    "hosts.driving.driver",
-    "hosts.driving.state_file",
-    "hosts.fmu.aliased_fmu",
-    "hosts.fmu.built_fmu",
-    "hosts.recordings.last_drive",
-    "hosts.study.analysis.report",
-    "hosts.study.catalogue_tests",
-    "hosts.study.repeat",
-    "hosts.study.scheduler",
-    "hosts.study.target",
-}
+OPTIONAL_OF_A_STUDY = {"hosts.study.analysis.report", "hosts.study.repeat", "hosts.study.signals", "hosts.study.target"}
 """What only some options and files of a study ask for."""
 
 
