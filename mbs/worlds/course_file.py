@@ -66,12 +66,12 @@ def course_layer(
         table = _table(course, folder)
         line = through(np.stack([table["x"], table["y"]], axis=1), course.closed, course.name)
     _inside(line, course, bounds)
-    _crossings(line, course)
+    along = _along(line, table)
+    _crossings(line, course, along.get("width", np.full(len(line.points), course.width)))
     if course.heights is not None:
         _rising([s for s, _ in course.heights], course, "heights")
     if course.bank is not None:
         _rising([s for s, _ in course.bank.grades], course, "bank.grades")
-    along = _along(line, table)
     layer = CourseLayer(course, line, ground, *(along.get(name) for name in ("z", "width", "bank")))
     if steep := _climb(layer):
         warnings.warn(steep, RoadWarning, stacklevel=2)
@@ -208,18 +208,19 @@ def _inside(line: CentreLine, course: Course, bounds: tuple[float, float, float,
         )
 
 
-def _crossings(line: CentreLine, course: Course) -> None:
-    """A course may not cross itself: it would have two heights there."""
+def _crossings(line: CentreLine, course: Course, width: Float) -> None:
+    """A course may not cross itself: it would have two heights there. `width`: at each point of the line, m."""
     s = line.stations[:-1] if line.closed else line.stations
     points = line.points[: len(s)]
-    width = course.width
-    pairs = cKDTree(points).query_pairs(0.9 * width, output_type="ndarray")
+    pairs = cKDTree(points).query_pairs(0.9 * width.max(), output_type="ndarray")
     if len(pairs) == 0:
         return
+    mean = 0.5 * (width[pairs[:, 0]] + width[pairs[:, 1]])
+    near = np.hypot(*(points[pairs[:, 1]] - points[pairs[:, 0]]).T[:2]) < 0.9 * mean
     apart = np.abs(s[pairs[:, 1]] - s[pairs[:, 0]])
     if line.closed:
         apart = np.minimum(apart, line.length - apart)
-    back = pairs[apart > 3.2 * width]
+    back = pairs[near & (apart > 3.2 * mean)]
     if len(back):
         a, b = back[0]
         raise RoadFileError(

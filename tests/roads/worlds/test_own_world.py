@@ -126,6 +126,10 @@ def refused(tmp_path, text, course=COURSE):
     return str(error.value)
 
 
+_LEGS = "x,y,width\n-40,-5,{0}\n10,-9,{0}\n30,-10,{0}\n40,0,{0}\n30,10,{0}\n10,9,{0}\n-40,5,{0}\n"
+"""There and back, 10 m apart at the ends."""
+
+
 @pytest.mark.parametrize(
     ("course", "sentence"),
     [
@@ -154,6 +158,7 @@ def refused(tmp_path, text, course=COURSE):
         ("x,y,z\n-40,0,0\n-20,0,0\n0,0,9000\n", "rises by 45000 % between points 2 and 3; z must be in metres"),
         ("x,y,z,width,bank\n-40,0,0,6,5\n40,0,0,6,5\n", "bank of point 1 is 5; it must lie between -1 and 1"),
         ("-40,-40\n40,40\n40,-40\n-40,40\n", "crosses or touches itself at x = "),
+        (_LEGS.format(14), "crosses or touches itself at x = -3"),
     ],
 )
 def test_what_is_wrong_with_a_course_is_said(tmp_path, course, sentence):
