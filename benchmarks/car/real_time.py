@@ -31,25 +31,6 @@ FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
 LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}
 """Limits of the iterations of a step by fidelity, for each of `STEPS`: what a quarter of the deadline has time for."""
 WILD, KERB = "wild", "kerb test"
-COLUMNS = {
-    "drive": "",
-    "fidelity": "d",
-    "step_ms": "g",
-    "limit": "d",
-    "mean_us": ".0f",
-    "p99_9_us": ".0f",
-    "worst_us": ".0f",
-    "worst_alone_us": ".0f",
-    "quarter_us": ".0f",
-    "iterations": ".2f",
-    "most_iterations": "d",
-    "halvings": "d",
-    "capped": "d",
-    "residual_mm": ".2g",
-    "refused": "d",
-}
-WORDS = """worst_alone_us: of steps that the system did not interrupt; quarter_us: a quarter of the deadline; capped:
-steps that ended at the limit; residual_mm: the largest that they left"""
 
 
 def measure(options: Namespace) -> list[dict[str, Any]]:

@@ -29,19 +29,6 @@ LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
 QUICK_DIVISIONS = 2
 CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
 CONTROLLED_TOLERANCES, ORDER_TWO_ENDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8), 1e-5
-COLUMNS = {
-    "scene": "",
-    "family": "",
-    "method": "",
-    "h_s": ".4g",
-    "rtol": ".0e",
-    "position_error_m": ".2e",
-    "energy_deviation_J": ".2e",
-    "wall_s": ".2e",
-    "factorizations": "d",
-    "evaluations": "d",
-    "ended": "",
-}
 Action = Callable[[], tuple[float, dict[str, Any]]]
 
 
@@ -264,9 +251,8 @@ def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
             line["finished"] = f"{sum(r['ended'] == 'finished' for r in runs)} of {len(runs)}"
             times.append(line)
     columns_2 = {"scene": "", "method": ""} | {f"{level:.0e} m": ".3g" for level in LEVELS} | {"finished": ""}
-    charts = "\n".join(f"![{CASES[s].title}](images/work_{s}.png)\n" for s in scenes)
     ratio_table = table(ratios, columns | {"ahead": ""}) + "\n\n" + said
-    return {"ratios": ratio_table, "times": table(times, columns_2), "work charts": charts}
+    return {"ratios": ratio_table, "times": table(times, columns_2)}
 
 
 def _ms(wall: float | None) -> float | None:

@@ -16,22 +16,6 @@ from mbs.vehicle import Fidelity
 GAUGES = ("SG1", "SG3")
 FIDELITIES = tuple(fidelity.name.lower() for fidelity in COMPARED)
 RELEASE = 13.0  # s: tyres let go
-COLUMNS = {
-    "fidelity": "",
-    "h_s": ".3f",
-    "coordinates": "d",
-    "rows": "d",
-    "modes": "d",
-    "iterations_mean": ".2f",
-    "iterations_max": "d",
-    "seconds": ".2f",
-    "realtime_factor": ".1f",
-    **{f"{what}_{g}": ".2f" for g in GAUGES for what in ("peak", "filtered")},
-    "peak_error": ".1e",
-    "filtered_error": ".1e",
-    "left_held": ".1e",
-    "left_free": ".1e",
-}
 
 
 def changes(t: Trajectory, h: float) -> dict[str, float]:
@@ -72,7 +56,7 @@ def measure(fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
         "realtime_factor": kerb_test.DURATION / spent,
     }
     if fidelity.rigid:
-        return row | {name: None for name in COLUMNS if name not in row}
+        return row
     reference = fidelity_runs.read_peaks("kerb_test")
     peaks = changes(found, h)
     errors = {"peak": 0.0, "filtered": 0.0}
