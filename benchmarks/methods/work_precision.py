@@ -42,15 +42,12 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
             t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
         except mbs.SimulationError as error:
             return 0.0, {"ended": f"refused at {error.time:.4g} s"}
-        energy = t["energy.total"]
         report = t.report
         assert report is not None
         return t.wall_s, {
             "ended": "finished",
             "position_error_m": _error(np.column_stack([t[s] for s in case.sensors]), scene),
-            "energy_deviation_J": float(np.abs(energy - energy[0]).max()) if case.energy_stays else None,
             "factorizations": report.factorizations,
-            "evaluations": report.iterations + report.steps,
         }
 
     return act
@@ -74,9 +71,7 @@ def controlled_action(scene: str, method: str, tolerance: float) -> Action:
         return run.wall, {
             "ended": "finished",
             "position_error_m": error,
-            "energy_deviation_J": None,
             "factorizations": report.factorizations,
-            "evaluations": report.iterations + report.steps,
         }
 
     return act
@@ -94,9 +89,7 @@ def classical_action(scene: str, method: str, h: float, solver: str = "RK4", rto
         return r.wall_s, {
             "ended": "finished",
             "position_error_m": _error(r.positions, scene),
-            "energy_deviation_J": float(np.abs(r.energy - r.energy[0]).max()) if case.energy_stays else None,
             "factorizations": r.factorizations,
-            "evaluations": r.evaluations,
         }
 
     return act
@@ -112,7 +105,6 @@ def peer_action(scene: str, engine: Any, integrator: str, h: float) -> Action:
         return r.wall_s, {
             "ended": "finished",
             "position_error_m": _error(r.positions, scene),
-            "energy_deviation_J": None if r.energy is None else float(np.abs(r.energy - r.energy[0]).max()),
         }
 
     return act
@@ -131,7 +123,7 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
 
     def add(family: str, method: str, h: float | None, action: Action, rtol: float | None = None) -> None:
         row = {"scene": scene, "family": family, "method": method, "h_s": h, "rtol": rtol, "position_error_m": None}
-        empty = dict.fromkeys(("energy_deviation_J", "wall_s", "factorizations", "evaluations"))
+        empty = dict.fromkeys(("wall_s", "factorizations"))
         todo.append((row | empty | {"ended": ""}, action))
 
     for d in divisions:
