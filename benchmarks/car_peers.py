@@ -37,27 +37,6 @@ OURS = {"links": "with links", "tables": "by tables"}
 ROUNDS = 3
 PEERS = {"MuJoCo": ("mujoco",), "Exudyn": ("exudyn",), "CommonRoad": ("numba", "vehiclemodels")}
 """Cars of other programs and the modules that they need."""
-COLUMNS = {
-    "scene": "",
-    "step_ms": "g",
-    "car": "",
-    "way": "",
-    "us_a_step": ".1f",
-    "cars_in_real_time_a_core": ".0f",
-    "yaw_rate": ".3f",
-    "speed": ".2f",
-}
-WORDS = {
-    "": """yaw_rate: the largest, rad/s, and speed: at the end, m/s; they say that the manoeuvres are alike, no more:
-errors against each other are not defined.""",
-    "MuJoCo": "MuJoCo's car has no suspension links, no tyre model, no drive and no air.",
-    "Exudyn": """Exudyn's car has the prototype's wheel rates and damping, radial stiffness and friction of its tyres
-and, at the speed of the start, their cornering stiffness. Its wheels rise upright, so that it rolls more; friction
-grows in proportion to slip and load up to a limit. It has no links, no drive and no air.""",
-    "CommonRoad": """CommonRoad's car is a BMW 320i of 1093 kg with axles that roll and rise on springs, 29 states and
-tyres by the Magic Formula without relaxation. It coasts; a step is four evaluations (Runge and Kutta's rule).""",
-}
-"""What the figures say and do not say."""
 
 
 def _rows(options: Namespace) -> list[dict[str, Any]]:
@@ -66,11 +45,6 @@ def _rows(options: Namespace) -> list[dict[str, Any]]:
         say_missing(f"{car}'s car: {' and '.join(PEERS[car])} not installed (python -m pip install 'ali3[peers]')")
     there = [car for car in PEERS if car not in missing]
     return [row for scene in watched(SCENES) for row in measure(*scene, peers=there)]
-
-
-def _words(rows: Sequence[Row]) -> str:
-    cars = {"", *(row["car"] for row in rows)}
-    return "\n".join(words for car, words in WORDS.items() if car in cars)
 
 
 def measure(
@@ -177,10 +151,8 @@ PARTS = {
     "car peers": Part(
         "cars of other programs beside the prototype",
         _rows,
-        COLUMNS,
         pages=("speed.md",),
         blocks=peer_blocks,
-        words=_words,
     )
 }
 

@@ -46,7 +46,6 @@ PARTS = {
     "instructions": Part(
         "iterations, factorizations and solves of the first steps of scenes, and instructions where valgrind is there",
         _instructions,
-        scene_instructions.COLUMNS,
         names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
         options={"against": (Path, "rows that steps are compared with: over 3 % more is an error")},
         pages=("speed.md",),
@@ -56,17 +55,14 @@ PARTS = {
     "growth": Part(
         "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",
         _growth,
-        growth.COLUMNS,
         options={"quick": (False, "N up to 20, one repeat"), "repeats": (growth.REPEATS, "timed runs of a row")},
         pages=("speed_and_accuracy.md",),
         blocks=growth.growth_blocks,
-        words=lambda rows: "\n\n".join(growth.growth_blocks(rows).values()),
         chart=growth.draw,
     ),
     "real-time": Part(
         "worst steps of wild driving by fidelity and step, without and with a limit of their iterations",
         real_time.measure,
-        real_time.COLUMNS,
         options={
             "fmu": (Path, "a native FMU of a car; by default the prototype, built"),
             "seconds": (10.0, "simulated, of each drive, s; an hour each takes a day"),
@@ -77,12 +73,10 @@ PARTS = {
         },
         pages=("speed.md",),
         blocks=real_time.real_time_blocks,
-        words=lambda rows: real_time.WORDS,
     ),
     "throughput": Part(
         "slightly different cars and mechanisms, one after the other, in lanes and in the widest lanes on all cores",
         _throughput,
-        lanes.COLUMNS,
         names=tuple(scene[0] for scene in lanes.SCENES),
         options={"rounds": (3, "of which each part of a run counts by its least")},
         pages=("speed.md",),

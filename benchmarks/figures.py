@@ -54,7 +54,7 @@ SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/s
 def paper_table_1() -> list[Again]:
     """Energy, iterations and position errors of the double four-bar at four of its steps."""
     system = mbs.compile(four_bar_scene.build(2))
-    rows = [double_four_bar.measure(system, 2, "ALi3-P", h, 0.0) for h in (0.05, 0.03, 0.01, 0.005)]
+    rows = [double_four_bar.measure(system, 2, "ALi3-P", h) for h in (0.05, 0.03, 0.01, 0.005)]
     return [Again(PAPER, double_four_bar.four_bar_blocks(rows)["table 1"], "table 1", ("h s",), ("ours ms",))]
 
 
@@ -234,7 +234,8 @@ def elements(whole: bool) -> list[Again]:
 
 def bending() -> list[Again]:
     """Errors of the four-bar with assembly defect by bodies a bar; `benchmarks.paper` writes all."""
-    text = assembly_defect.defect_table([assembly_defect.measure(case, 0)[0] for case in assembly_defect.SHOWN[:3]])
+    rows = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in assembly_defect.CASES[:3]]
+    text = assembly_defect.defect_blocks(rows)["defect"]
     return [Again("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
 
 

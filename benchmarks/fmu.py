@@ -31,7 +31,7 @@ def _calls(options: Namespace) -> list[dict[str, Any]]:
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
             asked = options.steps, min(options.repeats, 64), options.instances
             rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *asked)
-    return [row | {"meaning": fmu_calls.QUANTITIES.get(row["quantity"], "size of the file")} for row in rows]
+    return rows
 
 
 def _plant(options: Namespace) -> list[dict[str, Any]]:
@@ -51,7 +51,6 @@ PARTS = {
     "calls": Part(
         "calls of the native FMU and of that of PythonFMU, from C and through FMPy",
         _calls,
-        fmu_calls.COLUMNS,
         options={
             "scene": ("prototype_car", "car or scene, as of ali3 build"),
             "steps": (1000, "calls of a timed run"),
@@ -64,7 +63,6 @@ PARTS = {
     "wasm": Part(
         "a step of the prototype as WebAssembly in each host, beside the native library",
         lambda options: wasm_times.measure(options.steps, options.repeats, options.rounds),
-        wasm_times.COLUMNS,
         options={
             "steps": (2000, "of a timed run"),
             "repeats": (3, "timed runs a round"),
@@ -72,7 +70,6 @@ PARTS = {
         },
         pages=("fmu.md",),
         blocks=wasm_times.wasm_blocks,
-        words=lambda rows: wasm_times.WORDS,
     ),
     "plant": Part(
         "steps per second of a car in Python and of its environments, beside bare FMPy (extra `learn`)",
@@ -88,12 +85,10 @@ PARTS = {
     "study": Part(
         "what Dask takes beside runs of about 0.1 s; memory, disk and starts as runs grow in number (extra `study`)",
         studies.measure,
-        studies.COLUMNS,
         names=studies.PARTS,
         options=studies.OPTIONS,
         pages=("scale.md",),
         blocks=study_blocks,
-        words=lambda rows: studies.WORDS,
     ),
 }
 

@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.methods.stability import COLUMNS, SCENES, measure, stability_blocks
+from benchmarks.methods.stability import SCENES, measure, stability_blocks
 from benchmarks.methods.stability_chart import draw
 from benchmarks.references.cases import CASES
 from benchmarks.shared.command import Part, run
@@ -25,10 +25,6 @@ def _maps(options: Namespace) -> list[dict[str, Any]]:
     return [row for scene in options.only for row in measure(scene, options.quick)]
 
 
-def _words(rows: Sequence[Row]) -> str:
-    return "\n\n".join(text for name, text in stability_blocks(rows).items() if "charts" not in name)
-
-
 def _draw(rows: Sequence[Row], folder: Path) -> None:
     for scene in dict.fromkeys(row["scene"] for row in rows):
         title = f"{CASES[scene].title} (whole motion, {CASES[scene].end:g} s)"
@@ -39,12 +35,10 @@ PARTS = {
     "stability": Part(
         "maps of all scenes",
         _maps,
-        COLUMNS,
         names=SCENES,
         options={"quick": (False, "few points of each scene")},
         pages=("stability.md",),
         blocks=stability_blocks,
-        words=_words,
         chart=_draw,
     )
 }

@@ -10,14 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import peers
-from benchmarks.methods import bicycle, dissipative, error_control, naive, work_precision
-from benchmarks.methods.kernel_methods import suits
+from benchmarks.methods import dissipative, error_control, naive, work_precision
 from benchmarks.methods.work_precision_chart import LOST, draw
-from benchmarks.references.cases import CASES, SLOW, size_of, store, system_of
+from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.command import Part, run, say_missing, watched
 from benchmarks.shared.pages import Row
+from benchmarks.shared.tables import plain_table
 from benchmarks.shared.warned import wrong_on_purpose
-from mbs.settings.settings import METHODS
 
 
 @wrong_on_purpose()
@@ -56,13 +55,6 @@ def _dissipative(options: Namespace) -> list[dict[str, Any]]:
     return [dissipative.measure(*one, h) for one in watched(todo) for h in steps[one[0]]]
 
 
-def _bicycle(options: Namespace) -> list[dict[str, Any]]:
-    methods = [method for method in METHODS if suits(method, True, system_of("bicycle"))]
-    todo = [(method, h) for method in methods for h in (bicycle.STEPS[1:2] if options.quick else bicycle.STEPS)]
-    linear = [{"table": "linear", **row} for row in bicycle.linear()]
-    return linear + [{"table": "methods", **bicycle.measure(*one)} for one in watched(todo)]
-
-
 def _motions(options: Namespace) -> None:
     for name in watched(options.only):
         store(name)
@@ -72,7 +64,6 @@ PARTS = {
     "charts": Part(
         "every method over a range of steps and tolerances against exact motions, beside other engines",
         _charts,
-        work_precision.COLUMNS,
         names=tuple(CASES),
         options={
             "quick": (False, "two steps and one repeat of each scene"),
@@ -80,33 +71,23 @@ PARTS = {
         },
         pages=("speed_and_accuracy.md",),
         blocks=work_precision.work_blocks,
-        words=lambda rows: work_precision.work_blocks(rows)["ratios"],
         chart=_draw,
     ),
     "control": Part(
         "runs to a tolerance by every method that may be chosen and by the choice itself",
         _control,
-        error_control.COLUMNS,
         names=error_control.SCENES,
         options={"quick": (False, "one tolerance, one repeat")},
         pages=("speed_and_accuracy.md",),
         blocks=error_control.control_blocks,
-        words=lambda rows: f"{len(error_control.misses(rows))} misses: choices that are slow or wrong, silent errors",
     ),
     "dissipative": Part(
         "flexible scenes and the car, which have no exact motion: fine, wrong, or refused with a reason",
         _dissipative,
-        dissipative.COLUMNS,
         names=tuple(dissipative.SCENES),
         options={"quick": (False, f"{' and '.join(dissipative.QUICK)} with the default method and one step")},
         pages=("stability.md",),
         blocks=dissipative.dissipative_blocks,
-    ),
-    "bicycle": Part(
-        "the rigid bicycle against what is published and against rolling outside of the kernel",
-        _bicycle,
-        bicycle.COLUMNS,
-        options={"quick": (False, "one step size")},
     ),
     "motions": Part(
         "write the exact motions that take long, by minimum-norm accelerations under DOP853 or Radau",
@@ -117,10 +98,10 @@ PARTS = {
     "naive": Part(
         "what models without savings cost: twelve coordinates a body, a row for every equation of a joint",
         lambda options: [naive.measure(scene, options.repeats) for scene in watched(list(naive.SCENES))],
-        naive.COLUMNS,
         options={"repeats": (3, "timed runs of a row")},
         pages=("flexible_car.md",),
         blocks=lambda rows: {"naive": naive.size_table(rows)},
+        words=plain_table,
     ),
 }
 

@@ -2,9 +2,7 @@
 
 Errors of a manoeuvre are against a stored reference, which ``references`` makes. Path: largest distance between the
 car's reference point and its place in the reference at the same time, m, or over the length of the way. Wheel load:
-largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel; those of FMPy
-set the inputs, make a communication step of the same length and get four outputs, with inputs that are held over a
-communication step or follow their first derivatives.
+largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel.
 """
 
 from __future__ import annotations
@@ -88,32 +86,26 @@ PARTS = {
     "accuracy": Part(
         "errors and cost of a car's manoeuvres by step, in the kernel and through its FMU",
         _accuracy,
-        accuracy.COLUMNS,
         names=manoeuvres.NAMES,
         options=ONE_CAR | {"repeats": (5, "timed runs of a row"), "no_fmu": (False, "leave the runs through FMPy out")},
         pages=("speed.md", "fmu.md", "cars.md"),
         blocks=accuracy.page_blocks,
-        words=lambda rows: "\n".join(accuracy.verdict(rows)),
     ),
     "cars": Part(
         "one table of all cars with steps of 5 ms; rows of other cars are those that are stored",
         lambda options: all_cars.measure(options.only, options.repeats),
-        all_cars.COLUMNS,
         names=manoeuvres.CARS,
         options=REPEATS,
         pages=("cars.md",),
         blocks=lambda rows: {"all cars": all_cars.text_of(rows)},
-        words=all_cars.text_of,
     ),
     "tables": Part(
         "cars whose suspensions are tables against those with links",
         _tables,
-        tabled_cars.COLUMNS,
         names=manoeuvres.NAMES,
         options=REPEATS | {"cars": (tabled_cars.CARS, f"of {', '.join(manoeuvres.CARS)}")},
         pages=("cars.md",),
         blocks=_tables_block,
-        words=tabled_cars.verdict,
     ),
     "handling": Part(
         "ride, roll, understeer and performance of cars beside what cars of the small class have",
@@ -125,25 +117,21 @@ PARTS = {
     "trust": Part(
         "errors by steps in a period, by speed over a kerb, and of hard manoeuvres",
         lambda options: trust.measure(),
-        trust.COLUMNS,
         pages=("trust.md",),
         blocks=trust.trust_blocks,
     ),
     "fidelity": Part(
         "how much model a car needs: manoeuvres with every fidelity of the prototype",
         _fidelity,
-        fidelity.COLUMNS,
         names=fidelity_runs.NAMES,
         options=REPEATS,
         pages=("flexible_car.md",),
         blocks=fidelity.choice_blocks,
-        words=lambda rows: "\n".join(fidelity.verdict(rows)),
         chart=fidelity.chart,
     ),
     "faces": Part(
         "wheel loads up a kerb and up faces of grids, coasting in neutral",
         lambda options: [road_faces.measure(options.car, height) for height in watched(road_faces.HEIGHTS)],
-        road_faces.COLUMNS,
         options={"car": ("hatchback", "name, folder or file")},
         pages=("roads.md",),
         blocks=lambda rows: {"faces": road_faces.face_table(rows)},
@@ -151,7 +139,6 @@ PARTS = {
     "edges": Part(
         "wheel loads up edges that a partner at the road port answers",
         lambda options: [edge_answers.measure(car, edge) for car, edge in watched(edge_answers.EDGES)],
-        edge_answers.COLUMNS,
         pages=("fmu.md",),
         blocks=lambda rows: {"edges": edge_answers.edge_table(rows)},
     ),

@@ -15,37 +15,15 @@ from ali3.errors import UserError
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
 from benchmarks.shared.pages import Row, table
-from benchmarks.shared.timing import best_time
-from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu import Fmu
 from mbs import Trajectory
 
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
-COLUMNS = {
-    "manoeuvre": "",
-    "h_s": ".3f",
-    "path_error_m": ".2e",
-    "path_error_rel": ".1e",
-    "wheel_load_error_rel": ".1e",
-    "iterations_mean": ".2f",
-    "iterations_max": ".0f",
-    "halvings": ".0f",
-    "us_per_step": ".1f",
-    "realtime_factor": ".0f",
-    "us_per_step_fmpy": ".1f",
-    "realtime_factor_fmpy": ".0f",
-    "path_error_rel_fmpy_held": ".1e",
-    "wheel_load_error_rel_fmpy_held": ".1e",
-    "path_error_rel_fmpy_followed": ".1e",
-    "wheel_load_error_rel_fmpy_followed": ".1e",
-}
 PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
-AIM = 50.0  # times real time
 BEFORE = 1e-8  # s: at a jump of an input the value before it
 ERRORS = ("path_error_rel", "wheel_load_error_rel")
-OUTPUTS = (*trajectories.POSITION, "speed")
 TITLES = {
     "launch_and_brake": "launch and brake",
     "kerb_drop": "8 cm kerb at 5 m/s",
@@ -62,26 +40,6 @@ SMALLER = {"kerb_lock_brake": (0.002,)}
 HELD = ("the same through the FMU, inputs held",)
 TIMES, SHOWN = ("us per step", "times real time"), 0.005
 WITHOUT_INPUTS = ("kerb_drop", "drop")
-
-
-def time_of_fmu(file: Path, name: str, h: float, repeats: int, car: str = manoeuvres.PROTOTYPE) -> float:
-    """Least processor time of the communication loop of a manoeuvre through FMPy, s."""
-    manoeuvre, start = manoeuvres.load(name, car), start_of_fmu(name, car)
-    steps = round(manoeuvre.stop_time / h)
-    rows = [list(manoeuvre.at(k * h).values()) for k in range(steps)]
-
-    def once() -> float:
-        with Fmu(file) as fmu:
-            set_inputs, get_outputs = fmu.setter(list(manoeuvre.inputs)), fmu.getter(OUTPUTS)
-            fmu.initialise(start | manoeuvre.at(0.0) | {"step_size": h})
-            begin = time.process_time()
-            for k, row in enumerate(rows):
-                set_inputs(row)
-                fmu.step(k * h, h)
-                get_outputs()
-            return time.process_time() - begin
-
-    return best_time(once, repeats)
 
 
 def start_of_fmu(name: str, car: str = manoeuvres.PROTOTYPE) -> dict[str, Value]:
@@ -142,44 +100,14 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
         "halvings": report.halvings,
         "us_per_step": 1e6 * spent * h / duration,
         "realtime_factor": duration / spent,
-        "us_per_step_fmpy": None,
-        "realtime_factor_fmpy": None,
         **{f"{key}{way}": None for way in (held, followed) for key in ERRORS},
     }
     if fmu is not None and name not in manoeuvres.OTHER_ROAD:
-        spent = time_of_fmu(fmu, name, h, max(1, repeats // 2), car)
-        row |= {"us_per_step_fmpy": 1e6 * spent * h / duration, "realtime_factor_fmpy": duration / spent}
         for way in (held, followed):
             through = run_of_fmu(fmu, name, h, way == followed, car)
             errors = trajectories.path_error(through, values) / length, trajectories.load_error(through, values)
             row |= {f"{key}{way}": value for key, value in zip(ERRORS, errors, strict=True)}
     return row
-
-
-def verdict(rows: Sequence[Row]) -> list[str]:
-    """Per manoeuvre and for all: the largest step within the bounds, and its real-time factor."""
-    lines, largest = [], []
-    names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
-    for name in names:
-        good = [
-            row
-            for row in rows
-            if row["manoeuvre"] == name
-            and row["path_error_rel"] <= PATH_BOUND
-            and row["wheel_load_error_rel"] <= LOAD_BOUND
-        ]
-        if not good:
-            lines.append(f"{name}: no step stays within the bounds")
-            continue
-        best = max(good, key=lambda row: row["h_s"])
-        largest.append(best["h_s"])
-        lines.append(f"{name}: {1e3 * best['h_s']:g} ms, {best['realtime_factor']:.0f} times real time")
-    if len(largest) == len(names):
-        h = min(largest)
-        slowest = min(row["realtime_factor"] for row in rows if row["h_s"] == h)
-        word = "reached" if slowest >= AIM else "missed"
-        lines.append(f"all: {1e3 * h:g} ms, at least {slowest:.0f} times real time (aim {AIM:g}: {word})")
-    return lines
 
 
 def build_fmu_of(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:

@@ -23,7 +23,6 @@ from benchmarks.shared.pages import Row, table
 
 STEP, SMALLER, FINE = 0.005, (0.002, 0.001), 0.0002  # s
 COUNTED = 500  # steps
-COLUMNS = {"car": "", "manoeuvres": "d"}
 STORED = Path(__file__).parents[1] / "data" / "car_table.json"
 
 

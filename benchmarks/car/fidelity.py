@@ -19,22 +19,6 @@ from mbs.vehicle.levels import choice
 from mbs.vehicle.levels.choice import Choice
 
 STEPS = (0.01, 0.005, 0.002)  # s
-COLUMNS = {
-    "manoeuvre": "",
-    "fidelity": "",
-    "h_s": ".3f",
-    "coordinates": "d",
-    "rows": "d",
-    "modes": "d",
-    "moment": ".3f",
-    "moment_unfiltered": ".3f",
-    "motion": ".1e",
-    "wheel_load": ".3f",
-    "iterations_mean": ".2f",
-    "iterations_max": "d",
-    "us_per_step": ".0f",
-    "realtime_factor": ".1f",
-}
 COLOURS = {
     Fidelity.TABLE: "#999999",
     Fidelity.RIGID: "#222222",
@@ -183,20 +167,3 @@ def choice_again(page: str, step_ms: float = 10.0) -> str:
 
 def _error(output: str, value: float) -> str:
     return f"{1e3 * value:.1f} mm" if output == "motion" else f"{100.0 * value:.1f} %"
-
-
-def verdict(rows: Sequence[Row]) -> list[str]:
-    """The cheapest fidelity for some outputs and tolerances."""
-    lines = []
-    for output, tolerance in REQUIRED.values():
-        unit = " m" if output == "motion" else ""
-        try:
-            c = cheapest(rows, output, tolerance)
-        except ValueError as error:
-            lines.append(str(error))
-            continue
-        lines.append(
-            f"{output} to {tolerance:g}{unit}: fidelity {c.fidelity.name.lower()}, step {1e3 * c.h:g} ms, "
-            f"{c.ms_per_second:.1f} ms per simulated second (error {c.error:.2g}{unit}); it leaves out {c.left_out}."
-        )
-    return lines

@@ -18,17 +18,6 @@ from benchmarks.shared.timing import best_time
 from fmu_src.native.sources import HERE as FMI_HEADERS
 from mbs.kernel import build
 
-QUANTITIES = {
-    "step": "us per fmi2DoStep of one inner step",
-    "get_all": "us per fmi2GetReal of all outputs after a step",
-    "get_again": "us per fmi2GetReal of all outputs, nothing changed",
-    "set_one": "us per fmi2SetReal of one input",
-    "save_restore_free": "us per get, set and free of the FMU state",
-    "instantiate_to_initialised": "us from fmi2Instantiate to the end of initialisation",
-    "many_start_s": "s to start all instances",
-    "many_step": "us per step, all instances in turn",
-    "memory_per_instance_kB": "kB the FMU asks its host for",
-}
 CALLS = {
     "step": "one step of 2 ms",
     "get_all": "all outputs after a step",
@@ -40,31 +29,24 @@ CALLS = {
 """Quantities that are shown."""
 HOSTS = {"native from C": ("native", "C"), "native through FMPy": ("native", "FMPy")}
 HOSTS |= {"Python from C": ("python", "C"), "Python through FMPy": ("python", "FMPy")}
-COLUMNS = {"quantity": "", "kind": "", "host": "", "value": ".4g", "meaning": ""}
 SOURCE = Path(__file__).parent / "c" / "time_fmu.c"
 
 
-def measure(
-    fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instances: int
-) -> list[dict[str, str | float | None]]:
+def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instances: int) -> list[dict[str, Any]]:
     """All figures of one FMU.
 
     `kind`: ``native`` or ``python``; `steps`, `repeats`, `instances`: calls per timed run, timed runs per figure,
-    instances at once. Result: ``quantity``, ``kind``, ``host``, ``value``; None where the C host cannot run it.
+    instances at once. Result: ``quantity``, ``kind``, ``host``, ``value``; nothing of C where it cannot run it.
     """
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
-    rows: list[dict[str, str | float | None]] = [
-        {"quantity": "file_MB", "kind": kind, "host": "C", "value": fmu.stat().st_size / 1e6}
-    ]
-    from_c = time_from_c(folder, steps, repeats, instances if kind == "native" else 30)
-    from_fmpy = time_from_fmpy(folder, steps, repeats)
-    for quantity in QUANTITIES:
-        if kind == "python" and quantity.startswith(("many", "memory")):
-            continue
-        rows.append({"quantity": quantity, "kind": kind, "host": "C", "value": from_c.get(quantity)})
-        if quantity in from_fmpy:
-            rows.append({"quantity": quantity, "kind": kind, "host": "FMPy", "value": from_fmpy[quantity]})
+    rows: list[dict[str, Any]] = [{"quantity": "file_MB", "kind": kind, "host": "C", "value": fmu.stat().st_size / 1e6}]
+    hosts = {
+        "C": time_from_c(folder, steps, repeats, instances if kind == "native" else 30),
+        "FMPy": time_from_fmpy(folder, steps, repeats),
+    }
+    for host, found in hosts.items():
+        rows += [{"quantity": name, "kind": kind, "host": host, "value": value} for name, value in found.items()]
     return rows
 
 

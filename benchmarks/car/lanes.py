@@ -209,13 +209,3 @@ SCENES = (
     ("40 windows", 0.01, partial(varied_four_bars, 40)),
     ("flexible four-bar", 0.01, partial(one_after_another, assembly_defect_four_bar.build, 1.0)),
 )
-COLUMNS = {
-    "scene": "",
-    "step_ms": "g",
-    "way": "",
-    "us_a_step": ".1f",
-    "ratio": ".2f",
-    "cars_in_real_time_a_core": ".0f",
-    "steps_alone": "d",
-    "kilobytes_a_car": ".0f",
-}

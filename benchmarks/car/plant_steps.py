@@ -28,14 +28,6 @@ ENVIRONMENTS = ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap")
 FMPY, CAR, ONE = "FMPy", "car in Python", "environment"
 Way: TypeAlias = tuple[Callable[[], object], Callable[[int], object]]
 """A new start, and a step of a number."""
-COLUMNS = {
-    "environment": "",
-    "step_ms": "g",
-    "way": "",
-    "steps_a_second": ".0f",
-    "over_fmpy": ".2f",
-    "us_of_processor": ".0f",
-}
 
 
 def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -> list[dict[str, Any]]:
@@ -78,14 +70,12 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             made.close()
         shutil.rmtree(folder)
     count = {way: steps * (several if way in together else 1) for way in ways}
-    rate = {way: count[way] / float(walls[way].sum()) for way in ways}
     return [
         {
             "environment": name,
             "step_ms": 1e3 * plain.car.step_length,
             "way": way,
-            "steps_a_second": rate[way],
-            "over_fmpy": rate[way] / rate[FMPY],
+            "steps_a_second": count[way] / float(walls[way].sum()),
             "us_of_processor": None if "Async" in way else 1e6 * spent[way] / count[way],
         }
         for way in ways

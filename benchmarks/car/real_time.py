@@ -1,8 +1,7 @@
 """Worst steps of wild driving: the prototype at random over kerbs, rough ground and ramps.
 
-At each fidelity and step it is driven once without a limit of the iterations of a step and once with `LIMITS`; with all
-modes of its frame it makes the paper's kerb test too. Measured is processor time of the thread, which leaves out what
-others do in between.
+At each fidelity and step it is driven once without a limit of the iterations of a step and once with `LIMITS`. Measured
+is processor time of the thread, which leaves out what others do in between.
 """
 
 from __future__ import annotations
@@ -21,35 +20,12 @@ from benchmarks.car.wild_ground import write_ground
 from benchmarks.shared.pages import Row, table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
-from mbs import compile
 from mbs.common.progress import progress_for
-from mbs.scenes import kerb_test
-from mbs.vehicle.fidelity import Fidelity
 
 LIMITED_STEP = 2.0  # ms
 FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
 LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}
 """Limits of the iterations of a step by fidelity, for each of `STEPS`: what a quarter of the deadline has time for."""
-WILD, KERB = "wild", "kerb test"
-COLUMNS = {
-    "drive": "",
-    "fidelity": "d",
-    "step_ms": "g",
-    "limit": "d",
-    "mean_us": ".0f",
-    "p99_9_us": ".0f",
-    "worst_us": ".0f",
-    "worst_alone_us": ".0f",
-    "quarter_us": ".0f",
-    "iterations": ".2f",
-    "most_iterations": "d",
-    "halvings": "d",
-    "capped": "d",
-    "residual_mm": ".2g",
-    "refused": "d",
-}
-WORDS = """worst_alone_us: of steps that the system did not interrupt; quarter_us: a quarter of the deadline; capped:
-steps that ended at the limit; residual_mm: the largest that they left"""
 
 
 def measure(options: Namespace) -> list[dict[str, Any]]:
@@ -58,30 +34,21 @@ def measure(options: Namespace) -> list[dict[str, Any]]:
     if not (set(fidelities) <= set(FIDELITIES) and set(steps) <= set(STEPS)):
         raise UserError(f"Fidelities are of {FIDELITIES} and steps of {STEPS} ms; given: {fidelities} and {steps}.")
     limits = {(f, h): only or [0, LIMITS[f][STEPS.index(h)]] for f in fidelities for h in steps}
-    cases = [(WILD, fidelity, step, limit) for (fidelity, step), chosen in limits.items() for limit in chosen]
-    if options.fmu is None and Fidelity.DYNAMIC in fidelities:
-        cases += [(KERB, int(Fidelity.DYNAMIC), step, 0) for step in steps]
+    cases = [(fidelity, step, limit) for (fidelity, step), chosen in limits.items() for limit in chosen]
     rows = []
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, progress_for(None) as bar:
         road = Path(folder, "wild.road")
         targets = write_ground(road)
-        cars = {WILD: options.fmu or _built(Path(folder))}
-        if cases[-1][0] == KERB:
-            cars[KERB] = _kerb(Path(folder))
-        for k, (name, fidelity, ms, limit) in enumerate(cases):
+        car = options.fmu or _built(Path(folder))
+        for k, (fidelity, ms, limit) in enumerate(cases):
             start = {"fidelity": fidelity, "solver.step_iterations": limit, "road.file": str(road.resolve())}
-            how = (start, options.seconds, targets) if name == WILD else ({}, kerb_test.DURATION, None)
             costs = drive(
-                *(cars[name], *how, 1e-3 * ms, options.seed),
+                *(car, start, options.seconds, targets, 1e-3 * ms, options.seed),
                 lambda share, k=k: bar.update((k + share) / len(cases)),
             )
-            row: dict[str, Any] = {"drive": name, "fidelity": fidelity, "step_ms": ms, "limit": limit}
+            row: dict[str, Any] = {"fidelity": fidelity, "step_ms": ms, "limit": limit}
             rows.append(row | summary(costs, 1e-3 * ms))
     return rows
-
-
-def _kerb(folder: Path) -> Path:
-    return build_fmu(compile(kerb_test.build(Fidelity.DYNAMIC)), "kerb_test", folder, [fmpy.platform])
 
 
 def _built(folder: Path) -> Path:
@@ -91,7 +58,6 @@ def _built(folder: Path) -> Path:
 
 def real_time_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Worst steps of wild driving without a limit, and what limits leave at 2 ms."""
-    rows = [row for row in rows if row["drive"] == WILD]
     free = [
         {
             "fidelity": r["fidelity"],

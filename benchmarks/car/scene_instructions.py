@@ -19,15 +19,6 @@ from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_c
 
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
 STORED = Path(__file__).parents[1] / "data" / "instructions.json"
-COLUMNS = {
-    "scene": "",
-    "step_ms": "g",
-    "steps": "d",
-    "iterations": ".3f",
-    "factorizations": ".3f",
-    "solves": ".3f",
-    "instructions": ",d",
-}
 MOST = 1.03
 """Ratio to the stored table from which on a step is dearer."""
 

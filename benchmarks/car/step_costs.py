@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,11 +16,6 @@ from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import SENSES
 from hosts.driving.wild_driver import Target, WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
-
-try:
-    import resource
-except ImportError:  # Windows
-    resource = None  # type: ignore[assignment]
 
 RUN = 20.0  # s, after which the car starts again
 ROLLED, LYING = 1.2, 3.0  # rad, s: a car that lies so long starts again
@@ -40,24 +34,14 @@ class Costs:
     """`iterations`, `halvings`, `capped`: of this step."""
     residual: NDArray[np.float64]
     """What a capped step left, m."""
-    interrupted: NDArray[np.bool_]
-    """Whether the system took the processor away during the step."""
     refused: list[str]
-    starts: int
-
-
-def _switches() -> int:
-    """How often the system took the processor away from this thread."""
-    if resource is None:
-        return 0
-    return resource.getrusage(getattr(resource, "RUSAGE_THREAD", resource.RUSAGE_SELF)).ru_nivcsw
 
 
 def drive(
     fmu: Path,
     start: Mapping[str, Value],
     seconds: float,
-    targets: Sequence[Target] | None,
+    targets: Sequence[Target],
     step: float,
     seed: int,
     progress: Callable[[float], None],
@@ -68,8 +52,8 @@ def drive(
     ----------
     start : mapping
         Start values beside the place.
-    targets : sequence of Target, optional
-        What is driven at; None where nobody drives, as the FMU's own guide does.
+    targets : sequence of Target
+        What is driven at.
     step : float
         Communication and inner step, s.
     progress : callable
@@ -80,12 +64,10 @@ def drive(
 
 
 class _Drive:
-    def __init__(
-        self, car: Fmu, start: dict[str, Value], step: float, seed: int, targets: Sequence[Target] | None
-    ) -> None:
+    def __init__(self, car: Fmu, start: dict[str, Value], step: float, seed: int, targets: Sequence[Target]) -> None:
         self.car, self.values, self.h, self.seed, self.targets = car, start, step, seed, targets
         self.inputs = car.names("input")
-        self.driver = None if targets is None else WildDriver(seed, self.inputs, targets)
+        self.driver = WildDriver(seed, self.inputs, targets)
         self.read, self.set = car.getter((*SENSES, *_READ)), car.setter(self.inputs)
         self.held = dict(zip(self.inputs, car.start_values(self.inputs).tolist(), strict=True))
         self.starts = self.steps = 0
@@ -100,8 +82,7 @@ class _Drive:
                 if self.starts > 1:
                     self.car.reset()
                 chance = 1000 * self.seed + self.starts
-                place = {} if self.targets is None else wild_start(chance, self.targets)
-                self.car.initialise(self.values | place)
+                self.car.initialise(self.values | wild_start(chance, self.targets))
                 break
             except HostError:
                 if self.starts >= 50:
@@ -110,7 +91,7 @@ class _Drive:
 
     def go(self, n: int, progress: Callable[[float], None]) -> Costs:
         whole = [np.zeros(n, dtype=np.int64) for _ in range(3)]
-        us, residual, interrupted = np.zeros(n), np.zeros(n), np.zeros(n, dtype=bool)
+        us, residual = np.zeros(n), np.zeros(n)
         refused: list[str] = []
         self.begin()
         collecting = gc.isenabled()
@@ -119,7 +100,7 @@ class _Drive:
             for k in range(n):
                 if k % 500 == 0:
                     progress(k / n)
-                us[k], interrupted[k], refusal = self.step(k)
+                us[k], refusal = self.step(k)
                 if refusal:
                     refused.append(refusal)
                 else:
@@ -130,46 +111,42 @@ class _Drive:
                     self.lying = self.lying + self.h if abs(roll) > ROLLED else 0.0
                 if refusal or self.lying > LYING or self.steps * self.h >= RUN:
                     self.begin()
-                    if self.driver is not None:
-                        self.driver.restart(k * self.h)
+                    self.driver.restart(k * self.h)
         finally:
             if collecting:
                 gc.enable()
-        return Costs(us, *whole, residual, interrupted, refused, self.starts)
+        return Costs(us, *whole, residual, refused)
 
     last = (0.0, 0.0)  # halvings and capped steps since the start, before the present step
 
-    def step(self, k: int) -> tuple[float, bool, str]:
-        """One step: microseconds, whether it was interrupted, why it was refused."""
+    def step(self, k: int) -> tuple[float, str]:
+        """One step: microseconds, why it was refused."""
         if self.steps == 0:
             self.last = 0.0, 0.0
-        if self.driver is not None:
-            self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
+        self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
         row = [self.held[name] for name in self.inputs]
         self.set(row)
         refusal = ""
-        switches, begin = _switches(), time.thread_time_ns()
+        begin = time.thread_time_ns()
         try:
             self.car.step(self.steps * self.h, self.h)
         except StepRefusedError as error:
             refusal = str(error)
         spent = 1e-3 * (time.thread_time_ns() - begin)
-        interrupted = _switches() != switches
         self.steps += 1
         if not refusal:
             self.seen = self.read()
-        return spent, interrupted, refusal
+        return spent, refusal
 
 
 def summary(costs: Costs, step: float) -> dict[str, object]:
     """Numbers of a drive, for a table."""
-    us, alone = costs.us, costs.us[~costs.interrupted]
+    us = costs.us
     return {
         "steps": len(us),
         "mean_us": float(us.mean()),
         "p99_9_us": float(np.percentile(us, 99.9)),
         "worst_us": float(us.max()),
-        "worst_alone_us": float(alone.max()) if len(alone) else math.nan,
         "quarter_us": 0.25e6 * step,
         "iterations": float(costs.iterations.mean()),
         "most_iterations": int(costs.iterations.max()),

@@ -15,10 +15,6 @@ from mbs.vehicle.levels.errors import load_error, path_error
 
 STEP = 0.005  # s
 CARS = (manoeuvres.PROTOTYPE, "hatchback")
-COLUMNS = {"car": "", "manoeuvre": "", "h_s": "g"} | {
-    f"{kind}_{what}": form for kind in ("tables", "links", "apart") for what, form in (("path", ".1e"), ("load", ".2g"))
-}
-COLUMNS |= {f"{kind}_{what}": ".2f" for kind in ("tables", "links") for what in ("iterations", "us")}
 SMOOTH = ("step_steer_given_throttle", "slalom", "steady_cornering", "double_lane_change_replay")
 """Manoeuvres of rolling wheels on a plane road, without pedals pressed at once."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gzip
 import importlib.metadata
-import statistics
 import struct
 import tempfile
 import time
@@ -26,8 +25,6 @@ from fmu_src.build.scene_registry import load_fidelities
 
 FIDELITIES, INNER = (0, 2), 10
 PLAN = {"inputs": ["steering", "throttle"], "values": [0.1, 0.3], "inner": INNER}
-COLUMNS = {"fidelity": "", "what": "", "host": "", "us": ".4g", "best_us": ".4g", "ratio": ".3g", "x": ".3g"}
-WORDS = "us: median of an inner step; ratio: best over that of the native library; x: times real time"
 KINDS = {"inner": "inner step, ten a call", "each": "one a call, inputs set, outputs read"}
 Measure = Callable[[Mapping[str, Any]], dict[str, Any]]
 _JS = Path(__file__).parents[1] / "shared" / "js"
@@ -193,23 +190,10 @@ def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
         wasm, _ = resources_of(fmu)
     print(f"module: {len(wasm) / 1e3:.0f} kB, {len(gzip.compress(wasm, 9, mtime=0)) / 1e3:.0f} kB gzipped")
     print("hosts: " + ", ".join(f"{host} {version}" for host, version in versions.items()))
-    return [_row(key, values, found, h) for key, values in found.items()]
-
-
-def _row(
-    key: tuple[int, str, str], values: Sequence[float], found: Mapping[tuple[int, str, str], Sequence[float]], h: float
-) -> dict[str, Any]:
-    fidelity, kind, host = key
-    us = statistics.median(values)
-    return {
-        "fidelity": str(fidelity),
-        "what": KINDS[kind],
-        "host": host,
-        "us": us,
-        "best_us": min(values),
-        "ratio": min(values) / min(found[fidelity, kind, "native"]),
-        "x": 1e6 * h / us,
-    }
+    return [
+        {"fidelity": str(fidelity), "what": KINDS[kind], "host": host, "best_us": min(values)}
+        for (fidelity, kind, host), values in found.items()
+    ]
 
 
 def wasm_blocks(rows: Sequence[Row]) -> dict[str, str]:

@@ -22,18 +22,6 @@ from mbs.vehicle.environment import GRAVITY
 
 METHODS = [method for method in KERNEL if method not in (*CONSERVATIVE_ONLY, *TREE_ONLY)]
 QUICK = ("spinning_beam", "car_at_rest_100s")
-COLUMNS = {
-    "scene": "",
-    "method": "",
-    "h_s": "g",
-    "outcome": "",
-    "error": ".1e",
-    "limit": "g",
-    "iterations": ".2f",
-    "violation_m": ".0e",
-    "wall_s": ".2g",
-    "reason": "",
-}
 SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
 Found = tuple[float, mbs.Trajectory]
 

@@ -22,26 +22,13 @@ SLOW = 1e-3
 """Below this tolerance ALi3-P, of order two, is left out where others can be used."""
 MOST_ERROR, MOST_TIME = 10.0, 2.0
 REPEATS, LONG = 5, 0.5  # s: longer runs are made once
-COLUMNS = {
-    "scene": "",
-    "tolerance": ".0e",
-    "method": "",
-    "error_over_tolerance": ".2g",
-    "estimate_over_tolerance": ".2g",
-    "cpu_ms": ".3g",
-    "steps": "d",
-    "rejected": "d",
-    "runs": "d",
-    "ratio": ".2f",
-    "warned": "",
-    "ended": "",
-}
 
 
 def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str, Any]:
     """One row: the run with its errors, and the least time of a few."""
     case, system = CASES[scene], system_of(scene)
-    row: dict[str, Any] = dict.fromkeys(COLUMNS) | {"scene": scene, "tolerance": tolerance, "method": method}
+    row: dict[str, Any] = {"scene": scene, "tolerance": tolerance, "method": method}
+    row |= dict.fromkeys(("error_over_tolerance", "cpu_ms", "ratio", "warned"))
     times = np.linspace(0.0, case.end, SAMPLES + 1)
     spent = []
     for _ in range(repeats):
@@ -84,18 +71,6 @@ def compare(rows: list[dict[str, Any]]) -> None:
     for row in rows:
         if good and row["cpu_ms"]:
             row["ratio"] = row["cpu_ms"] / min(r for r in good)
-
-
-def misses(rows: Sequence[Row]) -> list[Row]:
-    """Rows of the choice that are costly or wrong, and of any method that are wrong without a warning."""
-    found = []
-    for row in rows:
-        chosen = row["method"].startswith(CHOSEN)
-        wrong = row["error_over_tolerance"] is not None and row["error_over_tolerance"] > MOST_ERROR
-        costly = row["ratio"] is not None and row["ratio"] > MOST_TIME
-        if (chosen and (costly or wrong or row["ended"] != "finished")) or (wrong and not row["warned"]):
-            found.append(row)
-    return found
 
 
 def control_blocks(rows: Sequence[Row]) -> dict[str, str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import statistics
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -26,90 +25,57 @@ REPEATS = 9
 MODES = (5, 10, 20, 50, 100, 200)  # dynamic ones of the chassis, beside 60 static and 6 inertia modes
 METHODS = ("ali3p", "energy_momentum")
 EXPONENTS = ("us_per_step", "us_per_iteration", "system_bytes", "factor_nonzeros")
-TIMES = {"us_per_step": ".3g", "us_per_iteration": ".3g"}
-SIZES = {"coordinates": "d", "factor_nonzeros": "d", "system_bytes": "d", "state_bytes": "d", "iterations": ".2f"}
-COLUMNS = {
-    "windows": {"N": "d", "method": "", **SIZES, "rows": "d", "compile_s": ".2g", **TIMES},
-    "chassis": {"dynamic_modes": "d", "modes": "d", **SIZES, **TIMES},
-}
+TIMES = ("us_per_step", "us_per_iteration")
+SHOWN = {"coordinates": "d", "factor_nonzeros": "d", "system_bytes": "d", "iterations": ".2f"}
 
 
 def measure(windows: Sequence[int], repeats: int) -> list[dict[str, Any]]:
-    """All rows; times are medians over repeats through all of them."""
-    steps = round(END / STEP)
-    rows: list[dict[str, Any]] = []
-    systems: dict[int, mbs.System] = {}
+    """Rows of the N-four-bars."""
+    names, systems = [], []
     for n in watched(windows):
-        begin = time.perf_counter()
-        system = systems[n] = mbs.compile(double_four_bar.build(n))
-        compiled = time.perf_counter() - begin
+        system = mbs.compile(double_four_bar.build(n))
         for method in METHODS:
-            simulation = mbs.Simulation(system, settings=mbs.Settings(method=method))
-            simulation.step(STEP, n=steps)
-            report = simulation.report
-            rows.append(
-                {
-                    "N": n,
-                    "method": method,
-                    "coordinates": system.nq,
-                    "rows": system.nc,
-                    "factor_nonzeros": system.report["factor_nonzeros"],
-                    "system_bytes": len(system.kernel_bytes()),
-                    "state_bytes": simulation.instance.system.state_size,
-                    "compile_s": compiled,
-                    "iterations": report.iterations / steps,
-                }
-            )
-    walls: list[list[float]] = [[] for _ in rows]
-    for turn, k in watched([(turn, k) for turn in range(repeats + 1) for k in range(len(rows))]):
-        system, settings = systems[rows[k]["N"]], mbs.Settings(method=rows[k]["method"])
-        run = mbs.simulate(system, END, STEP, settings=settings, every=steps, progress=False, estimate_error=False)
-        if turn:
-            walls[k].append(run.wall_s / steps)
-    for row, times in zip(rows, walls, strict=True):
-        wall = 1e6 * statistics.median(times)
-        row |= {"us_per_step": wall, "us_per_iteration": wall / row["iterations"]}
-    return rows
+            names.append({"N": n, "method": method})
+            systems.append((system, mbs.Settings(method=method)))
+    return _timed(names, systems, STEP, round(END / STEP), repeats)
 
 
 def chassis(modes: Sequence[int], repeats: int) -> list[dict[str, Any]]:
     """Rows of the car's frame alone, thrown and spinning: what its modes cost without the suspension."""
     flexible = load("prototype").flexible_frame
-    model = flexible.model
-    rows: list[dict[str, Any]] = []
-    systems = []
+    names, systems = [], []
     for count in watched(modes):
         m = mbs.Model("thrown chassis", gravity=(0.0, 0.0, -9.81))
         reduced = craig_bampton(
-            model, flexible.reference, flexible.interfaces, count, inertia_modes=True, damping=flexible.damping
+            flexible.model, flexible.reference, flexible.interfaces, count, inertia_modes=True, damping=flexible.damping
         )
         body = m.flexible_body("chassis", reduced)
         m.initial_velocity(body, (5.0, 0.0, 3.0), (0.3, 0.5, 2.0))
         m.sense_energy("energy.total", "total")
         system = mbs.compile(m)
-        simulation = mbs.Simulation(system)
-        simulation.step(CHASSIS_STEP, n=CHASSIS_STEPS)
-        systems.append(system)
-        rows.append(
-            {
-                "dynamic_modes": count,
-                "modes": len(system.arrays["flex_mode"]),
-                "coordinates": system.nq,
-                "factor_nonzeros": system.report["factor_nonzeros"],
-                "system_bytes": len(system.kernel_bytes()),
-                "state_bytes": simulation.instance.system.state_size,
-                "iterations": simulation.report.mean_iterations,
-            }
-        )
-    walls: list[list[float]] = [[] for _ in rows]
-    for turn, k in watched([(turn, k) for turn in range(repeats + 1) for k in range(len(systems))]):
-        end = CHASSIS_STEPS * CHASSIS_STEP
-        run = mbs.simulate(systems[k], end, CHASSIS_STEP, every=CHASSIS_STEPS, progress=False, estimate_error=False)
+        names.append({"dynamic_modes": count, "modes": len(system.arrays["flex_mode"])})
+        systems.append((system, mbs.Settings()))
+    return _timed(names, systems, CHASSIS_STEP, CHASSIS_STEPS, repeats)
+
+
+def _timed(
+    names: Sequence[Row], systems: Sequence[tuple[mbs.System, mbs.Settings]], h: float, steps: int, repeats: int
+) -> list[dict[str, Any]]:
+    """Sizes and times of so many steps; times are medians over repeats through all rows, after one that warms up."""
+    walls: list[list[float]] = [[] for _ in names]
+    iterations = [0.0] * len(names)
+    for turn, k in watched([(turn, k) for turn in range(repeats + 1) for k in range(len(names))]):
+        system, settings = systems[k]
+        run = mbs.simulate(system, steps * h, h, settings=settings, every=steps, progress=False, estimate_error=False)
+        iterations[k] = run.report.mean_iterations
         if turn:
-            walls[k].append(run.wall_s / CHASSIS_STEPS)
-    for row, times in zip(rows, walls, strict=True):
+            walls[k].append(run.wall_s / steps)
+    rows = []
+    for name, (system, _), times, mean in zip(names, systems, walls, iterations, strict=True):
+        sizes = {"coordinates": system.nq, "factor_nonzeros": system.report["factor_nonzeros"]}
         wall = 1e6 * statistics.median(times)
-        row |= {"us_per_step": wall, "us_per_iteration": wall / row["iterations"]}
+        costs = {"iterations": mean, "us_per_step": wall, "us_per_iteration": wall / mean}
+        rows.append({**name, **sizes, "system_bytes": len(system.kernel_bytes()), **costs})
     return rows
 
 
@@ -121,19 +87,19 @@ def exponents(rows: Sequence[Row], size: str) -> dict[str, float]:
 
 def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Growth and its exponents, of four-bars from `FITTED_FROM` windows on."""
-    four_bars, frames = ([r for r in rows if r["table"] == name] for name in COLUMNS)
+    four_bars, frames = ([r for r in rows if r["table"] == name] for name in ("windows", "chassis"))
     fitted = []
     for method in METHODS:
         part = [r for r in four_bars if r["method"] == method and r["N"] >= FITTED_FROM]
         fitted.append({"method": method} | exponents(part, "N"))
     columns = {"N": "d", "method": "", "us_per_step": ".3g", "iterations": ".2f", "factor_nonzeros": "d"}
-    of_frame = {key: COLUMNS["chassis"][key] for key in ("dynamic_modes", "modes", *SIZES) if key != "state_bytes"}
+    of_frame = dict.fromkeys(("dynamic_modes", "modes"), "d") | SHOWN | dict.fromkeys(TIMES, ".0f")
     slopes = ", ".join(f"{key.replace('_', ' ')} {value:.2f}" for key, value in exponents(frames, "modes").items())
     said = f"Steps of {CHASSIS_STEP:g} s. Exponents b of cost = a n^b in all modes n: {slopes}."
     return {
         "growth": table(four_bars, columns | {"system_bytes": "d"}),
         "exponents": table(fitted, {"method": ""} | dict.fromkeys(EXPONENTS, ".2f")),
-        "chassis growth": f"{table(frames, of_frame | dict.fromkeys(TIMES, '.0f'))}\n\n{said}",
+        "chassis growth": f"{table(frames, of_frame)}\n\n{said}",
     }
 
 

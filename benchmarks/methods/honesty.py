@@ -17,19 +17,6 @@ from mbs.results.accuracy import WRONG_BALANCE, WRONG_ERROR
 
 LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
-COLUMNS = {
-    "scene": "",
-    "method": "",
-    "h_s": ".4g",
-    "ended": "",
-    "error": ".1e",
-    "estimate": ".1e",
-    "balance": ".1e",
-    "halvings_per_step": ".2g",
-    "repeated": "",
-    "verdict": "",
-    "cpu_s": ".2g",
-}
 HOLDS = 1e-3  # of the range: a smaller error needs no estimate
 FACTOR = 10.0  # by which an error may be larger than its estimate
 VERDICTS = ("right, no warning", "false alarm", "wrong, warned", "wrong, missed")

@@ -22,19 +22,6 @@ from mbs.vehicle import car
 
 ROD_MASS = 0.5  # kg
 H, DURATION = 0.01, 3.0  # s
-COLUMNS = {
-    "scene": "",
-    "bodies": "d",
-    "naive_bodies": "d",
-    "coordinates": "d",
-    "naive_coordinates": "d",
-    "rows": "d",
-    "naive_rows": "d",
-    "us_per_step": ".1f",
-    "naive_us_per_step": ".1f",
-    "factor": ".1f",
-    "difference": ".1e",
-}
 
 
 class WholeJoint(Joint):

@@ -25,21 +25,7 @@ MOST_CLASSICAL, CLASSICAL_WORK = 1000, 1.3e4  # steps in Python, and those times
 WRONG = 0.05  # of the extent of the motion
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
-WHY = {  # one line a classical method; the table adds rank and time as found
-    "index-1 augmented Lagrangian, projected": "explicit Runge-Kutta on accelerations: the penalised rows are met only "
-    "in the limit, and stiff constraint oscillators bound the step; passes singular and redundant positions",
-    "index-1 Lagrange, Baumgarte": "the bordered matrix needs Phi_q of full row rank: exactly singular where rows are "
-    "redundant, and wherever a step lands on a singular position; a factor beyond about 2/h makes the rows themselves "
-    "diverge",
-    "index-1 minimum norm, Baumgarte": "the cut between kept and dropped singular values is a guess; near a singular "
-    "position a kept small one makes accelerations explode, a dropped real one lets the rows drift",
-    "velocity transformation": "the fixed independent coordinates stop being independent at their dead point: the "
-    "block of Phi_q for the dependent ones loses its rank",
-    "penalty": "rows are springs: soft ones let the mechanism leave its branch at singular positions, stiff ones are "
-    "beyond the stability limit of the explicit rule",
-}
 SCENES = tuple(name for name in CASES if name not in ("pendulum_1000s", "four_bar_200"))
-COLUMNS = {"scene": "", "method": "", "h_s": "g", "parameter": "", "value": "g", "outcome": "", "error_share": ".1e"}
 PARAMETER = {
     "index-1 Lagrange, Baumgarte": "Baumgarte factor, 1/s",
     "index-1 minimum norm, Baumgarte": "Baumgarte factor, 1/s",
@@ -196,10 +182,7 @@ def explain(rows: Sequence[Row]) -> list[dict[str, Any]]:
 def stability_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Margins of the default settings, and what became of the classical methods."""
     counts = dict.fromkeys(OUTCOMES, "d")
-    charts = (f"![{CASES[s].title}](images/stability_{s}.png)\n" for s in dict.fromkeys(r["scene"] for r in rows))
     return {
         "margins": margin_table(margins(rows)),
         "classical": table(explain(rows), {"scene": "", "method": ""} | counts | {"first stop": ""}),
-        "why": table([{"method": k, "why": v} for k, v in WHY.items()], {"method": "", "why": ""}),
-        "stability charts": "\n".join(charts),
     }

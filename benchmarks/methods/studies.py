@@ -69,24 +69,6 @@ end = "final(bob.y)"
 """
 PARTS = ("overhead", "memory", "single")
 _LOOP = 50
-COLUMNS: dict[str, dict[str, str]] = {
-    "loop": {"case": "", "runs": "d", "run_s": ".4f"},
-    "runs": {
-        "case": "", "workers": "d", "runs": "d", "failed": "d", "run_s": ".4f", "elapsed_s": ".1f", "rate": ".1f",
-        "overhead_ms": ".2f", "overhead": ".2%", "chunks": "d", "main_ms": ".3f", "before_mb": ".0f", "main_mb": ".0f",
-        "worker_mb": ".0f", "bytes": ".0f", "parts": "d", "start_s": ".1f",
-    },
-    "start again": {"case": "", "runs": "d", "start_s": ".1f"},
-    "plan": {"method": "", "runs": "d", "start_s": ".2f", "main_ms": ".4f", "main_mb": ".0f"},
-    "rows": {
-        "case": "", "runs": "d", "main_ms": ".4f", "bytes": ".0f", "found_s": ".2f", "read_s": ".2f", "read_mb": ".0f"
-    },
-    "empty tasks": {"runs": "d", "workers": "d", "task_ms": ".3f", "main_ms": ".3f"},
-}  # fmt: skip
-WORDS = """run_s: in the worker; overhead: workers x elapsed less the time in runs, as a part of the latter; main_ms:
-processor time of the process with client, scheduler and writer, of a run, row or task; before_mb, main_mb: its memory
-before the first run and at most; bytes: on the disk, of a row; found_s: to find which runs are there; read_s, read_mb:
-to open all rows"""
 OPTIONS = {
     "fmu": ("dist/PrototypeCar.fmu", "of the car"),
     "runs": (200, "of the car"),

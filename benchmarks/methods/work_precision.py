@@ -29,19 +29,6 @@ LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
 QUICK_DIVISIONS = 2
 CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
 CONTROLLED_TOLERANCES, ORDER_TWO_ENDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8), 1e-5
-COLUMNS = {
-    "scene": "",
-    "family": "",
-    "method": "",
-    "h_s": ".4g",
-    "rtol": ".0e",
-    "position_error_m": ".2e",
-    "energy_deviation_J": ".2e",
-    "wall_s": ".2e",
-    "factorizations": "d",
-    "evaluations": "d",
-    "ended": "",
-}
 Action = Callable[[], tuple[float, dict[str, Any]]]
 
 
@@ -55,15 +42,12 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
             t = mbs.simulate(system, case.end, h, settings=settings, every=every, progress=False, estimate_error=False)
         except mbs.SimulationError as error:
             return 0.0, {"ended": f"refused at {error.time:.4g} s"}
-        energy = t["energy.total"]
         report = t.report
         assert report is not None
         return t.wall_s, {
             "ended": "finished",
             "position_error_m": _error(np.column_stack([t[s] for s in case.sensors]), scene),
-            "energy_deviation_J": float(np.abs(energy - energy[0]).max()) if case.energy_stays else None,
             "factorizations": report.factorizations,
-            "evaluations": report.iterations + report.steps,
         }
 
     return act
@@ -87,9 +71,7 @@ def controlled_action(scene: str, method: str, tolerance: float) -> Action:
         return run.wall, {
             "ended": "finished",
             "position_error_m": error,
-            "energy_deviation_J": None,
             "factorizations": report.factorizations,
-            "evaluations": report.iterations + report.steps,
         }
 
     return act
@@ -107,9 +89,7 @@ def classical_action(scene: str, method: str, h: float, solver: str = "RK4", rto
         return r.wall_s, {
             "ended": "finished",
             "position_error_m": _error(r.positions, scene),
-            "energy_deviation_J": float(np.abs(r.energy - r.energy[0]).max()) if case.energy_stays else None,
             "factorizations": r.factorizations,
-            "evaluations": r.evaluations,
         }
 
     return act
@@ -125,7 +105,6 @@ def peer_action(scene: str, engine: Any, integrator: str, h: float) -> Action:
         return r.wall_s, {
             "ended": "finished",
             "position_error_m": _error(r.positions, scene),
-            "energy_deviation_J": None if r.energy is None else float(np.abs(r.energy - r.energy[0]).max()),
         }
 
     return act
@@ -144,7 +123,7 @@ def plan(scene: str, quick: bool, engines: dict[str, Any]) -> list[tuple[dict[st
 
     def add(family: str, method: str, h: float | None, action: Action, rtol: float | None = None) -> None:
         row = {"scene": scene, "family": family, "method": method, "h_s": h, "rtol": rtol, "position_error_m": None}
-        empty = dict.fromkeys(("energy_deviation_J", "wall_s", "factorizations", "evaluations"))
+        empty = dict.fromkeys(("wall_s", "factorizations"))
         todo.append((row | empty | {"ended": ""}, action))
 
     for d in divisions:
@@ -264,9 +243,8 @@ def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
             line["finished"] = f"{sum(r['ended'] == 'finished' for r in runs)} of {len(runs)}"
             times.append(line)
     columns_2 = {"scene": "", "method": ""} | {f"{level:.0e} m": ".3g" for level in LEVELS} | {"finished": ""}
-    charts = "\n".join(f"![{CASES[s].title}](images/work_{s}.png)\n" for s in scenes)
     ratio_table = table(ratios, columns | {"ahead": ""}) + "\n\n" + said
-    return {"ratios": ratio_table, "times": table(times, columns_2), "work charts": charts}
+    return {"ratios": ratio_table, "times": table(times, columns_2)}
 
 
 def _ms(wall: float | None) -> float | None:

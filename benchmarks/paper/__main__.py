@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import mbs
 from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
 from benchmarks.paper.measured_guides_chart import draw
-from benchmarks.references.assembly_defect import ORIGIN
 from benchmarks.shared.command import Part, run, watched
+from benchmarks.shared.pages import Row
+from benchmarks.shared.tables import plain_table
 from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import kerb_test
 from mbs.scenes import puma as puma_scene
@@ -27,7 +29,7 @@ QUICK = {"quick": (False, "a part of it, once")}
 
 @wrong_on_purpose()
 def _four_bar(options: Namespace) -> list[dict[str, Any]]:
-    windows = double_four_bar.WINDOWS[:2] if options.quick else double_four_bar.WINDOWS
+    windows = double_four_bar.WINDOWS[:1] if options.quick else double_four_bar.WINDOWS
     return double_four_bar.measure_all(windows, options.repeats)
 
 
@@ -42,9 +44,14 @@ def _puma(options: Namespace) -> list[dict[str, Any]]:
 
 @wrong_on_purpose()
 def _defect(options: Namespace) -> list[dict[str, Any]]:
-    cases, repeats = (assembly_defect.CASES[:1], 1) if options.quick else (assembly_defect.CASES, 3)
-    bars = [{"table": "bars", **assembly_defect.measure(case, repeats)[0]} for case in watched(cases)]
+    cases = assembly_defect.CASES[:1] if options.quick else assembly_defect.CASES
+    bars = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in watched(cases)]
     return bars + [{"table": "largest moments, N m", **assembly_defect.peaks(r)} for r in assembly_defect.RADII]
+
+
+def _both(rows: Sequence[Row], blocks: Callable[[Sequence[Row]], Mapping[str, str]]) -> str:
+    """The table of the page, and below it the rows of the second table, which the page tells in words."""
+    return "\n\n".join([*blocks(rows).values(), plain_table([row for row in rows if row["table"] != rows[0]["table"]])])
 
 
 def _kerb(options: Namespace) -> list[dict[str, Any]]:
@@ -56,42 +63,37 @@ PARTS = {
     "four-bar": Part(
         "the N-four-bar for ten seconds through ten singular positions, against the exact reduction to one angle",
         _four_bar,
-        double_four_bar.COLUMNS,
         options=QUICK | {"repeats": (double_four_bar.REPEATS, "timed runs of a row")},
         pages=("speed_and_accuracy.md",),
         blocks=double_four_bar.four_bar_blocks,
-        words=lambda rows: double_four_bar.four_bar_blocks(rows)["table 1"],
         chart=double_four_bar.draw,
     ),
     "puma": Part(
         "the PUMA 560 whose hand is pinned and released; where the error of large steps comes from",
         _puma,
-        puma.COLUMNS,
         options=QUICK,
         pages=("speed_and_accuracy.md",),
         blocks=puma.puma_blocks,
+        words=lambda rows: _both(rows, puma.puma_blocks),
     ),
     "defect": Part(
         "section forces of the four-bar with assembly defect, against geometrically exact beams",
         _defect,
-        assembly_defect.COLUMNS,
         options=QUICK,
         pages=("flexible.md",),
-        blocks=lambda rows: {"defect": assembly_defect.defect_table([r for r in rows if r["table"] == "bars"])},
-        words=lambda rows: f"Against {ORIGIN}\nWith rigid bars: {assembly_defect.refusal()}",
+        blocks=assembly_defect.defect_blocks,
+        words=lambda rows: _both(rows, assembly_defect.defect_blocks),
         chart=assembly_defect.draw,
     ),
     "kerb": Part(
         "the car on the kerb: size, iterations, time; peaks of the bending moments and what is left of them",
         _kerb,
-        kerb.COLUMNS,
         names=kerb.FIDELITIES,
         options={"steps": ((kerb_test.STEP,), "s"), "repeats": (3, "timed runs of a row")},
     ),
     "guides": Part(
         "the same driven by four accelerometers, as in the paper's experiment; means over seeds",
         lambda options: measured_guides.measure(options.seeds),
-        measured_guides.COLUMNS,
         options={"seeds": (3, "noises of a row")},
         pages=("flexible_car.md",),
         blocks=measured_guides.guide_blocks,

@@ -6,32 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.car import fidelity_runs
-from benchmarks.car.fidelity import COMPARED, size_of
+from benchmarks.car import fidelity, fidelity_runs
 from benchmarks.shared.warned import wrong_on_purpose
 from mbs import Simulation, Trajectory
 from mbs.scenes import kerb_test
 from mbs.vehicle import Fidelity
 
 GAUGES = ("SG1", "SG3")
-FIDELITIES = tuple(fidelity.name.lower() for fidelity in COMPARED)
+FIDELITIES = tuple(model.name.lower() for model in fidelity.COMPARED)
 RELEASE = 13.0  # s: tyres let go
-COLUMNS = {
-    "fidelity": "",
-    "h_s": ".3f",
-    "coordinates": "d",
-    "rows": "d",
-    "modes": "d",
-    "iterations_mean": ".2f",
-    "iterations_max": "d",
-    "seconds": ".2f",
-    "realtime_factor": ".1f",
-    **{f"{what}_{g}": ".2f" for g in GAUGES for what in ("peak", "filtered")},
-    "peak_error": ".1e",
-    "filtered_error": ".1e",
-    "left_held": ".1e",
-    "left_free": ".1e",
-}
 
 
 def changes(t: Trajectory, h: float) -> dict[str, float]:
@@ -41,9 +24,9 @@ def changes(t: Trajectory, h: float) -> dict[str, float]:
     return shown | {f"filtered_{g}": found[f"{fidelity_runs.FILTERED}bending_moment.{g}"] for g in GAUGES}
 
 
-def left_at_the_end(fidelity: Fidelity, h: float) -> tuple[float, float]:
+def left_at_the_end(model: Fidelity, h: float) -> tuple[float, float]:
     """Largest change of a moment that stays, over its peak: as the car stands, and with its tyres let go."""
-    car = Simulation(fidelity_runs.system_of("kerb_test", fidelity))
+    car = Simulation(fidelity_runs.system_of("kerb_test", model))
     names = [f"bending_moment.{g}" for g in GAUGES]
     t = car.run(RELEASE, h, progress=False)
     peaks = {n: float(np.abs(t[n] - t[n][0]).max()) for n in names}
@@ -56,29 +39,18 @@ def left_at_the_end(fidelity: Fidelity, h: float) -> tuple[float, float]:
     return one, other
 
 
-def measure(fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
+def measure(model: Fidelity, h: float, repeats: int) -> dict[str, Any]:
     """One row; where the chassis is rigid there are no moments."""
-    found = fidelity_runs.run("kerb_test", fidelity, h)
-    report = found.report
-    assert report is not None
-    spent = fidelity_runs.cpu_time("kerb_test", fidelity, h, repeats)
-    row: dict[str, Any] = {
-        "fidelity": fidelity.name.lower(),
-        "h_s": h,
-        **size_of("kerb_test", fidelity),
-        "iterations_mean": report.mean_iterations,
-        "iterations_max": report.max_iterations,
-        "seconds": spent,
-        "realtime_factor": kerb_test.DURATION / spent,
-    }
-    if fidelity.rigid:
-        return row | {name: None for name in COLUMNS if name not in row}
+    row = fidelity.measure("kerb_test", model, h, repeats)
+    row["seconds"] = kerb_test.DURATION / row["realtime_factor"]
+    if model.rigid:
+        return row
     reference = fidelity_runs.read_peaks("kerb_test")
-    peaks = changes(found, h)
+    peaks = changes(fidelity_runs.run("kerb_test", model, h), h)
     errors = {"peak": 0.0, "filtered": 0.0}
     for g in GAUGES:
         for what, prefix in (("peak", ""), ("filtered", fidelity_runs.FILTERED)):
             size = reference[f"{prefix}bending_moment.{g}"]
             errors[what] = max(errors[what], abs(peaks[f"{what}_{g}"] - size) / size)
-    held, free = left_at_the_end(fidelity, h)
+    held, free = left_at_the_end(model, h)
     return row | peaks | {f"{k}_error": v for k, v in errors.items()} | {"left_held": held, "left_free": free}

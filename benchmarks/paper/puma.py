@@ -17,21 +17,6 @@ PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
 REPEATS = 5
-COLUMNS = {
-    "methods": {
-        "method": "",
-        "h_s": "g",
-        "error_mm": ".3g",
-        "path_error_mm": ".3g",
-        "jump_close_J": ".2e",
-        "jump_open_J": ".2e",
-        "cpu_s": ".2e",
-        "paper_error_mm": ".3g",
-        "paper_wall_s": ".3g",
-        "ended": "",
-    },
-    "large steps in one stage": {"large steps in": "", "when pinned mm": ".3g", "error mm": ".3g"},
-}
 LARGE, SMALL = 0.05, 0.0005  # s
 SPLIT = {
     "all stages": (LARGE, LARGE, LARGE),

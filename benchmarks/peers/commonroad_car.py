@@ -11,7 +11,6 @@ import time
 from collections import namedtuple
 from collections.abc import Callable
 from functools import cache
-from importlib.metadata import version
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -23,7 +22,6 @@ from vehiclemodels.init_mb import init_mb
 from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
 
 Array = NDArray[np.float64]
-VERSION = version("commonroad-vehicle-models")
 SPEED, YAW_RATE, SIDE_SPEED = 3, 5, 10  # numbers of states
 HELPERS = ("steering_constraints", "acceleration_constraints", "vehicle_dynamics_ks_cog")
 

@@ -8,7 +8,6 @@ with the ground ends Drake 1.51 with a fault of memory, so that Bricard's mechan
 from __future__ import annotations
 
 import time
-from importlib.metadata import version
 
 import numpy as np
 from pydrake.math import RigidTransform
@@ -16,11 +15,10 @@ from pydrake.multibody.plant import DiscreteContactApproximation, MultibodyPlant
 from pydrake.multibody.tree import FixedOffsetFrame, RevoluteJoint, RotationalInertia, SpatialInertia
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 
-from benchmarks.peers.trees import SCENES, Link, PeerRun, Tree, samples_times, tree_of
+from benchmarks.peers.trees import Link, PeerRun, Tree, samples_times, tree_of
 
 SAP = "SAP, semi-implicit Euler"
 RULES = {"RK5": "runge_kutta5", "RK3": "runge_kutta3"}
-VERSION = version("drake")
 FAR = 1e3
 
 
@@ -38,27 +36,21 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     plant.SetVelocities(context, np.array([link.rate for link in tree.links]))
     simulator.Initialize()
     body, world = plant.GetBodyByName(f"body {tree.body}").body_frame(), plant.world_frame()
-    times, places, energies, wall = samples_times(end, samples), [], [], 0.0
+    times, places, wall = samples_times(end, samples), [], 0.0
     for t in times:
         begin = time.perf_counter()
         simulator.AdvanceTo(t)
         wall += time.perf_counter() - begin
         places.append(plant.CalcPointsPositions(context, body, tree.point, world).ravel())
-        energies.append(plant.EvalKineticEnergy(context) + plant.EvalPotentialEnergy(context))
         if not np.abs(plant.GetVelocities(context)).max() < FAR:
             break
     n = len(places)
-    return PeerRun(times[:n], np.array(places)[:, tree.components], np.array(energies), wall, n == samples + 1)
-
-
-def scenes() -> tuple[str, ...]:
-    """Names of the shared scenes."""
-    return tuple(scene for scene in SCENES if scene != "bricard")
+    return PeerRun(times[:n], np.array(places)[:, tree.components], wall, n == samples + 1)
 
 
 def integrators(scene: str) -> tuple[str, ...]:
     """Those that make sense: loops ask for the discrete plant."""
-    if scene not in scenes():
+    if scene == "bricard":
         return ()
     return tuple(RULES) if scene == "spatial_chain" else (SAP,)
 

@@ -21,7 +21,6 @@ from mbs.vehicle.car import Car
 from mbs.vehicle.tyres.tmeasy import TMeasy
 
 Array = NDArray[np.float64]
-VERSION = exu.__version__
 GRAVITY = 9.81  # m/s2
 STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its angle
 TOLERANCES = 1e-4, 1e-6  # of Newton's method; with the default ones a path of 60 m is 0.02 mm away

@@ -12,16 +12,8 @@ import exudyn as exu
 import numpy as np
 from exudyn import itemInterface
 
-from benchmarks.peers.trees import SCENES, PeerRun, Tree, Vector, samples_times, tree_of
+from benchmarks.peers.trees import PeerRun, Tree, Vector, samples_times, tree_of
 from mbs.scenes import bricard
-
-INTEGRATORS = ("generalised alpha", "generalised alpha (tree)", "trapezoidal index 2", "RK44 (tree)")
-VERSION = exu.__version__
-
-
-def scenes() -> tuple[str, ...]:
-    """Names of the shared scenes."""
-    return SCENES
 
 
 def integrators(scene: str) -> tuple[str, ...]:
@@ -77,7 +69,7 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
     table = np.atleast_2d(mbs.GetSensorStoredData(sensor))
     count = min(len(table), samples + 1)
     times = samples_times(end, samples)[:count]
-    return PeerRun(times, table[:count, 1:][:, columns], None, wall, finished and count > samples)
+    return PeerRun(times, table[:count, 1:][:, columns], wall, finished and count > samples)
 
 
 def _four_bar(mbs: Any, windows: int) -> int:

@@ -20,7 +20,6 @@ from hosts.common.wheels import WHEELS
 from mbs.vehicle.car import Car
 
 Array = NDArray[np.float64]
-VERSION = mujoco.__version__
 GRAVITY = 9.81  # m/s2
 SINK = 0.08  # m
 DAMPING = 0.3  # of the critical one of a corner

@@ -11,10 +11,9 @@ import time
 import numpy as np
 import pinocchio as pin
 
-from benchmarks.peers.trees import SCENES, PeerRun, Tree, Vector, samples_times, tree_of
+from benchmarks.peers.trees import PeerRun, Tree, Vector, samples_times, tree_of
 
 INTEGRATORS = ("RK4", "RK4, corrected")
-VERSION = pin.__version__
 CORRECTION = 0.2  # Baumgarte's corrections have the time constant h / CORRECTION
 PROXIMAL = {"bricard": (1e-6, 1e-6, 3)}  # accuracy, damping and iterations for the redundant rows of loops
 OTHER_LOOPS = 1e-10, 1e-10, 10
@@ -48,19 +47,13 @@ def run(scene: str, h: float, end: float, samples: int, integrator: str) -> Peer
         states.append((q, v))
         if not np.abs(v).max() < FAR:
             break
-    places, energies = [], []
+    places = []
     for q, v in states:
         pin.forwardKinematics(model, data, q, v)
         places.append(data.oMi[tree.body].act(tree.point))
-        energies.append(pin.computeKineticEnergy(model, data, q, v) + pin.computePotentialEnergy(model, data, q))
     whole = len(states) == samples + 1
     times = samples_times(end, samples)[: len(states)]
-    return PeerRun(times, np.array(places)[:, tree.components], np.array(energies), acceleration.wall, whole)
-
-
-def scenes() -> tuple[str, ...]:
-    """Names of the shared scenes."""
-    return SCENES
+    return PeerRun(times, np.array(places)[:, tree.components], acceleration.wall, whole)
 
 
 def integrators(scene: str) -> tuple[str, ...]:

@@ -9,18 +9,16 @@ from numpy.typing import NDArray
 
 from mbs.scenes import bricard, spatial_chain
 
-SCENES = ("double_four_bar", "bricard", "spatial_chain", "four_bar_40", "four_bar_200")
 Vector = NDArray[np.float64]
 Y, Z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
 class PeerRun:
-    """Positions (n, k) and energies (n,), J (None: not available), at times (n,); wall time of the steps, s."""
+    """Positions (n, k) at times (n,); wall time of the steps, s."""
 
     t: Vector
     positions: Vector
-    energy: Vector | None
     wall_s: float
     finished: bool
 

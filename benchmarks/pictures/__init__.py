@@ -1,1 +1,1 @@
-"""Films and pictures of the documentation, and how fast a page draws."""
+"""Films and pictures of the documentation."""

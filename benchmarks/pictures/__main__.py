@@ -1,4 +1,4 @@
-"""Films and pictures of the documentation: ``python -m benchmarks.pictures PART``; how fast a page draws.
+"""Films and pictures of the documentation: ``python -m benchmarks.pictures PART``.
 
 All are drawn by a Chromium without a window. Needs a Chromium, Chrome or Edge, and
 ``pip install "ali3[pictures,viewer]"``, the simulator also the extra ``simulator``.
@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from ali3.files import make_folder
-from benchmarks.pictures import page_rate, simulator
+from benchmarks.pictures import simulator
 from benchmarks.pictures.animations import ANIMATIONS, film
 from benchmarks.shared.command import Part, run
 
@@ -44,14 +44,6 @@ PARTS = {
         names=tuple(simulator.SHOTS),
         options=OUT,
         rows=False,
-    ),
-    "rates": Part(
-        "how fast a page draws by the processor: WebGL is SwiftShader, and a pixel is read of each picture",
-        page_rate.measure,
-        page_rate.COLUMNS,
-        names=tuple(page_rate.SCENES),
-        options={"pictures": (20, "of each scene"), "size": (page_rate.SIZE, "width and height, pixels")},
-        words=lambda rows: page_rate.WORDS,
     ),
 }
 

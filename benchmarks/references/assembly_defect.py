@@ -1,4 +1,4 @@
-"""Section forces in the middle of the coupler of the four-bar with assembly defect, from an independent program."""
+"""Section forces in the middle of the coupler of the four-bar with assembly defect, by `exudyn_beams.py`."""
 
 from __future__ import annotations
 
@@ -8,10 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 REFERENCE = Path(__file__).with_name("assembly_defect.csv")
-ORIGIN = (
-    "Exudyn 1.13.6, ObjectBeamGeometricallyExact, 16 elements per 0.12 m, h = 2.5 ms "
-    "(benchmarks/references/exudyn_beams.py)"
-)
 COMPONENTS = ("T", "My", "Mz")
 
 

@@ -17,7 +17,7 @@ from ali3.running import run_command
 from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.pages import DOCS, Row, machine, replace
-from benchmarks.shared.tables import print_table, write_json
+from benchmarks.shared.tables import plain_table, write_json
 from mbs.common.progress import DELAY, progress_for
 
 T = TypeVar("T")
@@ -25,17 +25,12 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Part:
-    """What a command measures or writes, with its options.
-
-    Rows with the key ``table`` belong to several tables; `columns` then has the formats of each by its name.
-    """
+    """What a command measures or writes, with its options."""
 
     about: str
     """One line."""
     measure: Callable[[Namespace], Sequence[Row] | None]
     """Gives the rows; None where it writes files itself and has said so."""
-    columns: Mapping[str, Any] = field(default_factory=dict)
-    """Formats of the printed columns, by default of all."""
     names: Sequence[str] = ()
     """What ``--only`` chooses from, by default all."""
     options: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
@@ -47,7 +42,7 @@ class Part:
     blocks: Callable[[Sequence[Row]], Mapping[str, str]] | None = None
     """Tables of the page by their marks."""
     words: Callable[[Sequence[Row]], str] | None = None
-    """What is printed below the table."""
+    """What is printed, by default the tables of `blocks`, or all columns."""
     chart: Callable[[Sequence[Row], Path], None] | None = None
     """Draws the rows; a folder for several charts."""
     check: Callable[[Sequence[Row], Namespace], Sequence[str]] | None = None
@@ -120,13 +115,10 @@ def _work(name: str, part: Part, options: Namespace) -> int:
         asked = {key: value for key, value in vars(options).items() if key in part.options or key in ("part", "only")}
         told = {key: str(value) if isinstance(value, Path) else value for key, value in asked.items()}
         meta = describe(name, **{"repeats": 1} | told)
-    print_rows(rows, part.columns)
-    if part.words is not None:
-        print(f"\n{part.words(rows)}")
-    print(f"\n{conditions(meta)}")
     if options.json is not None:
         write_json(options.json, meta, rows)
         print(f"written: {options.json}")
+    print(f"{_told(part, rows)}\n\n{conditions(meta)}")
     if part.chart is not None and options.chart is not None:
         part.chart(rows, options.chart)
     if part.blocks is not None and options.write:
@@ -137,14 +129,13 @@ def _work(name: str, part: Part, options: Namespace) -> int:
     return int(bool(said))
 
 
-def print_rows(rows: Sequence[Row], columns: Mapping[str, Any]) -> None:
-    """Print the table of the rows, or that of each ``table`` among them."""
-    names = list(dict.fromkeys(row["table"] for row in rows if "table" in row))
-    if not names:
-        print_table(rows, columns or None)
-    for name in names:
-        print(f"\n{name}")
-        print_table([row for row in rows if row["table"] == name], columns[name])
+def _told(part: Part, rows: Sequence[Row]) -> str:
+    """What is printed of the rows."""
+    if part.words is not None:
+        return part.words(rows)
+    if part.blocks is not None:
+        return "\n\n".join(f"{name}\n\n{text}" for name, text in part.blocks(rows).items())
+    return plain_table(rows)
 
 
 def write_blocks(pages: Sequence[str], blocks: Mapping[str, str]) -> None:

@@ -13,19 +13,13 @@ from ali3.columns import in_columns
 from ali3.files import write_text
 
 
-def print_table(rows: Sequence[Mapping[str, Any]], columns: Mapping[str, str] | None = None) -> None:
-    """Print rows as aligned columns.
-
-    `rows`: all with the same keys; None prints as "-"; `columns`: which keys, and how their values are formatted
-    (".3g"); by default all, as ".4g".
-    """
-    if not rows:
-        return
-    formats = dict(columns) if columns is not None else dict.fromkeys(rows[0], ".4g")
-    cells = [list(formats)] + [[_cell(row[key], form) for key, form in formats.items()] for row in rows]
+def plain_table(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows as aligned columns; what is None, or not there, is "-"."""
+    keys = list(dict.fromkeys(key for row in rows for key in row))
+    cells = [keys] + [[_cell(row.get(key)) for key in keys] for row in rows]
     rule = ["-" * max(map(len, column)) for column in zip(*cells, strict=True)]
-    right = {k for k, key in enumerate(formats) if not isinstance(rows[0][key], str)}
-    print("\n".join(in_columns([cells[0], rule, *cells[1:]], right)))
+    right = {k for k, key in enumerate(keys) if not isinstance(rows[0].get(key), str)}
+    return "\n".join(in_columns([cells[0], rule, *cells[1:]], right))
 
 
 def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> None:
@@ -34,10 +28,10 @@ def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, 
     write_text(file, text + "\n")
 
 
-def _cell(value: Any, form: str) -> str:
+def _cell(value: Any) -> str:
     if value is None:
         return "-"
-    return value if isinstance(value, str) else format(value, form)
+    return value if isinstance(value, str) else f"{value:.4g}"
 
 
 def _plain(value: Any) -> Any:

@@ -8,35 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mbs import Model
-from mbs.elements import (
-    AutomaticDrive,
-    BodyForce,
-    BodyTorque,
-    Brake,
-    ContactPoints,
-    CoordinateFriction,
-    Drag,
-    ElectricDrive,
-    EndStops,
-    GridRoad,
-    GyroscopicSpin,
-    HubWrench,
-    InputForce,
-    KerbRoad,
-    Lift,
-    PlaneRoad,
-    PortRoad,
-    ScalarSpringDamper,
-    SpinAngle,
-    SpinTorque,
-    SpringDamper,
-    SpringDamperTable,
-    TorsionBar,
-    Tyre,
-    Wind,
-    WindDrag,
-)
+from mbs import Model, elements
 from mbs.vehicle import load
 from tests.arguments.wrong_values import Call
 
@@ -51,7 +23,7 @@ POINT, F, G, SPIN = (
     BODY.point((0.0, 0.0, 0.0))[0],
 )
 FRAME = [BODY.vector(e) for e in np.eye(3)]
-TYRE = Tyre(
+TYRE = elements.Tyre(
     radius=0.27,
     bottoming_radius=0.18,
     stiffness=1e5,
@@ -71,42 +43,42 @@ ANSWERED = Model("answered")
 ANSWERED.road_answer("road")
 
 USES: dict[str, tuple[Any, Callable[[Any], Any]]] = {
-    "AutomaticDrive": (AutomaticDrive(200.0, 1e5), lambda e: e.record("e", SPIN, SPIN, F, G, 0)),
-    "BodyForce": (BodyForce([0, None, 1]), lambda e: e.record("e", POINT, FRAME)),
-    "BodyTorque": (BodyTorque([0, None, 1]), lambda e: e.record("e", FRAME)),
-    "Brake": (Brake(100.0, 1e4, 10.0), lambda e: e.record("e", F, G, SPIN, 0)),
-    "ContactPoints": (ContactPoints.for_mass(10.0), lambda e: e.record("e", POINT, FRAME, np.eye(3), 0)),
-    "CoordinateFriction": (CoordinateFriction(1.0, 100.0, 1.0), lambda e: e.record("e", SPIN)),
-    "Drag": (Drag(0.5), lambda e: e.record("e", POINT)),
-    "ElectricDrive": (ElectricDrive(200.0, 1e5, 9.0), lambda e: e.record("e", SPIN, SPIN, F, G, 0, 1)),
-    "EndStops": (EndStops(), lambda e: SpringDamper(1.0, stops=e).record("e", POINT)),
-    "GyroscopicSpin": (GyroscopicSpin(1.0), lambda e: e.record("e", F, G, SPIN)),
-    "HubWrench": (HubWrench([0, 1, 2, 3, 4, 5]), lambda e: e.record("e", POINT, F, SPIN)),
-    "InputForce": (InputForce(0, (1.0,)), lambda e: e.record("e", [SPIN])),
-    "Lift": (Lift(0.5), lambda e: e.record("e", POINT, F, G)),
-    "ScalarSpringDamper": (ScalarSpringDamper(1.0, 1.0, 1.0, 1.0), lambda e: e.record("e", SPIN)),
-    "SpinAngle": (SpinAngle(), lambda e: e.record("e", F, G, SPIN)),
-    "SpinTorque": (SpinTorque(0, 1.0), lambda e: e.record("e", F, G, SPIN)),
-    "SpringDamper": (SpringDamper(1.0, 1.0, 1.0), lambda e: e.record("e", POINT)),
-    "TorsionBar": (TorsionBar(100.0, 1.0, 3.0, 50.0), lambda e: e.record("e", SPIN, SPIN)),
+    "AutomaticDrive": (elements.AutomaticDrive(200.0, 1e5), lambda e: e.record("e", SPIN, SPIN, F, G, 0)),
+    "BodyForce": (elements.BodyForce([0, None, 1]), lambda e: e.record("e", POINT, FRAME)),
+    "BodyTorque": (elements.BodyTorque([0, None, 1]), lambda e: e.record("e", FRAME)),
+    "Brake": (elements.Brake(100.0, 1e4, 10.0), lambda e: e.record("e", F, G, SPIN, 0)),
+    "ContactPoints": (elements.ContactPoints.for_mass(10.0), lambda e: e.record("e", POINT, FRAME, np.eye(3), 0)),
+    "CoordinateFriction": (elements.CoordinateFriction(1.0, 100.0, 1.0), lambda e: e.record("e", SPIN)),
+    "Drag": (elements.Drag(0.5), lambda e: e.record("e", POINT)),
+    "ElectricDrive": (elements.ElectricDrive(200.0, 1e5, 9.0), lambda e: e.record("e", SPIN, SPIN, F, G, 0, 1)),
+    "EndStops": (elements.EndStops(), lambda e: elements.SpringDamper(1.0, stops=e).record("e", POINT)),
+    "GyroscopicSpin": (elements.GyroscopicSpin(1.0), lambda e: e.record("e", F, G, SPIN)),
+    "HubWrench": (elements.HubWrench([0, 1, 2, 3, 4, 5]), lambda e: e.record("e", POINT, F, SPIN)),
+    "InputForce": (elements.InputForce(0, (1.0,)), lambda e: e.record("e", [SPIN])),
+    "Lift": (elements.Lift(0.5), lambda e: e.record("e", POINT, F, G)),
+    "ScalarSpringDamper": (elements.ScalarSpringDamper(1.0, 1.0, 1.0, 1.0), lambda e: e.record("e", SPIN)),
+    "SpinAngle": (elements.SpinAngle(), lambda e: e.record("e", F, G, SPIN)),
+    "SpinTorque": (elements.SpinTorque(0, 1.0), lambda e: e.record("e", F, G, SPIN)),
+    "SpringDamper": (elements.SpringDamper(1.0, 1.0, 1.0), lambda e: e.record("e", POINT)),
+    "TorsionBar": (elements.TorsionBar(100.0, 1.0, 3.0, 50.0), lambda e: e.record("e", SPIN, SPIN)),
     "SpringDamperTable": (
-        SpringDamperTable(((-1.0, -2.0), (0.0, 0.0)), 1.0, 1.0),
+        elements.SpringDamperTable(((-1.0, -2.0), (0.0, 0.0)), 1.0, 1.0),
         lambda e: e.record("e", POINT),
     ),
     "Tyre": (TYRE, lambda e: e.record("e", POINT, F, SPIN, 0)),
-    "PlaneRoad": (PlaneRoad(), Model("roads").road),
-    "KerbRoad": (KerbRoad(1.0, 0.1), Model("roads").road),
-    "PortRoad": (PortRoad([0]), ANSWERED.road),
-    "Wind": (Wind(0, 1), lambda e: WindDrag(0.5, wind=e).record("e", POINT)),
-    "WindDrag": (WindDrag(0.5, wind=Wind(0, 1)), lambda e: e.record("e", POINT)),
-    "GridRoad": (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((2, 5)), np.ones((2, 5))), Model("roads").road),
+    "PlaneRoad": (elements.PlaneRoad(), Model("roads").road),
+    "KerbRoad": (elements.KerbRoad(1.0, 0.1), Model("roads").road),
+    "PortRoad": (elements.PortRoad([0]), ANSWERED.road),
+    "Wind": (elements.Wind(0, 1), lambda e: elements.WindDrag(0.5, wind=e).record("e", POINT)),
+    "WindDrag": (elements.WindDrag(0.5, wind=elements.Wind(0, 1)), lambda e: e.record("e", POINT)),
+    "GridRoad": (elements.GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((2, 5)), np.ones((2, 5))), Model("roads").road),
 }
 
 
 def allowed(thing: Any, field: str, label: str, value: Any) -> bool:
     """Whether a value is right after all."""
     if label == "a matrix":
-        return isinstance(thing, GridRoad) and field in ("heights", "frictions")
+        return isinstance(thing, elements.GridRoad) and field in ("heights", "frictions")
     return field == "unit" and label in ("text", "empty")
 
 

@@ -133,7 +133,7 @@ def test_what_is_not_installed_is_left_out_with_a_word(capsys, monkeypatch) -> N
     assert car_peers.main([]) == 0
     said = capsys.readouterr()
     assert "Exudyn's car: no_such_module not installed" in said.err
-    assert "Exudyn's car has" not in said.out
+    assert "Exudyn" not in said.out.partition("Python")[0]
 
 
 @pytest.mark.slow
@@ -158,4 +158,4 @@ def test_the_command_has_a_row_for_each_way(tmp_path, capsys, monkeypatch) -> No
     assert yaw["CommonRoad"] == pytest.approx(yaw["links"], rel=0.3)
     assert yaw["tables"] == pytest.approx(yaw["links"], rel=1e-3)
     assert all(row["cars_in_real_time_a_core"] == pytest.approx(1e4 / row["us_a_step"]) for row in rows)
-    assert "errors against each other are not defined" in capsys.readouterr().out
+    assert "| MuJoCo | single |" in capsys.readouterr().out

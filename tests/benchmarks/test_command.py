@@ -36,7 +36,6 @@ PARTS = {
     "some": Part(
         "about it",
         measured,
-        {"scene": "", "h_s": ".2f"},
         names=("a", "b"),
         options={
             "size": (2.5, "in m"),
@@ -46,7 +45,6 @@ PARTS = {
         },
         pages=("page.md",),
         blocks=lambda rows: {"steps": table(rows, {"scene": "", "h_s": "g"})},
-        words=lambda rows: f"{len(rows)} rows",
         chart=drawn,
         check=lambda rows, options: [f"{row['scene']} is fast" for row in rows if options.fast],
     ),
@@ -68,8 +66,7 @@ def test_rows_are_printed_written_drawn_and_put_into_the_page(tmp_path, capsys, 
     assert written["meta"]["settings"] == Settings().kernel_fields()
     assert chart.read_bytes().startswith(b"\x89PNG")
     printed = capsys.readouterr().out
-    assert "b      0.20" in printed
-    assert "1 rows" in printed
+    assert "steps\n\n| scene | h s |" in printed
     assert f"numpy {np.__version__}" in printed
     assert f"{written['meta']['machine']['processor']}, {os.cpu_count()} cores" in printed
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
@@ -90,7 +87,7 @@ def test_rows_of_earlier_runs_are_taken_together(tmp_path, capsys):
     capsys.readouterr()
     assert run("it", "Text.", PARTS, ["some", "--from", *map(str, files), "--json", str(both)]) == 0
     assert [row["scene"] for row in json.loads(both.read_text(encoding="utf-8"))["rows"]] == ["a", "b"]
-    assert "2 rows" in capsys.readouterr().out
+    assert "| b | 0.2 |" in capsys.readouterr().out
 
 
 def test_what_is_not_good_ends_with_one_and_wrong_options_with_two(capsys):
@@ -114,12 +111,13 @@ def test_a_part_that_writes_has_no_rows(capsys):
         run("it", "Text.", PARTS, ["writer", "--json", "x"])
 
 
-def test_rows_of_several_tables_have_their_own(capsys):
-    rows = [{"table": "long", "a": 1.0}, {"table": "short", "b": "x"}]
-    part = Part("two", lambda options: rows, {"long": {"a": ".1f"}, "short": {"b": ""}})
-    assert run("it", "Text.", {"only": part}, []) == 0
-    lines = capsys.readouterr().out.split()
-    assert lines[:8] == ["long", "a", "---", "1.0", "short", "b", "-", "x"]
+def test_rows_without_a_page_are_printed_with_all_their_columns_or_in_own_words(capsys):
+    rows = [{"a": 1.25, "b": "x"}, {"a": None, "b": "yz"}]
+    assert run("it", "Text.", {"only": Part("two", lambda options: rows)}, []) == 0
+    assert capsys.readouterr().out.split()[:8] == ["a", "b", "----", "--", "1.25", "x", "-", "yz"]
+    told = Part("two", lambda options: rows, words=lambda rows: f"{len(rows)} rows")
+    assert run("it", "Text.", {"only": told}, []) == 0
+    assert capsys.readouterr().out.startswith("2 rows\n\n")
 
 
 def test_only_the_steps_are_between_two_looks_at_the_clock():

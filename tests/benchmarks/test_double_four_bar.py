@@ -18,9 +18,7 @@ KEYS = {
     "position_error_m",
     "iterations_mean",
     "iterations_max",
-    "us_per_step",
     "wall_s",
-    "realtime_factor",
 }
 
 
@@ -33,12 +31,10 @@ def test_quick_run(tmp_path, capsys):
     written = json.loads(file.read_text(encoding="utf-8"))
     assert {"benchmark", "time", "machine", "settings", "quick"} <= set(written["meta"])
     rows = written["rows"]
-    assert {(r["N"], r["method"]) for r in rows} == {(n, m) for n in (1, 2) for m in METHODS}
+    assert {(r["N"], r["method"]) for r in rows} == {(2, m) for m in METHODS}
     for row in rows:
-        assert set(row) >= KEYS
         assert (row["wall_s"] is None) == (row["failed_at_s"] is not None)
-    row = next(r for r in rows if r["N"] == 2 and r["h_s"] == 0.01 and r["method"] == "ALi3-P")
+        assert set(row) >= (KEYS if row["wall_s"] else set())
+    row = next(r for r in rows if r["h_s"] == 0.01 and r["method"] == "ALi3-P")
     assert row["energy_deviation_J"] < 0.1
-    assert row["us_per_step"] == pytest.approx(1e6 * row["wall_s"] / 1000)
-    assert row["realtime_factor"] == pytest.approx(10.0 / row["wall_s"])
     assert len({tuple(p) for p in image.imread(chart).reshape(-1, 4)}) > 20

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from benchmarks import work_precision
-from benchmarks.methods.error_control import MOST_ERROR, compare, misses
+from benchmarks.methods.error_control import MOST_ERROR, compare, control_blocks
+from benchmarks.shared.figures import rows_of
 
 
 @pytest.mark.slow
@@ -28,14 +29,16 @@ def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
 
 def row(method: str, cpu: float, error: float, warned: str = "") -> dict[str, object]:
     found = {"method": method, "cpu_ms": cpu, "error_over_tolerance": error, "warned": warned}
-    return {"ratio": None, "ended": "finished"} | found
+    return {"scene": "s", "tolerance": 1e-3, "ratio": None} | found
 
 
-def test_misses_are_dear_choices_and_silent_errors() -> None:
-    rows = [row("radau_5", 1.0, 30.0), row("ali3p", 2.0, 1.0), row("auto: ali3p", 3.0, 1.0)]
+@pytest.mark.parametrize(
+    ("chosen", "miss"),
+    [((3.0, 1.0), ""), ((5.0, 1.0), "slow"), ((3.0, 30.0), "wrong"), ((3.0, 30.0, "yes"), "wrong, warned")],
+)
+def test_misses_are_dear_choices_and_wrong_ones(chosen: tuple[object, ...], miss: str) -> None:
+    rows = [row("radau_5", 1.0, 30.0), row("ali3p", 2.0, 1.0), row("auto: ali3p", *chosen)]
     compare(rows)
-    assert [r["ratio"] for r in rows] == [0.5, 1.0, 1.5]  # the wrong one is no yardstick
-    assert misses(rows) == rows[:1]
-    rows = [row("radau_5", 1.0, 30.0, "yes"), row("ali3p", 2.0, 1.0), row("auto: ali3p", 5.0, 1.0)]
-    compare(rows)
-    assert misses(rows) == rows[2:]
+    assert [r["ratio"] for r in rows[:2]] == [0.5, 1.0]  # the wrong one is no yardstick
+    (line,) = rows_of(control_blocks(rows)["control"])
+    assert (line["chosen"], line["best"], line["miss"]) == ("ali3p", "ali3p", miss)

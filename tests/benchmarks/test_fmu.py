@@ -21,10 +21,10 @@ def test_every_quantity_has_a_figure(tmp_path: Path, capsys: pytest.CaptureFixtu
     arguments = ["calls", "--scene", scene, "--steps", "20", "--repeats", "2", "--instances", "5", "--json", str(file)]
     assert fmu.main(arguments) == 0
     printed = capsys.readouterr().out
-    assert all(quantity in printed for quantity in fmu_calls.QUANTITIES)
+    assert all(f"| {title} |" in printed for title in fmu_calls.CALLS.values())
     content = json.loads(file.read_text(encoding="utf-8"))
     native = {(r["quantity"], r["host"]): r["value"] for r in content["rows"] if r["kind"] == "native"}
-    assert {q for q, h in native if h == "C"} == {*fmu_calls.QUANTITIES, "file_MB"}
+    assert {q for q, h in native if h == "C"} >= {*fmu_calls.CALLS, "memory_per_instance_kB", "file_MB"}
     assert all(value > 0.0 for value in native.values())
     assert {h for _, h in native} == {"C", "FMPy"}
     assert content["meta"]["scene"] == scene
@@ -40,8 +40,7 @@ def test_every_host_has_its_figures(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert hosts[:2] == ["native", "wasmtime"]
     assert all(f"{host} " in printed for host in hosts)
     assert {(r["fidelity"], r["host"]) for r in content["rows"]} == {(f, h) for f in ("0", "2") for h in hosts}
-    assert all(r["us"] >= r["best_us"] > 0.0 for r in content["rows"])
-    assert all(r["ratio"] == 1.0 for r in content["rows"] if r["host"] == "native")
+    assert all(r["best_us"] > 0.0 for r in content["rows"])
 
 
 def test_fmu_calls_webassembly_and_cars_in_python():

@@ -20,7 +20,6 @@ def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:
         assert row["step_ms"] == 20.0
         assert row["steps_a_second"] > 0.0
         assert (row["us_of_processor"] is None) == ("Async" in row["way"])
-    assert rows[0]["over_fmpy"] == 1.0
 
 
 def test_other_numbers_on_threads_are_an_error(prototype_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,6 @@ def test_the_rows_say_what_steps_cost(prototype_fmu, tmp_path, capsys, monkeypat
     monkeypatch.setattr(real_time, "drive", _without_fidelity)
     assert cost.main(["real-time", *chosen, "--json", str(file)]) == 0
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
-    assert {row["drive"] for row in rows} == {real_time.WILD}
     assert [(r["step_ms"], r["steps"], r["quarter_us"]) for r in rows] == [(2.0, 1000, 500.0), (10.0, 200, 2500.0)]
     for row in rows:
         assert row["most_iterations"] == 2
@@ -30,7 +29,7 @@ def test_the_rows_say_what_steps_cost(prototype_fmu, tmp_path, capsys, monkeypat
         assert 0 < row["capped"] <= row["steps"]
         assert 1.0 <= row["iterations"] <= 2.0
         assert 0.0 < row["mean_us"] <= row["p99_9_us"] <= row["worst_us"]
-    assert "a quarter of the deadline" in capsys.readouterr().out
+    assert "wild limits" in capsys.readouterr().out
 
 
 def _without_fidelity(fmu, start, *rest):

@@ -37,7 +37,7 @@ def test_other_cars_and_worst_steps():
         for scene, us in (("slalom", 9.25), ("lane change", 8.0))
         for car in ("links", "MuJoCo")
     ]
-    step = {"drive": "wild", "fidelity": 0, "step_ms": 2.0, "iterations": 2.0, "most_iterations": 17, "steps": 30}
+    step = {"fidelity": 0, "step_ms": 2.0, "iterations": 2.0, "most_iterations": 17, "steps": 30}
     step |= {"mean_us": 89.4, "p99_9_us": 1209.2, "worst_us": 2990.0, "quarter_us": 500.0}
     free, limited = (
         step | {"limit": 0, "capped": 0, "residual_mm": 0.0},
@@ -45,7 +45,7 @@ def test_other_cars_and_worst_steps():
     )
     other = step | limited | {"step_ms": 1.0}
     blocks = car_peers.peer_blocks(peers)
-    blocks |= real_time.real_time_blocks([free, step | limited, other, free | {"drive": "kerb test"}])
+    blocks |= real_time.real_time_blocks([free, step | limited, other])
     tables = {name: rows_of(text) for name, text in blocks.items()}
     assert tables["car peers"][1] == {
         "car": "MuJoCo",

@@ -5,77 +5,52 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs.elements import (
-    AutomaticDrive,
-    BodyForce,
-    BodyTorque,
-    Brake,
-    CoordinateFriction,
-    Drag,
-    ElectricDrive,
-    EndStops,
-    GridRoad,
-    GyroscopicSpin,
-    HubWrench,
-    InputForce,
-    KerbRoad,
-    Lift,
-    PlaneRoad,
-    ScalarSpringDamper,
-    SpinAngle,
-    SpinTorque,
-    SpringDamper,
-    SpringDamperTable,
-    TorsionBar,
-    Wind,
-    WindDrag,
-)
+from mbs import elements
 from tests.elements.harness import Element, contacts, signals, vectors
 from tests.elements.tyre_data import tyre_element
 
 LARGEST = 30  # decades; beyond, products overflow and the kernel refuses the step
 ROADS = {
-    "plane": PlaneRoad(0.1, 0.1, -0.2, 0.8),
-    "kerb": KerbRoad(0.3, 0.1, 0.0, "before", 0.8),
-    "kerb up": KerbRoad(0.3, 0.1, 0.0, "after", 0.8),
-    "grid": GridRoad((-1.0, -1.0), (0.5, 0.5), 0.1 * np.sin(np.arange(36.0)).reshape(6, 6), 0.8),
+    "plane": elements.PlaneRoad(0.1, 0.1, -0.2, 0.8),
+    "kerb": elements.KerbRoad(0.3, 0.1, 0.0, "before", 0.8),
+    "kerb up": elements.KerbRoad(0.3, 0.1, 0.0, "after", 0.8),
+    "grid": elements.GridRoad((-1.0, -1.0), (0.5, 0.5), 0.1 * np.sin(np.arange(36.0)).reshape(6, 6), 0.8),
 }
 
 
-def elements() -> dict[str, Element]:
+def laws() -> dict[str, Element]:
     p, a, b, c = vectors(3, 3, 3, 3)
     f, g, chi = vectors(3, 3, 1)
     left, right, f2, g2 = vectors(1, 1, 3, 3)
+    shafts = left[0], right[0], f2, g2
     return {
-        "spring": Element(SpringDamper(1e4, 1e3, 0.5, EndStops(0.4, 1e5, 0.6, 1e5)).record("s", p)),
-        "scalar spring": Element(ScalarSpringDamper(30.0, 2.0).record("s", signals(1)[0])),
-        "input force": Element(InputForce(0, (1.0, 2.0)).record("i", signals(2))),
-        "body force": Element(BodyForce((0, 1, None)).record("f", p, (a, b, c))),
-        "body torque": Element(BodyTorque((0, 1, 2), "body").record("t", vectors(3, 3, 3))),
-        "gyroscopic spin": Element(GyroscopicSpin(0.5).record("g", f, g, chi[0])),
-        "spin angle": Element(SpinAngle().record("a", f, g, chi[0])),
-        "spin torque": Element(SpinTorque(1, 2.0).record("t", f, g, chi[0])),
-        "drag": Element(Drag(0.8).record("d", p)),
+        "spring": Element(elements.SpringDamper(1e4, 1e3, 0.5, elements.EndStops(0.4, 1e5, 0.6, 1e5)).record("s", p)),
+        "scalar spring": Element(elements.ScalarSpringDamper(30.0, 2.0).record("s", signals(1)[0])),
+        "input force": Element(elements.InputForce(0, (1.0, 2.0)).record("i", signals(2))),
+        "body force": Element(elements.BodyForce((0, 1, None)).record("f", p, (a, b, c))),
+        "body torque": Element(elements.BodyTorque((0, 1, 2), "body").record("t", vectors(3, 3, 3))),
+        "gyroscopic spin": Element(elements.GyroscopicSpin(0.5).record("g", f, g, chi[0])),
+        "spin angle": Element(elements.SpinAngle().record("a", f, g, chi[0])),
+        "spin torque": Element(elements.SpinTorque(1, 2.0).record("t", f, g, chi[0])),
+        "drag": Element(elements.Drag(0.8).record("d", p)),
         "spring by table": Element(
-            SpringDamperTable(
+            elements.SpringDamperTable(
                 ((-0.2, -9e3), (-0.1, -2e3), (0.1, 2e3)), ((-1.0, -2e3), (0.0, 0.0), (0.5, 500.0)), 0.5
             ).record("s", p)
         ),
-        "drag in wind": Element(WindDrag(0.8, wind=Wind(0, 1)).record("d", p)),
-        "lift in wind": Element(Lift(0.3).record("l", p, a, b, Wind(0, 1))),
-        "wrench on a hub": Element(HubWrench((0, 1, 0, 1, 0, 1)).record("w", p, a, chi[0])),
-        "lift": Element(Lift(0.3).record("l", p, a, b)),
-        "brake": Element(Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
-        "coordinate friction": Element(CoordinateFriction(2.0, 400.0, 7.0).record("f", signals(1)[0])),
-        "torsion bar": Element(TorsionBar(100.0, 1.0, 8.0, 40.0).record("t", *signals(2))),
-        "hand brake": Element(Brake(650.0, 2e5, 600.0, 0.4, 300.0).record("b", f, g, chi[0], 0, 1)),
-        "drive": Element(AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0)),
-        "drive with a selector": Element(
-            AutomaticDrive(110.0, 5e4).record("a", left[0], right[0], f2, g2, 0, selector=1)
-        ),
-        "electric drive": Element(ElectricDrive(250.0, 1e5, 9.5).record("e", left[0], right[0], f2, g2, 0)),
+        "drag in wind": Element(elements.WindDrag(0.8, wind=elements.Wind(0, 1)).record("d", p)),
+        "lift in wind": Element(elements.Lift(0.3).record("l", p, a, b, elements.Wind(0, 1))),
+        "wrench on a hub": Element(elements.HubWrench((0, 1, 0, 1, 0, 1)).record("w", p, a, chi[0])),
+        "lift": Element(elements.Lift(0.3).record("l", p, a, b)),
+        "brake": Element(elements.Brake(650.0, 2e5, 600.0).record("b", f, g, chi[0], 0)),
+        "coordinate friction": Element(elements.CoordinateFriction(2.0, 400.0, 7.0).record("f", signals(1)[0])),
+        "torsion bar": Element(elements.TorsionBar(100.0, 1.0, 8.0, 40.0).record("t", *signals(2))),
+        "hand brake": Element(elements.Brake(650.0, 2e5, 600.0, 0.4, 300.0).record("b", f, g, chi[0], 0, 1)),
+        "drive": Element(elements.AutomaticDrive(110.0, 5e4).record("a", *shafts, 0)),
+        "drive with a selector": Element(elements.AutomaticDrive(110.0, 5e4).record("a", *shafts, 0, selector=1)),
+        "electric drive": Element(elements.ElectricDrive(250.0, 1e5, 9.5).record("e", *shafts, 0)),
         "electric drive with a selector": Element(
-            ElectricDrive(250.0, 1e5, 9.5, regeneration_torque=50.0).record("e", left[0], right[0], f2, g2, 0, 1)
+            elements.ElectricDrive(250.0, 1e5, 9.5, regeneration_torque=50.0).record("e", *shafts, 0, 1)
         ),
         **{f"tyre on {name}": tyre_element(road=road) for name, road in ROADS.items()},
     }
@@ -88,9 +63,9 @@ def awkward(rng: np.random.Generator, n: int | tuple[int, int]) -> np.ndarray:
     return np.asarray(values * np.where(rng.random(n) < 0.5, 1.0, rng.random(n)))
 
 
-@pytest.mark.parametrize("name", list(elements()))
+@pytest.mark.parametrize("name", list(laws()))
 def test_finite_in_finite_out(name: str) -> None:
-    element, rng = elements()[name], np.random.default_rng(18)
+    element, rng = laws()[name], np.random.default_rng(18)
     n, states = len(element.element.signals), len(element.element.states)
     touched, count = 0, 1500
     drawn = [awkward(rng, (count, k)) for k in (n, n, states, 4)]
@@ -115,9 +90,9 @@ def test_finite_in_finite_out(name: str) -> None:
         assert touched > (150 if "selector" in name else 300)  # half of the positions are neutral
 
 
-@pytest.mark.parametrize("name", list(elements()))
+@pytest.mark.parametrize("name", list(laws()))
 def test_same_input_same_bits(name: str) -> None:
-    element, rng = elements()[name], np.random.default_rng(19)
+    element, rng = laws()[name], np.random.default_rng(19)
     n, states = len(element.element.signals), len(element.element.states)
     u, ud, y = rng.normal(size=n), rng.normal(size=n), 0.01 * rng.normal(size=states)
     a, b = (element(u, ud, y, 0.01, 0.005, 0.000025, [0.5, 0.6]) for _ in range(2))

@@ -19,10 +19,11 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
-from fmu_src.build.build import KINDS, FmuBuilder
+from fmu_src.build.build import FmuBuilder
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.native.platforms import able_platforms
 from hosts.fmu.fmu import unpack
+from tests import kinds
 from tests.fmu.calls import OK
 from tests.fmu.host3 import Slave3
 
@@ -92,20 +93,20 @@ def kerb_fmus(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Path:
     def fill(folder: Path) -> None:
         name, systems, default = load_fidelities("kerb_test")
         builder = FmuBuilder(systems, name, default, ("", "", ""), lambda what, note="": nullcontext())
-        for kind in KINDS:
+        for kind in kinds.ALL:
             if PLATFORM in able_platforms(kind):
                 builder.build(kind, [PLATFORM], folder / f"{kind}.fmu")
 
     return made_once("kerb_test", fill)
 
 
-@pytest.fixture(params=["native", "python", "fmi3_scalar"])
+@pytest.fixture(params=kinds.ALIKE)
 def kind(request: pytest.FixtureRequest) -> str:
     """All kinds of FMU behave alike; that of FMI 3.0 here without arrays, so that each number has the same name."""
     return str(request.param)
 
 
-@pytest.fixture(params=["native", "python"])
+@pytest.fixture(params=kinds.FMI_2)
 def kind_2(request: pytest.FixtureRequest) -> str:
     """Both kinds of FMI 2.0."""
     return str(request.param)

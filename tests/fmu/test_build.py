@@ -11,6 +11,7 @@ import build_fmu
 from fmu_src.build.build import FmuBuilder, fmu_name
 from fmu_src.build.scene_registry import SceneError, load_scene, scene_names
 from fmu_src.native.platforms import PLATFORMS, PYTHON_PLATFORMS, this_platform
+from tests import kinds
 
 PLATFORM = fmpy.platform
 SCENE = """
@@ -130,17 +131,19 @@ def test_what_this_machine_runs_is_built_first(
         pytest.skip("the kind python does not run here")
     command = ["--scene", f"{file}:swing", "--out", str(tmp_path / "out")]
     assert build_fmu.main([*command, "--platforms", "all"]) == 0
-    kinds = ("native", "fmi3", "python")
-    assert built[:3] == [(kind, (here,)) for kind in kinds]
-    assert built[3:] == [(kind, PLATFORMS if kind != "python" else PYTHON_PLATFORMS) for kind in kinds]
+    assert built[:3] == [(kind, (here,)) for kind in kinds.BUILT]
+    assert built[3:] == [(kind, PLATFORMS if kind != "python" else PYTHON_PLATFORMS) for kind in kinds.BUILT]
     assert "These run on this machine. Now the same files with" in capsys.readouterr().out
     built.clear()
     assert build_fmu.main([*command, "--platforms", "this,darwin64"]) == 0
-    assert built == [*((kind, (here,)) for kind in kinds), *((kind, (here, "darwin64")) for kind in kinds[:2])]
+    assert built == [
+        *((kind, (here,)) for kind in kinds.BUILT),
+        *((kind, (here, "darwin64")) for kind in kinds.BUILT[:2]),
+    ]
     built.clear()
     for default in ([], ["--platforms", "this"]):
         assert build_fmu.main([*command, *default]) == 0
-        assert built == [(kind, (here,)) for kind in kinds]
+        assert built == [(kind, (here,)) for kind in kinds.BUILT]
         built.clear()
     assert build_fmu.main([*command, "--platforms", "all,wasm32", "--kind", "native"]) == 0
     assert built == [("native", (here,)), ("native", (*PLATFORMS, "wasm32"))]

@@ -12,8 +12,9 @@ from fmpy.validation import validate_fmu
 
 import mbs
 from fmu_src.build.build import build_fmu
+from tests import kinds
 from tests.fmu import scenes
-from tests.fmu.calls import ERROR, OK, HostMaker
+from tests.fmu.calls import ERROR, FMI_2, OK, HostMaker
 
 H = 0.01
 CONSTANTS = {"crane.reach": (1.25, "m"), "crane.ratio": (17.1, "1")}
@@ -26,8 +27,7 @@ def files(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None])
     for name, (value, unit) in CONSTANTS.items():
         m.constant(name, value, unit, f"{name} as built")
     folder, system = tmp_path_factory.mktemp("told"), mbs.compile(m)
-    kinds = ("native", "python", "fmi3", "fmi3_scalar")
-    return {k: build_fmu(system, "told", folder, [fmpy.platform], kind=k) for k in kinds}
+    return {k: build_fmu(system, "told", folder, [fmpy.platform], kind=k) for k in kinds.ALL}
 
 
 def test_the_description_tells_them_and_leaves_the_rest(
@@ -45,7 +45,7 @@ def test_the_description_tells_them_and_leaves_the_rest(
     assert {n: v.valueReference for n, v in with_them.items()} == {n: v.valueReference for n, v in without.items()}
 
 
-@pytest.mark.parametrize("kind", ["native", "python"])
+@FMI_2
 def test_they_can_be_read_and_not_set(files: dict[str, Path], host: HostMaker, kind: str) -> None:
     driven = host(files[kind]).start()
     before = driven.outputs()

@@ -13,10 +13,11 @@ import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 
-from fmu_src.build.build import KINDS, build_fmu
+from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from fmu_src.variables.units import DISPLAY_UNITS, parse_unit
 from fmu_src.variables.variables import variable_table
+from tests import kinds
 from tests.fmu.calls import FMI_2
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -32,14 +33,14 @@ ONE = {
 META = {"inputs": [], "parameters": [], "sensors": [{"name": "a.x", "unit": "m", "description": ""}]}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", kinds.ALL)
 @pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
 def test_fmpy_finds_nothing(build: Callable[..., Path], scene: str, kind: str) -> None:
     assert validate_fmu(str(build(scene, kind))) == []
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["native", "python"])
+@pytest.mark.parametrize("kind", kinds.FMI_2)
 @pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
 def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[..., Path], scene: str, kind: str) -> None:
     pytest.importorskip("fmu_manipulation_toolbox")
@@ -57,7 +58,7 @@ def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[..., Path], scen
     assert "WARNING" not in said
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", kinds.ALL)
 def test_two_builds_give_the_same_bytes(tmp_path: Path, kind: str) -> None:
     files = []
     for k in range(2):

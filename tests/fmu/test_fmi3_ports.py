@@ -16,6 +16,7 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.car_registry import build_car
 from hosts.fmu.fmu import Fmu
 from mbs.elements.road import ANSWER
+from tests import kinds
 
 STEP, SPEED = 0.01, 15.0
 WHEELS = ("FL", "FR", "RL", "RR")
@@ -137,7 +138,7 @@ def test_a_sledge_on_a_road_at_ports(build: Callable[..., Path]) -> None:
 def test_a_car(tmp_path: Path, ports: str, given: Callable[[float, Mapping[str, float]], Given], moved: str) -> None:
     car = build_car("hatchback", ports=ports)
     system = car.systems[min(car.systems)]
-    two, three = (build_fmu(system, car.name, tmp_path, [fmpy.platform], kind=kind) for kind in ("native", "fmi3"))
+    two, three = (build_fmu(system, car.name, tmp_path, [fmpy.platform], kind=kind) for kind in kinds.VERSIONS)
     names, rows = same((two, three), {"initial.speed": SPEED}, given, 70)
     assert np.ptp(rows[:, names.index(moved)]) > 0.05
     assert np.isfinite(same((two, three), {"initial.speed": SPEED}, wild(given), 9)[1]).all()

@@ -26,6 +26,7 @@ from mbs.scenes import double_four_bar, puma
 from mbs.shapes.pose_outputs import pose_outputs
 from mbs.system.drawing import POSE
 from mbs.vehicle import load
+from tests import kinds
 from viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")
@@ -248,7 +249,7 @@ def pendulum() -> mbs.System:
     return mbs.compile(m)
 
 
-@pytest.mark.parametrize("kind", ["native", "fmi3", "fmi3_scalar", "python"])
+@pytest.mark.parametrize("kind", kinds.ALL)
 def test_every_kind_of_fmu_carries_its_scene_by_names_of_its_scalars(kind: str, tmp_path: Path) -> None:
     file = build_fmu(pendulum(), "pendulum", tmp_path, ["linux64"], kind=kind)
     folder = Path(fmpy.extract(str(file), unzipdir=str(tmp_path / "fmu")))

@@ -17,6 +17,7 @@ import pytest
 
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
+from tests import kinds
 from tests.fmu.calls import ERROR, FMI_2, OK, HostMaker
 
 H = 0.01
@@ -153,7 +154,7 @@ def test_sources_name_the_mathematical_library(build: Callable[..., Path]) -> No
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_linux_on_arm_has_a_binary(tmp_path: Path, kind: str) -> None:
     name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:crane")
     fmu = build_fmu(system, name, tmp_path, ["aarch64-linux"], kind=kind)

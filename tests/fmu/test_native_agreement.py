@@ -15,6 +15,7 @@ import pytest
 import mbs
 from fmu_src.build.scene_registry import load_scene
 from mbs.simulation.state import Pose
+from tests import kinds
 from tests.fmu import scenes
 from tests.fmu.calls import ERROR, OK, HostMaker
 
@@ -23,13 +24,12 @@ SAG_ROUNDED = 1e-4  # m, the message has three digits
 # Time, steering, throttle, brake: a launch, a lane change, a stop.
 MANOEUVRE = [(0.0, 0.0, 0.5, 0.0), (0.5, 0.3, 0.2, 0.0), (1.0, -0.3, 0.2, 0.0), (1.5, 0.0, 0.0, 0.6)]
 END = 2.0
-KINDS = ("native", "python", "fmi3", "fmi3_scalar")
 
 
 @pytest.fixture(scope="session")
 def cars(scene_fmu: Callable[..., Path], need: Callable[[str], None]) -> tuple[mbs.System, dict[str, Path]]:
     need("python")
-    return load_scene("prototype_car")[1], {kind: scene_fmu("prototype_car", kind) for kind in KINDS}
+    return load_scene("prototype_car")[1], {kind: scene_fmu("prototype_car", kind) for kind in kinds.ALL}
 
 
 def controls(time: float) -> tuple[float, float, float]:
@@ -49,7 +49,7 @@ def drive(driven: Any) -> np.ndarray:
 @pytest.mark.slow
 def test_a_manoeuvre_of_the_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
     system, files = cars
-    native, *others = (drive(host(files[kind])) for kind in KINDS)
+    native, *others = (drive(host(files[kind])) for kind in kinds.ALL)
     simulation = mbs.Simulation(system, pose=Pose(speed=SPEED))
     inner = system.meta["experiment"]["step_s"]
     computed = [k for k, sensor in enumerate(system.meta["sensors"]) if sensor.get("computed", True)]
@@ -71,7 +71,7 @@ def test_random_communication_steps(build: Callable[..., Path], host: HostMaker)
     rng = random.Random(11)
     plan = [(rng.choice([0.003, 0.01, 0.03, rng.uniform(0.002, 0.08)]), rng.uniform(-30.0, 30.0)) for _ in range(60)]
     ends = []
-    for kind in KINDS:
+    for kind in kinds.ALL:
         driven, time, rows = host(build("crane", kind)).start(), 0.0, []
         for step, torque in plan:
             driven.set("torque", torque)
@@ -138,7 +138,7 @@ def test_the_car_brakes_as_the_description_of_friction_says(
 
 
 def test_old_names_say_what_to_use_instead(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
-    for kind in KINDS:
+    for kind in kinds.ALL:
         known = {v.name: v for v in fmpy.read_model_description(str(cars[1][kind])).modelVariables}
         for wheel in ("FL", "FR", "RL", "RR"):
             assert known[f"wheel_{wheel}.camber"].description.startswith("deprecated")

@@ -19,6 +19,7 @@ import pytest
 from fmu_src.native.more_platforms import add_platforms
 from fmu_src.native.platforms import PLATFORMS
 from fmu_src.native.universal import universal
+from tests import kinds
 from tests.sanitize import OBJECTS
 from tests.unoptimised import unoptimised
 
@@ -165,7 +166,7 @@ def test_a_state_goes_on_under_another_system(all_platforms: Path, tmp_path: Pat
 
 @pytest.mark.proof  # all sources are named (`test_native_file.py`), and compiled by gcc for `test_stress`
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="FMPy compiles by CMake")
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_fmpy_compiles_the_sources(build: Callable[..., Path], tmp_path: Path, kind: str) -> None:
     fmu = build("crane", kind)
     folder = native.unpack(fmu, tmp_path / "fmu")

@@ -23,6 +23,7 @@ from fmu_src.native.reference import reference_runs
 from fmu_src.variables.variables import Variable
 from mbs.compiler.ports import following
 from mbs.scenes import cart_pole, prototype_car
+from tests import kinds
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
 LS_REF = "extra/org.fmi-standard.fmi-ls-ref"
@@ -74,7 +75,7 @@ def columns_of(fmu: Path, file: str) -> Any:
     return np.genfromtxt(content, delimiter=",", names=True, deletechars="", dtype=float)
 
 
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> None:
     """To the bit, without inputs and with those of the FMU, which FMPy holds over a step."""
     fmu = build("crane", kind)

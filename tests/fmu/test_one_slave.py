@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from fmpy.fmi1 import FMICallException
 
+from tests import kinds
 from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
 
 H = 0.01
@@ -24,7 +25,7 @@ SEED, CALLS = 7, 400
 
 @pytest.fixture
 def pair(build: Callable[..., Path], host: HostMaker) -> list[Any]:
-    return [host(build("sprung_reach", kind)) for kind in ("native", "python")]
+    return [host(build("sprung_reach", kind)) for kind in kinds.FMI_2]
 
 
 def both(pair: list[Any], function: str, *arguments: Any) -> Any:
@@ -101,7 +102,7 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
 
 def test_an_instance_is_refused_alike(build: Callable[..., Path], host: HostMaker) -> None:
     said = []
-    for kind in ("native", "python"):
+    for kind in kinds.FMI_2:
         driven = host(build("sprung_reach", kind))
         with pytest.raises(Exception, match="instantiate"):
             driven.instance(name="")

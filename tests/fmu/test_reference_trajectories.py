@@ -26,6 +26,7 @@ from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import ELEMENTS, element_names
 from mbs import Pose, Simulation
 from mbs.vehicle.environment import GRAVITY
+from tests import kinds
 from tests.fmu.native import compile_host, guid_of, unpack
 
 Columns: TypeAlias = Mapping[str, NDArray[np.float64]]
@@ -158,7 +159,7 @@ def of_kinds(first: str, *others: str) -> pytest.MarkDecorator:
     return pytest.mark.parametrize("car", [first, *proof], indirect=True)
 
 
-@of_kinds("native", "python")
+@of_kinds(*kinds.FMI_2)
 def test_with_input_derivatives_an_fmu_is_as_accurate_as_the_kernel(car: Road) -> None:
     wrong = []
     for name in manoeuvres.NAMES:
@@ -204,7 +205,7 @@ def lagging() -> dict[str, Columns]:
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:missing input")
-@of_kinds("native", "fmi3", "fmi3_scalar", "python")
+@of_kinds(*kinds.ALL)
 def test_held_inputs_are_late_by_half_a_communication_step(car: Road, lagging: dict[str, Columns]) -> None:
     """Against the reference an FMU errs by that lag; against the kernel with that lag it errs much less."""
     wrong = []
@@ -262,7 +263,7 @@ def test_in_the_air_behind_a_kerb_the_centre_of_mass_falls(car: Road) -> None:
 
 
 @pytest.mark.slow
-@of_kinds("native", "fmi3", "python")
+@of_kinds(*kinds.BUILT)
 @pytest.mark.parametrize("seed", [1, 4, 5])
 def test_a_wild_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: int) -> None:
     start = {n: x for n, x in wild_start(seed).items() if n not in ("initial.x", "initial.y")}

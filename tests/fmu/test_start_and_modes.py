@@ -12,6 +12,7 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from mbs.kernel.binding import Status
+from tests import kinds
 from tests.fmu.calls import OK, WARNING, HostMaker
 from tests.simulation.loops import suspension
 from tests.simulation.scenes_in_equilibrium import MASS, STIFFNESS, hanging
@@ -23,10 +24,7 @@ G, STEP = 9.81, 0.01
 def hung(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None]) -> dict[str, Path]:
     system, folder = mbs.compile(hanging()), tmp_path_factory.mktemp("hung")
     need("python")
-    return {
-        kind: build_fmu(system, "hung", folder, [fmpy.platform], kind=kind)
-        for kind in ("native", "python", "fmi3_scalar")
-    }
+    return {kind: build_fmu(system, "hung", folder, [fmpy.platform], kind=kind) for kind in kinds.ALIKE}
 
 
 @pytest.fixture(scope="session")

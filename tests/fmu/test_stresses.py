@@ -19,6 +19,7 @@ from mbs.compiler.ports import following, with_ports_of
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.scenes import kerb_test, pendulum, prototype_car
+from tests import kinds
 
 H = 0.01  # s
 EDGE = 760  # steps; the front wheels are over the kerb ten steps later
@@ -69,7 +70,7 @@ class Bare:
         return self.slave.getFMUState()
 
 
-@pytest.mark.parametrize("kind", ["native", "python", "fmi3_scalar"])
+@pytest.mark.parametrize("kind", kinds.ALIKE)
 def test_reading_stresses_leaves_no_trace(kerb_fmus: Path, kind: str, need: Callable[[str], None]) -> None:
     need(kind)
     unread, read = Bare(kerb_fmus / f"{kind}.fmu"), Bare(kerb_fmus / f"{kind}.fmu")

@@ -17,7 +17,8 @@ from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar, prototype_car
 from mbs.vehicle import load
-from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
+from tests import kinds
+from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
 TORQUE = 4.0
@@ -73,7 +74,7 @@ def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None
 def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, need: Callable[[str], None]) -> None:
     need("python")
     ends = []
-    for kind in ("native", "python"):
+    for kind in kinds.FMI_2:
         driven = host(build("crank_slider", kind))
         run(driven, 1e-3, 1.0)
         ends.append((driven.messages, [driven.get(n) for n in (*NAMES, "solver.status", "solver.halvings")]))
@@ -84,7 +85,7 @@ def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, nee
 @pytest.mark.filterwarnings(
     "ignore::mbs.simulation.large_bending.BendingWarning"
 )  # one body a bar bends by 0.05 rad, as warned
-@pytest.mark.parametrize("kind", ["native", "python"])
+@FMI_2
 def test_a_changed_assembly_mode_is_reported_once(
     tmp_path: Path, host: HostMaker, kind: str, need: Callable[[str], None]
 ) -> None:

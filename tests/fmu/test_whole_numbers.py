@@ -12,6 +12,7 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.variables.variables import variable_table
+from tests import kinds
 from tests.fmu.calls import ERROR, OK, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
@@ -45,7 +46,7 @@ def test_a_real_variable_is_no_integer(crane: Path, host: HostMaker) -> None:
     assert driven.call("getInteger", [99]) == ERROR
 
 
-@pytest.mark.parametrize("kind", ["native", "fmi3", "python"])
+@pytest.mark.parametrize("kind", kinds.BUILT)
 def test_the_fidelity_is_an_integer_with_a_range(
     tmp_path: Path, need: Callable[[str], None], kind: str, host: HostMaker
 ) -> None:

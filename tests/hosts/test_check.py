@@ -15,6 +15,7 @@ from hosts.check.all_checks import CHECKS
 from hosts.check.command import main
 from hosts.check.instance import Instance, open_subject
 from mbs.kernel import build
+from tests import kinds
 from tests.in_process import run
 
 ROOT = Path(__file__).parents[2]
@@ -23,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 @pytest.fixture(scope="module")
 def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
     scene = f"{ROOT / 'examples' / 'motor_pendulum.py'}:motor_pendulum"
-    return {kind: scene_fmu(scene, kind) for kind in ("native", "fmi3")}
+    return {kind: scene_fmu(scene, kind) for kind in kinds.VERSIONS}
 
 
 def check(fmu: Path) -> subprocess.CompletedProcess[str]:
@@ -43,7 +44,7 @@ def spoil(fmu: Path, copy: Path, old: str, new: str) -> Path:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_ours_pass(fmus: dict[str, Path], kind: str) -> None:
     done = check(fmus[kind])
     assert done.returncode == 0, done.stdout + done.stderr
@@ -99,7 +100,7 @@ def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> No
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_it_checks_with_what_is_set(
     scene_fmu: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str
 ) -> None:

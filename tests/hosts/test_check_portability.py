@@ -13,6 +13,7 @@ from fmu_src.native.sources import DETOUR, HERE, KERNEL_INCLUDE, shell_files
 from hosts.check.all_checks import CHECKS
 from hosts.check.command import main
 from mbs.kernel import build
+from tests import kinds
 from tests.in_process import run
 
 ROOT = Path(__file__).parents[2]
@@ -22,7 +23,7 @@ Change = tuple[str, str, str]
 
 @pytest.fixture(scope="module")
 def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
-    return {kind: scene_fmu(f"{SCENES}:crank_slider", kind) for kind in ("native", "fmi3")}
+    return {kind: scene_fmu(f"{SCENES}:crank_slider", kind) for kind in kinds.VERSIONS}
 
 
 def findings(fmu: Path) -> dict[str, str]:

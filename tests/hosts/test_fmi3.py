@@ -18,11 +18,11 @@ from hosts.fmu.instance import Instance
 from hosts.fmu.scalars import ELEMENTS
 from hosts.run.command import main
 from mbs.shapes.pose_outputs import pose_outputs
+from tests import kinds
 from tests.fmu.scenes import crane
 from tests.hosts.scenes import switched
 from tests.in_process import run
 
-KINDS = ("native", "fmi3", "fmi3_scalar")
 H = 0.01
 
 
@@ -35,11 +35,11 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], Path
     return {
         (name, kind): build_fmu(mbs.compile(model), name, folder, [fmpy.platform], kind=kind)
         for name, model in models.items()
-        for kind in KINDS
+        for kind in kinds.IN_C
     }
 
 
-@pytest.mark.parametrize("kind", ["native", "fmi3"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
 def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
@@ -52,7 +52,7 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     assert "{100% of #r1#}" in told[-1]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", kinds.IN_C)
 def test_all_is_unpacked_but_what_no_running_fmu_reads(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
@@ -79,7 +79,7 @@ def test_with_held_inputs_results_are_the_same_bytes(
 ) -> None:
     (tmp_path / "table.csv").write_text(rows)
     tables = []
-    for kind in KINDS:
+    for kind in kinds.IN_C:
         done = run(main, fmus[scene, kind], "-m", tmp_path / "table.csv", "--step", H, "--out", tmp_path / kind)
         assert done.returncode == 0, done.stderr
         tables += [file.read_bytes() for file in (tmp_path / kind).glob("*.csv")]
@@ -113,7 +113,7 @@ def test_what_goes_straight_is_held_and_late_and_this_is_told(
 
 @pytest.mark.slow
 def test_states_and_start_values_are_those_of_fmi_2(fmus: dict[tuple[str, str], Path]) -> None:
-    for kind in KINDS:
+    for kind in kinds.IN_C:
         with Fmu(fmus["crane", kind]) as fmu, Fmu(fmus["crane", kind]) as other:
             fmu.initialise({"torque": 2.0}, 5.0)
             read, again = (one.getter(["rod.x", "rod.angle"]) for one in (fmu, other))

@@ -13,15 +13,15 @@ from scipy.integrate import solve_ivp
 from hosts.compare.command import main as compare
 from hosts.study.command import main as study
 from hosts.study.store import read_study
+from tests import kinds
 
 HERE = Path(__file__).parent
-KINDS = ("native", "fmi3")
 MEASURES = ["lowest", "highest"]
 
 
 @pytest.fixture(scope="module")
 def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
-    return {k: scene_fmu(f"{HERE / 'scenes.py'}:tuned", k) for k in KINDS}
+    return {k: scene_fmu(f"{HERE / 'scenes.py'}:tuned", k) for k in kinds.VERSIONS}
 
 
 @pytest.mark.slow

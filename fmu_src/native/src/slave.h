@@ -284,7 +284,7 @@ void slave_add_slope(const double *slope, size_t variable, double elapsed, doubl
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
-/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0186. */
+/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0184. */
 static const double SLAVE_EDGE = 0.3;
 
 /* road_ramps.c: answers on the road for the end of a step go there from the last ones */
