@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 
+from ali3.confinement import confine
 from ali3.errors import UserError, reason
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened
@@ -15,14 +16,16 @@ GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED, NO_READER = 0, 1, 2, 130, 141
 that end programs); what reads the output has gone (128 + SIGPIPE)."""
 
 
-def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
+def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (), is_confined: bool = False) -> int:
     """Do the work of a command. In it SIGTERM and SIGHUP raise a `KeyboardInterrupt`, as Ctrl-C does.
 
     `work`: gives the exit code; `errors`: besides `UserError` and `OSError`, what the user can put right: the message
-    is shown, the exit code is 2. Returns the exit code.
+    is shown, the exit code is 2; `is_confined`: the option ``--confined``. Returns the exit code.
     """
     try:
         with stopped_by_signals():
+            if is_confined:
+                confine()
             status = work()
             if sys.stdout is not None:  # closed by the shell
                 sys.stdout.flush()

@@ -24,7 +24,7 @@ def _serve(folder: Path) -> None:
     from ali3.frames import write_frame
     from ali3.isolated import DONE, ERROR, READY, TOLD
     from ali3.processes import begin_for
-    from ali3.running import sentence
+    from ali3.running import WRONG_USE, sentence
 
     begin_marks(folder)
     sink = os.fdopen(os.dup(1), "wb")
@@ -42,7 +42,7 @@ def _serve(folder: Path) -> None:
             words = sentence(error)
             if words is None:
                 raise
-            write_frame(sink, ERROR, words)
+            write_frame(sink, ERROR, (words, getattr(error, "status", WRONG_USE)))
 
 
 def _receive(source: IO[bytes], arrived: queue.SimpleQueue[Any]) -> None:

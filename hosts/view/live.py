@@ -138,7 +138,7 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
         return []
     from hosts.view.view_sources import RunWishes, recordings_of
 
-    recordings, told = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
+    recordings, told, _ = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
     for line in told:
         print(line)
     undrawn = next((r.name for r in recordings if r.scene is None), None)
