@@ -10,8 +10,8 @@ from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 
 from ali3.call_mark import marked
-from ali3.processes import cause_words
 from ali3.columns import some_of
+from ali3.processes import cause_words
 from hosts.check.instance import Check, Finding, Subject
 
 FUNCTIONS = "functions"
