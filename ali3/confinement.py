@@ -31,14 +31,15 @@ def is_confined() -> bool:
     return _SWITCH in os.environ
 
 
-def confined(command: Sequence[str], folder: Path, readable: Iterable[Path]) -> list[str]:
-    """The command of a process that has a folder, may read these files, and sees nothing else of the user's."""
+def confined(command: Sequence[str], readable: Iterable[Path], writable: Sequence[Path]) -> list[str]:
+    """The command of a process that sees these files and folders of the user's alone, and begins in the last."""
     return [
         *_bubblewrap(),
         *("--proc", "/proc", "--dev", "/dev", "--tmpfs", "/tmp"),
         *(word for place in _places() for word in ("--ro-bind", place, place)),
         *(word for file in readable for word in ("--ro-bind-try", str(file), str(file))),
-        *("--bind", str(folder), str(folder), "--chdir", str(folder)),
+        *(word for file in writable for word in ("--bind", str(file), str(file))),
+        *("--chdir", str(writable[-1])),
         "--",
         *command,
     ]

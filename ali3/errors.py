@@ -6,6 +6,9 @@ from __future__ import annotations
 class UserError(Exception):
     """Something the user can put right; the message says what."""
 
+    status = 2
+    """Exit code of a command that ends by it."""
+
 
 class FileError(UserError, OSError):
     """A file or folder that cannot be written or read; the message names it."""

@@ -31,7 +31,8 @@ from ali3.processes import module_command
 from ali3.words import shortened
 
 DONE, TOLD, ERROR, READY = 0, 1, 2, 3
-"""Kinds of frames: a result, what is told before it, the sentence of an error, that work has come and may begin."""
+"""Kinds of frames: a result, what is told before it, an error as its sentence and exit code, that work has come and may
+begin."""
 _START = 60.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
 _END = 10.0  # s in which a guard ends all that is left
@@ -59,7 +60,7 @@ class Lost:
 class _Process:
     """One process: what is started, and what is ended with it."""
 
-    def __init__(self, work: bytes, reads: Iterable[Path]) -> None:
+    def __init__(self, work: bytes, reads: Iterable[Path], writes: Iterable[Path]) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
         self.flooded, self._lock = False, threading.Lock()
         self.number: int | None = None
@@ -76,7 +77,7 @@ class _Process:
         environment = os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
         self._confined = is_confined()
         if self._confined:
-            command = confined(command, self.folder, reads)
+            command = confined(command, reads, (*writes, self.folder))
             environment = confined_environment(dict(os.environ), self.folder)
         try:
             self.process = subprocess.Popen(
@@ -191,7 +192,7 @@ class Isolated(Generic[T, R]):
     `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
     module, not of the file that is run as a program. `answer`, `told`: types of the result and of what is given to
     ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute. `reads`: files of
-    the user that it may read where processes are confined.
+    the user that it may read where processes are confined, `writes`: that it may write too.
     """
 
     def __init__(
@@ -200,10 +201,11 @@ class Isolated(Generic[T, R]):
         answer: Any,
         told: Any = float,
         reads: Iterable[Path] = (),
+        writes: Iterable[Path] = (),
     ) -> None:
         self._work = work
-        self._reads = [file.absolute() for file in reads]
-        self._types = {DONE: answer, TOLD: told, ERROR: str, READY: int}
+        self._reads, self._writes = [file.absolute() for file in reads], list(writes)
+        self._types = {DONE: answer, TOLD: told, ERROR: tuple[str, int], READY: int}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
         self.left = 0
@@ -249,7 +251,9 @@ class Isolated(Generic[T, R]):
             self._end()
         kind, content = answer
         if kind == ERROR:
-            raise UserError(content)
+            error = UserError(content[0])
+            error.status = content[1]
+            raise error
         result: R = content
         return result
 
@@ -303,7 +307,7 @@ class Isolated(Generic[T, R]):
         with self._lock:
             if self._process is not None:
                 return self._process, False
-            self._process = process = _Process(work, self._reads)
+            self._process = process = _Process(work, self._reads, self._writes)
             if self._closed:
                 process.kill()
         return process, True

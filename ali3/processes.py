@@ -2,27 +2,35 @@
 
 from __future__ import annotations
 
+import mmap
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+_SPARE = 1 << 28  # bytes: more than the libraries of this program take one by one
 _prefix: str | None = None
 _began: Path | None = None
 _store: Path | None = None
 _next_word: Callable[[], Any] | None = None
 
 
-def memory_words() -> str:
-    """What to add where something failed without a reason and memory is limited (``ulimit -v``); else empty."""
+def is_memory_short() -> bool:
+    """Whether this process gets no more memory, which is tried."""
     try:
-        import resource
-    except ImportError:  # on Windows
-        return ""
-    most = resource.getrlimit(resource.RLIMIT_AS)[0]
-    if most == resource.RLIM_INFINITY:
-        return ""
-    return f"; this process may take {most / 1e6:.0f} MB (ulimit -v), which may be too little"
+        mmap.mmap(-1, _SPARE).close()
+    except (OSError, MemoryError):
+        return True
+    return False
+
+
+def cause_words(error: Exception) -> str:
+    """What is known of the cause of an error beside its words, to be put after them; else empty."""
+    if is_memory_short():
+        return "; this process gets no more memory (close other programs, or raise the limit, ulimit -v)"
+    if "map segment" in str(error):
+        return "; programs in its folder may not be run (noexec); TMPDIR names another folder"
+    return ""
 
 
 def begin_for(folder: Path, place: Path, next_word: Callable[[], Any]) -> None:

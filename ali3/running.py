@@ -6,8 +6,9 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 
+from ali3.confinement import confine
 from ali3.errors import UserError, reason
-from ali3.extras import missing_module
+from ali3.processes import is_memory_short
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened
 
@@ -15,15 +16,19 @@ GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED, NO_READER = 0, 1, 2, 130, 141
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others
 that end programs); what reads the output has gone (128 + SIGPIPE)."""
 
+_NO_THREAD = "can't start new thread"
 
-def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = ()) -> int:
+
+def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (), is_confined: bool = False) -> int:
     """Do the work of a command. In it SIGTERM and SIGHUP raise a `KeyboardInterrupt`, as Ctrl-C does.
 
     `work`: gives the exit code; `errors`: besides `UserError` and `OSError`, what the user can put right: the message
-    is shown, the exit code is 2. Returns the exit code.
+    is shown, the exit code is 2; `is_confined`: the option ``--confined``. Returns the exit code.
     """
     try:
         with stopped_by_signals():
+            if is_confined:
+                confine()
             status = work()
             if sys.stdout is not None:  # closed by the shell
                 sys.stdout.flush()
@@ -46,18 +51,20 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
     """What a user is told of an error; None where the error is not the user's. `errors`: see `run_command`."""
     if isinstance(error, ModuleNotFoundError):
         return missing_module(error)
-    if _lacks_memory(error):
+    if isinstance(error, MemoryError) or (_may_lack_memory(error) and is_memory_short()):
         return "There is not enough memory for this; close other programs, or raise the limit (ulimit -v)."
+    if isinstance(error, RuntimeError) and str(error) == _NO_THREAD:
+        return "The system starts no more threads for this user; close other programs, or raise the limit (ulimit -u)."
     if isinstance(error, (UserError, *errors)):
         return str(error)
     return _os_words(error) if isinstance(error, OSError) else None
 
 
-def _lacks_memory(error: Exception) -> bool:
-    """Whether an error says that memory was not enough: an allocation, a library or a thread that had no place."""
+def _may_lack_memory(error: Exception) -> bool:
+    """Whether an error comes where memory is short, among other causes: a library or a thread that had no place."""
     if isinstance(error, RuntimeError):
-        return str(error) == "can't start new thread"
-    return isinstance(error, MemoryError) or (isinstance(error, (ImportError, OSError)) and "map segment" in str(error))
+        return str(error) == _NO_THREAD
+    return isinstance(error, (ImportError, OSError)) and "map segment" in str(error)
 
 
 def _end(line: str, status: int) -> int:

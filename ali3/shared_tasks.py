@@ -6,6 +6,7 @@ import queue
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
+from pathlib import Path
 from typing import Any, TypeVar
 
 from ali3.isolated import Isolated, Lost, Tell
@@ -23,14 +24,15 @@ def as_completed(
     jobs: int,
     told: Callable[[int, Any], None],
     limit: float | None = None,
+    reads: Sequence[Path] = (),
 ) -> Generator[tuple[int, R | Lost]]:
     """Do tasks, several at a time; give each result with the place of its task as soon as it is there.
 
-    `work`, `answer`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and the numbers its
-    work tells; `limit`: see `Isolated.do`. Where the iteration is left early, as by Ctrl-C, the processes are ended.
-    Raises `UserError`: the work of a task has raised one; no further task is begun.
+    `work`, `answer`, `reads`: see `Isolated`; `jobs`: processes; `told`: called with the place of a task and the
+    numbers its work tells; `limit`: see `Isolated.do`. Where the iteration is left early, as by Ctrl-C, the processes
+    are ended. Raises `UserError`: the work of a task has raised one; no further task is begun.
     """
-    workers: list[Isolated[T, R]] = [Isolated(work, answer) for _ in range(max(1, min(jobs, len(tasks))))]
+    workers: list[Isolated[T, R]] = [Isolated(work, answer, reads=reads) for _ in range(max(1, min(jobs, len(tasks))))]
     try:
         yield from as_completed_by(workers, tasks, told, limit)
     finally:

@@ -26,6 +26,12 @@ _SHARE = 0.75  # of the memory of the machine that a process may take
 
 
 def _serve(folder: Path) -> None:
+    from ali3.call_mark import begin_marks
+    from ali3.frames import write_frame
+    from ali3.isolated import DONE, ERROR, READY, TOLD
+    from ali3.processes import begin_for
+    from ali3.running import WRONG_USE, sentence
+
     begin_marks(folder)
     sink = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what an FMU prints must not get between the answers
@@ -42,7 +48,7 @@ def _serve(folder: Path) -> None:
             words = sentence(error)
             if words is None:
                 raise
-            write_frame(sink, ERROR, words)
+            write_frame(sink, ERROR, (words, getattr(error, "status", WRONG_USE)))
 
 
 def _receive(source: IO[bytes], arrived: queue.SimpleQueue[Any]) -> None:

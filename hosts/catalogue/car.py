@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
 from hosts.driving.derived_columns import derive_columns
@@ -84,7 +85,8 @@ class TestedCar:
         Raises
         ------
         HostError
-            If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range.
+            If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range;
+            or an output is no number.
         """
         with Fmu(self.path) as opened:
             fmu = AliasedFmu(opened, self.aliases)
@@ -93,6 +95,8 @@ class TestedCar:
             step = communication_step(fmu, manoeuvre, self.step)
             every = 1 if record_step is None else max(1, round(record_step / step))
             driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
+            if wrong := driven.not_finite():
+                raise FailedFmuError(f"{wrong} Nothing of that run is measured.")
             result = marked(driven, pilot)
             derive_columns(result, self.aliases, every > 1)
             return result

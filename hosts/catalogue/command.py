@@ -71,10 +71,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
         "standards",
     )
     parser.add_argument("--no-runs", action="store_true", help="write no tables of the runs")
+    add_option(parser, "--confined")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     options = parser.parse_args(arguments)
     given = list(sys.argv[1:] if arguments is None else arguments)
-    return run_command(lambda: _list() if options.list else _catalogue(options, [*prog.split(), *given]))
+    return run_command(
+        lambda: _list() if options.list else _catalogue(options, [*prog.split(), *given]), is_confined=options.confined
+    )
 
 
 def _list() -> int:
@@ -168,8 +171,8 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
     from hosts.catalogue.kept import keep
     from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
-    from hosts.catalogue.task import do
-    from hosts.fmu.own_process import PATIENCE
+    from hosts.catalogue.task import do, write_runs
+    from hosts.fmu.own_process import PATIENCE, files_of
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
@@ -180,12 +183,14 @@ def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcom
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        with closing(as_completed(do, TestRecord | Reason, tasks, jobs, progress, PATIENCE)) as done:
+        reads = [file for task in tasks for file in (task.car.path, *files_of(task.car.start))]
+        with closing(as_completed(do, TestRecord | Reason, tasks, jobs, progress, PATIENCE, reads)) as done:
             for place, outcome in done:
                 progress(place, 1.0)
                 words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
                 outcomes[tasks[place].test][tasks[place].car.label] = words
                 if not isinstance(words, str):
+                    write_runs(tasks[place], words)
                     keep(tasks[place], words, out)
                 yield
 

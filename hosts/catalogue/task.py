@@ -50,7 +50,7 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
             progress(done)
 
     try:
-        record = perform(standard_test(task.test), task.car, task.settings, seldom)
+        return perform(standard_test(task.test), task.car, task.settings, seldom)
     except UserError as error:
         return str(error)
     except MemoryError:
@@ -60,15 +60,16 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
         return (
             f"The test broke off, which it should not: {error!r} in {Path(place.filename).name}, line {place.lineno}."
         )
-    if task.folder is not None:
-        _write_runs(task, task.folder, record)
-    return record
 
 
-def _write_runs(task: Task, folder: Path, record: TestRecord) -> None:
-    """A table of each run, and beside it what `ali3 view` needs to draw it."""
+def write_runs(task: Task, record: TestRecord) -> None:
+    """A table of each run, and beside it what `ali3 view` needs to draw it; nothing where it has no folder."""
+    from hosts.run.result_files import write_csv
+
+    if task.folder is None:
+        return
     for name, result in record.runs.items():
-        file = folder / run_file(task.test, task.car.label, name)
+        file = task.folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
         told = [{"name": variable, "new": value} for variable, value in task.car.aliases.values(result.start).items()]
         seen = {

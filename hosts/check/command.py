@@ -13,7 +13,6 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
@@ -46,7 +45,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> in
     """Run the command, which the user typed as `prog`; 0 if nothing bad was found."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _work(options, parser))
+    return run_command(lambda: _work(options, parser), is_confined=options.confined)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -135,8 +134,6 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"--junit does not go with {others[0]}.")
     if options.confined and (table or options.soak):
         raise HostError(f"--confined does not go with {others[0]}.")
-    if options.confined:
-        confine()
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak

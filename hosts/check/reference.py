@@ -142,6 +142,8 @@ def check_reference(
         print(": ".join(missed))
     for message in dict.fromkeys(result.messages):
         print(f"FMU: {message}")
+    if wrong := result.not_finite():
+        print(wrong)
     share = "" if bounds else f"; the bound is {100.0 * BOUND:g} % of the range of each, --bound NAME=SHARE sets others"
     print(
         f"\n{path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
@@ -152,7 +154,9 @@ def check_reference(
         refused = result.ended or f"The step at {result.time[-1]:g} s was refused"
         ended = f"{refused.rstrip('.')}; the reference goes on to {times[-1]:g} s."
         print(ended)
-    run = Case(file.stem, "run", "bad" if result.failed_steps else "good", ended, time.perf_counter() - begin)
+    elif wrong:
+        ended = wrong
+    run = Case(file.stem, "run", "good" if result.is_good else "bad", ended, time.perf_counter() - begin)
     missing = [Case(file.stem, name, "skipped", f"{path.name} has no such output") for name in left]
     return [run, *(deviation.case(file.stem) for deviation in found), *missing]
 

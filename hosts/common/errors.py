@@ -10,7 +10,7 @@ class HostError(UserError):
     """Something the user can put right; the message says what."""
 
 
-class LostProcessError(HostError):
-    """The process of an FMU has ended; what it was asked is in the sentence."""
+class FailedFmuError(HostError):
+    """The FMU has failed: its process has ended, or what it gives is no number; when and where is in the sentence."""
 
     status = NOT_GOOD

@@ -11,7 +11,6 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.confinement import confine
 from ali3.options import Parser, add_option, count
 from ali3.running import run_command
 from ali3.units import quantity
@@ -80,13 +79,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
     add_option(parser, "--confined")
     add_option(parser, "--road")
     options = parser.parse_args(arguments)
-    return run_command(lambda: _begin(options))
-
-
-def _begin(options: argparse.Namespace) -> int:
-    if options.confined:
-        confine()
-    return _compare(options)
+    return run_command(lambda: _compare(options), is_confined=options.confined)
 
 
 def _names(text: str) -> list[str]:

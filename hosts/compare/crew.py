@@ -8,7 +8,7 @@ from typing import Any
 
 from ali3.isolated import Isolated, Lost
 from ali3.shared_tasks import as_completed_by
-from hosts.common.errors import LostProcessError
+from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.stretches import Stretch
@@ -57,10 +57,10 @@ class Crew:
             return result
         fewer = " --jobs 1 takes less memory." if len(self._workers) > 1 else ""
         begin = self._stretches[number].begin
-        raise LostProcessError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")
+        raise FailedFmuError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")
 
     def drive(self, values: Mapping[str, Value] | None, can_reset: bool | None) -> list[Result]:
-        """Drive all stretches; results in their order. Raises `LostProcessError`: a process has ended."""
+        """Drive all stretches; results in their order. Raises `FailedFmuError`: a process has ended."""
         tasks: list[_Task] = [(k, dict(values or {}), can_reset) for k in range(len(self._stretches))]
         results: dict[int, Result | str | Lost] = {}
         for k, result in as_completed_by(self._workers, tasks, limit=PATIENCE):

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 
 from ali3.cores import available_cores
-from hosts.common.errors import HostError
+from hosts.common.errors import FailedFmuError, HostError
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
@@ -93,11 +93,14 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
             f"The FMU refused a step at {result.simulated:.4g} s of {task.stretches[0].end:.4g} s"
             f"{f': {result.messages[-1]}' if result.messages else ''}; only what lies before is compared."
         )
+    if wrong := result.not_finite():
+        problems.append(wrong)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}
     enough = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
     if not enough:
-        why = problems[0] if problems else "No output of the FMU is finite and has samples to be compared with."
-        raise HostError(f"{why} That is too little to compare.")
+        if problems:
+            raise FailedFmuError(f"{' '.join(problems)} That is too little to compare.")
+        raise HostError("No output of the FMU has samples to be compared with: that is too little to compare.")
     for name in task.outputs:
         if name not in enough:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.common.errors import HostError
+from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_inputs import missed_end, missed_inputs
@@ -148,7 +148,7 @@ def run(
         if driver is not None:
             acts = acts if k == 0 else driver.act(t, senses)
             if not all(map(math.isfinite, acts.values())):
-                raise HostError(_not_finite(t, acts, senses))
+                raise FailedFmuError(_not_finite(t, acts, senses))
             wanted |= acts
         values = [wanted[n] for n in used]
         if used:

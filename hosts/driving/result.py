@@ -57,13 +57,18 @@ class Result:
     ended: str = ""
     """Where the process of the FMU has ended before the run: a sentence that says how."""
 
+    @property
+    def is_good(self) -> bool:
+        """Whether the FMU made every step, and all values are numbers."""
+        return not (self.failed_steps or self.ended or self.not_finite())
+
     def not_finite(self) -> str:
-        """The first value that is no number, as the end of a sentence; empty where all are."""
+        """The first value that is no number, in a sentence; empty where all are."""
         wrong = ~np.isfinite(self.values)
         if not wrong.any():
             return ""
         row, place = np.argwhere(wrong)[0]
-        return f"'{self.names[place]}' is {self.values[row, place]} at {self.time[row]:g} s."
+        return f"The output '{self.names[place]}' is {self.values[row, place]} at {self.time[row]:g} s."
 
     def __contains__(self, name: str) -> bool:
         return name in self.names

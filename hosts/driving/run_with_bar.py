@@ -14,7 +14,7 @@ import numpy as np
 from ali3.bars import bar as bar_of
 from ali3.isolated import Isolated, Lost
 from ali3.processes import store
-from hosts.common.errors import LostProcessError
+from hosts.common.errors import FailedFmuError
 from hosts.driving.co_simulation import columns_of, run
 from hosts.driving.ground_marks import marked
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
@@ -50,7 +50,7 @@ def run_with_bar(
 ) -> Result:
     """`run` with a progress bar on the terminal, and with marks on the ground; its last step always has a row.
 
-    `fmu`: is not loaded here; where its process ends, the rows until then are the result. Raises `LostProcessError`:
+    `fmu`: is not loaded here; where its process ends, the rows until then are the result. Raises `FailedFmuError`:
     there are none.
     """
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
@@ -83,7 +83,7 @@ def _rest(
     """What is there of a run whose process has ended."""
     rows = lost.kept
     if not len(rows):
-        raise LostProcessError(f"The process of the FMU {lost.how}; no row was recorded.")
+        raise FailedFmuError(f"The process of the FMU {lost.how}; no row was recorded.")
     return Result(
         names,
         {name: fmu.variables[name].unit or "1" for name in names},

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import reason
 from ali3.near_names import did_you_mean
-from ali3.processes import memory_words
+from ali3.processes import cause_words
 from ali3.words import brief, shortened
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
@@ -101,7 +101,7 @@ class Fmu(Closing, NamedScalars):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
                 raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
-            why = self._last_message() or f"{error}{memory_words()}"
+            why = self._last_message() or f"{error}{cause_words(error)}"
             raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
         return self._loaded
 

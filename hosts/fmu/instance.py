@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from ali3.call_mark import marked
 from ali3.processes import path_of_caller
+from ali3.reading import LARGEST_STATE
+from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
 
@@ -214,9 +216,15 @@ class Instance:
         (self.slave.freeFMUState if self.three else self.slave.freeFMUstate)(state)
 
     def state_bytes(self) -> bytes:
-        """The state now as bytes."""
-        state = self.state()
+        """The state now as bytes. Raises `HostError`: it is larger than files of states may be."""
+        state, size = self.state(), ctypes.c_size_t()
+        measure = self.slave.fmi3SerializedFMUStateSize if self.three else self.slave.fmi2SerializedFMUstateSize
         try:
+            measure(self.slave.component, state, ctypes.byref(size))
+            if size.value > LARGEST_STATE:
+                raise HostError(
+                    f"The FMU says that its state has {size.value} bytes; at most {LARGEST_STATE} are taken."
+                )
             return bytes((self.slave.serializeFMUState if self.three else self.slave.serializeFMUstate)(state))
         finally:
             self.free_state(state)

@@ -7,8 +7,9 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ali3.isolated import Isolated, Lost
-from hosts.common.errors import LostProcessError
+from ali3.errors import UserError
+from ali3.isolated import Isolated, Lost, Tell
+from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
 
 PATIENCE = 300.0
@@ -23,11 +24,25 @@ def files_of(values: Mapping[str, Value]) -> list[Path]:
     return [Path(value) for value in values.values() if isinstance(value, str) and Path(value).suffix]
 
 
-def in_own_process(work: Callable[[T, Callable[[float], None]], R], task: T, answer: Any, reads: Iterable[Path]) -> R:
-    """Do one task. `work`, `answer`, `reads`: see `Isolated`. Raises `LostProcessError`: the process has ended."""
+def in_own_process(
+    work: Callable[[T, Tell], R],
+    task: T,
+    answer: Any,
+    reads: Iterable[Path],
+    tell: Callable[[float], None] = lambda done: None,
+) -> R:
+    """Do one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: takes the numbers that it tells.
+
+    Raises `HostError`: the work has raised an error that a command shows; `FailedFmuError`: the process has ended.
+    """
     process: Isolated[T, R] = Isolated(work, answer, reads=reads)
     with closing(process):
-        done = process.do(task, limit=PATIENCE)
+        try:
+            done = process.do(task, tell, PATIENCE)
+        except UserError as error:
+            told = HostError(str(error))
+            told.status = error.status
+            raise told from None
     if isinstance(done, Lost):
-        raise LostProcessError(f"The process of the FMU {done.how}.")
+        raise FailedFmuError(f"The process of the FMU {done.how}.")
     return done

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State
+from hosts.fmu.own_process import files_of, in_own_process
 from hosts.recordings.format import REFUSED
 from hosts.recordings.last_drive import LastDrive
 from hosts.recordings.recorded_drive import RecordedDrive, RowKey
@@ -55,18 +56,33 @@ class Replayed:
     """Sentences, such as that it is another build of the FMU."""
 
 
+def fmu_of(drive: RecordedDrive, fmu: Path | None) -> Path:
+    """The FMU that repeats a recording, by default the one that was recorded, absolute.
+
+    Raises `HostError`: that one is not there.
+    """
+    path = fmu or Path(drive.meta["fmu"])
+    if fmu is None and not is_file(path):
+        raise HostError(f"{drive.folder} was recorded from {path}, which is not there any more; name the FMU.")
+    return path.absolute()
+
+
+def reads_of(drive: RecordedDrive, fmu: Path) -> list[Path]:
+    """Files that a process reads which repeats a recording in an FMU."""
+    starts = [drive.meta["start"], *(event["start"] for event in drive.events if isinstance(event.get("start"), dict))]
+    return [drive.folder, fmu, *(file for start in starts for file in files_of(start))]
+
+
 class Repeater(Closing):
-    """An FMU that follows a recording row by row.
+    """An FMU that follows a recording row by row; its library is loaded here.
 
     `fmu`: by default the one that was recorded. Raises `HostError`: the FMU is not there, lacks a variable, or cannot
     restore states and the recording has one.
     """
 
     def __init__(self, drive: RecordedDrive, fmu: Path | None = None) -> None:
-        self.drive, path = drive, fmu or Path(drive.meta["fmu"])
+        self.drive, path = drive, fmu_of(drive, fmu)
         self.notes = list(drive.notes)
-        if fmu is None and not is_file(path):
-            raise HostError(f"{drive.folder} was recorded from {path}, which is not there any more; name the FMU.")
         self._kept = set(drive.rewound_to)
         self._states: dict[RowKey, State] = {}
         self._started = False
@@ -165,11 +181,18 @@ class Repeater(Closing):
 def replay(
     drive: RecordedDrive, fmu: Path | None = None, progress: Callable[[int], None] = lambda rows: None
 ) -> Replayed:
-    """Repeat a recording and compare all outputs bit for bit.
+    """Repeat a recording in a process of its own, and compare all outputs bit for bit.
 
     `fmu`: by default the one that was recorded; `progress`: hears the number of rows that are done. Raises `HostError`:
-    the FMU cannot repeat it at all; see `Repeater`.
+    the FMU cannot repeat it at all, see `Repeater`; `FailedFmuError`: the process has ended.
     """
+    path = fmu_of(drive, fmu)
+    task = replace(drive, folder=drive.folder.absolute()), path
+    return in_own_process(_replayed, task, Replayed, reads_of(drive, path), lambda rows: progress(int(rows)))
+
+
+def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None]) -> Replayed:
+    drive, fmu = task
     made = Replayed()
     outputs = drive.names[len(drive.inputs) :]
     seen: set[str] = set()

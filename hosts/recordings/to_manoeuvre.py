@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,12 @@ import numpy as np
 from hosts.common.errors import HostError
 from hosts.driving.write_manoeuvre import write_table
 from hosts.fmu.fmu import StepRefusedError
+from hosts.fmu.own_process import in_own_process
 from hosts.recordings.last_drive import LastDrive, last_drive, manoeuvre_of
 from hosts.recordings.recorded_drive import RecordedDrive
-from hosts.recordings.replay import Repeater
+from hosts.recordings.replay import Repeater, fmu_of, reads_of
+
+_BETWEEN = 1000  # rows between two words on the progress
 
 
 def to_manoeuvre(
@@ -63,11 +67,19 @@ def to_manoeuvre(
 def _state_at(
     drive: RecordedDrive, last: LastDrive, row: int, fmu: Path | None, progress: Callable[[int], None]
 ) -> bytes:
-    """The state after a row of the last drive."""
+    """The state after a row of the last drive, found in a process of its own."""
+    path = fmu_of(drive, fmu)
+    task = replace(drive, folder=drive.folder.absolute()), last, row, path
+    return in_own_process(_found, task, bytes, reads_of(drive, path), lambda rows: progress(int(rows)))
+
+
+def _found(task: tuple[RecordedDrive, LastDrive, int, Path], progress: Callable[[int], None]) -> bytes:
+    drive, last, row, fmu = task
     with Repeater(drive, fmu) as repeater:
         try:
             for k in repeater.along(last, row):
-                progress(k + 1)
+                if k % _BETWEEN == 0:
+                    progress(k + 1)
         except StepRefusedError as error:
             raise HostError(f"{drive.folder} cannot be repeated up to there: {error}") from None
         return repeater.fmu.state_bytes()

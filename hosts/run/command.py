@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ali3.confinement import confine
 from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
 from ali3.units import quantity
@@ -60,13 +59,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
     add_option(parser, "--confined")
     add_option(parser, "--out", "out", default=Path("out"))
     options = parser.parse_args(arguments)
-    return run_command(lambda: _begin(options, parser))
-
-
-def _begin(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
-    if options.confined:
-        confine()
-    return _kerb(options, parser) if options.kerb else _run(options)
+    return run_command(lambda: _kerb(options, parser) if options.kerb else _run(options), is_confined=options.confined)
 
 
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

@@ -100,6 +100,6 @@ def print_result(tables: Iterable[Sequence[tuple[str, str]]], result: Result, fi
     if result.ended:
         print(result.ended)
     if wrong := result.not_finite():
-        print(f"The output {wrong}")
+        print(wrong)
     print(f"written: {', '.join(map(str, files))}")
-    return 1 if result.failed_steps or wrong else 0
+    return 0 if result.is_good else 1

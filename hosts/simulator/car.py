@@ -84,13 +84,13 @@ class Car(Closing):
         return Recorder(settings.record, self.names, self.units, meta, every=every)
 
     @property
-    def ended(self) -> str:
-        """Why the process has ended unasked, as one sentence; empty while it lives."""
-        return self._process.ended if self._process is not None else ""
+    def ended(self) -> HostError | None:
+        """Why the process has ended unasked; None while it lives."""
+        return self._process.ended if self._process is not None else None
 
     def _alive(self) -> None:
-        if self.ended:
-            raise HostError(self.ended)
+        if self.ended is not None:
+            raise self.ended
         if self._closed:
             raise HostError("The car is closed.")
 
@@ -171,8 +171,8 @@ class Car(Closing):
     def events(self) -> list[Event]:
         """Events since the last call."""
         events = self._mail.events() if self._mail is not None else []
-        if not events and self.ended:
-            raise HostError(self.ended)
+        if not events and self.ended is not None:
+            raise self.ended
         return events
 
     def step_times(self) -> StepTimes:

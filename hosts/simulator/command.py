@@ -24,7 +24,7 @@ _LOCAL = "127.0.0.1"
 _LONGEST = 1e6
 _TITLE = "ALi3: take the wheel"
 _BAR = "{desc}: {percentage:3.0f} % |{bar}| {elapsed}<{remaining}"
-_OF_RECORDINGS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu")
+_OF_RECORDINGS = ("recording", "replay", "save_manoeuvre", "begin", "end", "fmu", "confined")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -> int:
@@ -32,7 +32,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
     begin = time.monotonic()
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _simulate(options, begin) if options.recording is None else _recorded(parser, options))
+    return run_command(
+        lambda: _simulate(options, begin) if options.recording is None else _recorded(parser, options),
+        is_confined=options.confined,
+    )
 
 
 def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
@@ -65,6 +68,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(parser, "--fidelity", "that of the FMU")
     add_setting_options(parser)
     add_option(parser, "--aliases")
+    add_option(parser, "--confined")
     parser.add_argument("--record", type=Path, metavar="DIR", help="record the drive there")
     add_option(parser, "--interval", "about 0.025 of what is drawn, 0.1 of other outputs; inputs at every step")
     add_option(parser, "--json")

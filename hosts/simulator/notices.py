@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hosts.simulator.clock import Clock
 from hosts.simulator.driven_fmu import DrivenFmu, Told
 from hosts.simulator.step_times import TimesRecord
 
+NOT_FINITE = "not finite"
+"""Kind of what is said of a value that is no number."""
 _EVERY = 1.0
 _WORTH = 1e-4
 """Of a residual that is left nothing is said up to here, m."""
@@ -28,6 +33,7 @@ class Notices:
         self._before = 0.0
         self._steps, self._largest, self._messages = 0.0, 0.0, 0
         self._message = ""
+        self._zeros: NDArray[np.float64] | None = np.zeros(len(names))
 
     def jumped(self, car: DrivenFmu) -> None:
         """The count of the FMU is another now."""
@@ -35,7 +41,11 @@ class Notices:
             self._before = float(car.values[self._capped])
 
     def of_step(self, car: DrivenFmu) -> list[Told]:
-        """What is to be said after this step."""
+        """What is to be said after this step; that a value is no number, once."""
+        if self._zeros is not None and np.dot(car.values, self._zeros) != 0.0:  # NaN, of an infinite one too
+            self._zeros = None
+            place = int(np.flatnonzero(~np.isfinite(car.values))[0])
+            return [Told(NOT_FINITE, f"The output '{car.names[place]}' is {car.values[place]} at {car.time:.9g} s.")]
         if self._capped >= 0:
             self._count(car)
         for message in car.messages():

@@ -9,10 +9,11 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.isolated import Isolated, Lost
-from hosts.common.errors import HostError
+from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
 from hosts.fmu.own_process import files_of
 from hosts.simulator.car_process import Order, run_car
+from hosts.simulator.shared_values import shared_files
 
 _START_SECONDS = 300.0
 _PATIENCE = (1.4, 0.4)
@@ -21,27 +22,29 @@ _PATIENCE = (1.4, 0.4)
 class Process:
     """A process that drives an FMU, seen from the main process.
 
-    `ended`: why it has ended unasked, as one sentence; empty while it lives. Raises `HostError`: the FMU cannot be
-    started; nothing is then left of the process.
+    `ended`: why it has ended unasked; None while it lives. Raises `HostError`: the FMU cannot be started;
+    `FailedFmuError`: it has taken the process down; nothing is then left of it.
     """
 
     def __init__(self, order: Order) -> None:
-        self.ended = ""
-        self._asked = False
-        self._said: queue.SimpleQueue[str] = queue.SimpleQueue()
-        self._process: Isolated[Order, None] = Isolated(run_car, None, str, (order.fmu, *files_of(order.start)))
+        self.ended: HostError | None = None
+        self._asked = self._started = False
+        self._said: queue.SimpleQueue[HostError | None] = queue.SimpleQueue()
+        self._process: Isolated[Order, None] = Isolated(
+            run_car, None, str, (order.fmu, *files_of(order.start)), shared_files(order.memory)
+        )
         self._life = threading.Thread(target=self._live, args=(order,), name="car watch", daemon=True)
         self._life.start()
         try:
-            words = self._said.get(timeout=_START_SECONDS)
+            error = self._said.get(timeout=_START_SECONDS)
         except queue.Empty:
-            words = f"{order.fmu} was not started within {_START_SECONDS:g} s."
+            error = FailedFmuError(f"{order.fmu} was not started within {_START_SECONDS:g} s.")
         except BaseException:
             self.close()
             raise
-        if words:
+        if error is not None:
             self.close()
-            raise HostError(words)
+            raise error
 
     @property
     def pid(self) -> int | None:
@@ -63,15 +66,21 @@ class Process:
         self._process.close()
         self._life.join(_PATIENCE[1])
 
+    def _begun(self, word: str) -> None:
+        self._started = True
+        self._said.put(None)
+
     def _live(self, order: Order) -> None:
         """The life of the process; it says once that the FMU has started, and nothing more."""
+        error: HostError
         try:
-            end = self._process.do(order, self._said.put)
-        except UserError as error:
-            text = str(error)
+            end = self._process.do(order, self._begun)
+        except UserError as fault:
+            error = HostError(str(fault))
         else:
             how = end.how if isinstance(end, Lost) else "has ended"
-            text = f"the car's process {how}; start the simulator again."
+            words = f"The car's process {how}; start the simulator again."
+            error = FailedFmuError(words if self._started else f"{order.fmu} could not be started. {words}")
         if not self._asked:
-            self.ended = text[0].upper() + text[1:]
-        self._said.put(f"{order.fmu} could not be started: {text}" if text.startswith("the car's") else text)
+            self.ended = error
+        self._said.put(error)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ali3.files import write_text
 from hosts.simulator.mail import RECORDING_CUT
+from hosts.simulator.notices import NOT_FINITE
 
 if TYPE_CHECKING:
     from hosts.simulator.preparation import Prepared
@@ -33,8 +34,8 @@ class RunReport:
 
     @property
     def whole(self) -> bool:
-        """Whether the recording that was asked for, if any, has its end and all its rows."""
-        return not (self._kinds[RECORDING_CUT] or self._kinds["overflow"])
+        """Whether all values were numbers, and the recording that was asked for, if any, has its end and all rows."""
+        return not (self._kinds[RECORDING_CUT] or self._kinds["overflow"] or self._kinds[NOT_FINITE])
 
     def tell(self, text: str) -> None:
         """Show a sentence on the terminal."""

@@ -16,6 +16,7 @@ from distributed import Client, KilledWorker
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.cache import cache_folder
 from ali3.cores import available_cores
+from ali3.errors import UserError
 from ali3.reading import read_bytes
 from hosts.common.errors import HostError
 from hosts.study.local_cluster import local_cluster
@@ -93,6 +94,8 @@ def bring(client: Client, plan: Plan) -> None:
         words = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
         if isinstance(error, (OSError, KilledWorker)):
             raise HostError(f"A worker has ended or was cut off before it had the study ({words}).") from None
+        if isinstance(error, UserError):
+            raise HostError(f"A worker cannot take the study: {error}") from None
         raise HostError(
             f"A worker cannot take the study ({words}); it needs ALi3 of this version with its extra: "
             'python -m pip install "ali3[study]".'

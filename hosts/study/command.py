@@ -28,6 +28,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
     )
     add_option(parser, "--jobs", "as there are cores that it may use")
     parser.add_argument("--dry-run", action="store_true", help="check all, print the plan and stop")
+    add_option(parser, "--confined")
     add_option(parser, "--again", "runs that failed are kept as failed")
     parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
     both = argparse.BooleanOptionalAction
@@ -46,7 +47,10 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
         "study file, else of the FMU",
     )
     options = parser.parse_args(arguments)
-    return run_command(lambda: _study(options, prog) if options.target is None else _target(options, parser))
+    return run_command(
+        lambda: _study(options, prog) if options.target is None else _target(options, parser),
+        is_confined=options.confined,
+    )
 
 
 def _study(options: argparse.Namespace, prog: str) -> int:

@@ -148,7 +148,7 @@ def _of_result(result: Result, job: Job) -> Outcome:
     missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
     if what := result.not_finite():
-        end.status, end.reason = FAILED, f"The output {what}"
+        end.status, end.reason = FAILED, what
     elif result.failed_steps:
         words = f": {result.messages[-1]}" if result.messages else "."
         end.status, end.reason = FAILED, f"The FMU refused the step at {result.simulated:g} s{words}"

@@ -12,6 +12,7 @@ from typing import Any
 from distributed import Worker, WorkerPlugin, get_worker
 
 from ali3.archives import LARGEST_ARCHIVE
+from ali3.confinement import confine, is_confined
 from ali3.reading import read_bytes
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -58,9 +59,12 @@ class StudyPlugin(WorkerPlugin):
     def __init__(self, key: str, work: Work, seed: int, fmu: bytes) -> None:
         self.name = f"ali3-study-{key}"
         self._key, self._work, self._seed, self._fmu = key, work, seed, fmu
+        self._confined = is_confined()
 
     def setup(self, worker: Worker) -> None:
-        """Unpack the FMU."""
+        """Unpack the FMU; its processes are confined as those of the program that asks."""
+        if self._confined:
+            confine()
         folder = tempfile.TemporaryDirectory(prefix="study-", dir=worker.local_directory, ignore_cleanup_errors=True)
         room = _Room(self._work, self._seed, folder)
         room.fmu.write_bytes(self._fmu)

@@ -10,7 +10,6 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.confinement import confine
 from ali3.decimal_number import number
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
@@ -29,7 +28,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 view") -> int
     """Run the command, which the user typed as `prog`."""
     parser = _parser(prog)
     options = parser.parse_args(arguments)
-    return run_command(lambda: _view(options, parser))
+    return run_command(lambda: _view(options, parser), is_confined=options.confined)
 
 
 def _parser(prog: str) -> argparse.ArgumentParser:
@@ -82,8 +81,6 @@ def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.view.live import live
 
         return live(options)
-    if options.confined:
-        confine()
     from hosts.view.show import show
 
     return show(options)

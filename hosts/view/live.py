@@ -133,7 +133,9 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     """Results that are drawn beside the first FMU, with its drawing where they have none."""
     if not results:
         return []
-    recordings, told = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
+    from hosts.view.view_sources import RunWishes, recordings_of
+
+    recordings, told, _ = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
     for line in told:
         print(line)
     undrawn = next((r.name for r in recordings if r.scene is None), None)

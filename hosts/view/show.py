@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ali3.files import check_writable
 from ali3.near_names import near_names
+from ali3.running import GOOD, NOT_GOOD
 from hosts.common.errors import HostError
 from hosts.common.road import wishes_with_road
 from hosts.fmu.car import is_car
@@ -39,7 +40,7 @@ def show(options: argparse.Namespace) -> int:
     folder = page.parent if page is not None else Path("out")
     given = wishes_with_road(options, folder)
     run = RunWishes(options.manoeuvre, options.stop_time, options.step, given)
-    recordings, told = recordings_of(options.what, options.geometry, run)
+    recordings, told, good = recordings_of(options.what, options.geometry, run)
     for line in told:
         print(line)
     if options.begin is not None or options.end is not None:
@@ -59,7 +60,7 @@ def show(options: argparse.Namespace) -> int:
     print(f"written: {', '.join(map(str, written))}")
     if page is not None and not options.no_open:
         open_page(page)
-    return 0
+    return GOOD if good else NOT_GOOD
 
 
 def _page(options: argparse.Namespace) -> Path | None:

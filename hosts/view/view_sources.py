@@ -51,7 +51,9 @@ class RunWishes:
         return bool(self.wishes) or any(x is not None for x in (self.manoeuvre, self.stop_time, self.step))
 
 
-def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) -> tuple[list[Recording], list[str]]:
+def recordings_of(
+    paths: Sequence[Path], geometry: Path | None, run: RunWishes
+) -> tuple[list[Recording], list[str], bool]:
     """Recordings of all that the user named.
 
     `geometry`: FMU or scene that results are drawn with, in place of that of their record. Raises `HostError`:
@@ -63,9 +65,12 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         With names that differ.
     told : list of str
         Sentences for the user.
+    good : bool
+        Whether every FMU that was run made all steps, and its outputs are numbers.
     """
     made: list[Recording] = []
     told: list[str] = []
+    good = True
     for path, name in zip(paths, _names(paths), strict=True):
         if not is_file(path) and not is_folder(path):
             hint = f" Build it with: {command_name('build')}" if path.suffix == ".fmu" else ""
@@ -74,7 +79,8 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
         if is_recording(path):
             recording, words = recorded_view(path, name, geometry)
         elif suffix == ".fmu" or (suffix not in (".csv", ".json") and is_archive(path)):
-            recording, words = _of_fmu(path, name, run)
+            recording, words, ran = _of_fmu(path, name, run)
+            good = good and ran
         elif suffix in (".csv", ".json"):
             recording, words = _of_result(path, name, geometry)
         else:
@@ -84,7 +90,7 @@ def recordings_of(paths: Sequence[Path], geometry: Path | None, run: RunWishes) 
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
     _tell_other_grounds(made)
-    return made, told
+    return made, told, good
 
 
 def _tell_other_grounds(recordings: Sequence[Recording]) -> None:
@@ -241,8 +247,18 @@ def _foreign(path: Path) -> str:
     )
 
 
-def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str]]:
-    """Run an FMU: through a manoeuvre, or for its default experiment."""
+def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str], bool]:
+    """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
+    from hosts.driving.course_scenery import with_course, with_marks
+    from hosts.driving.driver import driver_of
+    from hosts.driving.manoeuvre import with_names_of
+    from hosts.driving.manoeuvre_settings import set_in
+    from hosts.driving.pilots.pilot import ACTS, SENSES
+    from hosts.driving.run_checks import check_columns, communication_step
+    from hosts.driving.run_with_bar import run_with_bar
+    from hosts.fmu.fmu import Fmu
+    from hosts.recordings.asked_manoeuvre import manoeuvre_of
+
     told = []
     with Fmu(path) as fmu:
         given = wanted.manoeuvre
@@ -264,11 +280,11 @@ def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[s
     told += [": ".join(missed) for missed in result.missed]
     told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
     if wrong := result.not_finite():
-        told.append(f"The output {wrong}")
+        told.append(wrong)
     if result.ended:
         told.append(result.ended)
     elif result.failed_steps:
         told.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
     title = name if given is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
-    return Recording(scene, result.time, columns, result.units, settings.title(title)), told
+    return Recording(scene, result.time, columns, result.units, settings.title(title)), told, result.is_good

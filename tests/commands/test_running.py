@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from ali3 import processes
 from ali3.errors import FileError, UserError
 from ali3.processes import module_command
 from ali3.running import run_command
@@ -30,9 +31,8 @@ def raiser(error: BaseException) -> int:
         (ModuleNotFoundError("No module named 'fmpy.x'", name="fmpy.x"), 2, 'python -m pip install "ali3[hosts]"\n'),
         (KeyboardInterrupt(), 130, "stopped by Ctrl-C\n"),
         (MemoryError(), 2, "raise the limit (ulimit -v).\n"),
-        (RuntimeError("can't start new thread"), 2, "raise the limit (ulimit -v).\n"),
-        (OSError("sources.so: failed to map segment from shared object"), 2, "raise the limit (ulimit -v).\n"),
-        (ImportError("etree.so: failed to map segment from shared object"), 2, "raise the limit (ulimit -v).\n"),
+        (RuntimeError("can't start new thread"), 2, "raise the limit (ulimit -u).\n"),
+        (OSError("sources.so: failed to map segment from shared object"), 2, "from shared object\n"),
     ],
 )
 def test_errors_are_one_line(error: BaseException, status: int, words: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -41,6 +41,22 @@ def test_errors_are_one_line(error: BaseException, status: int, words: str, caps
     assert said.err.endswith(words)
     assert said.err.count("\n") == 1
     assert said.out == ""
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        RuntimeError("can't start new thread"),
+        OSError("sources.so: failed to map segment from shared object"),
+        ImportError("etree.so: failed to map segment from shared object"),
+    ],
+)
+def test_memory_is_the_cause_where_there_is_none(
+    error: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(processes, "_SPARE", 1 << 60)
+    assert run_command(lambda: raiser(error)) == 2
+    assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 import zipfile
 from collections.abc import Callable
@@ -101,3 +102,34 @@ def test_missing_functions_are_one_line(
     left_out = [check for check in CHECKS if check.calls]
     assert found["not done"] == ("note", f"{len(left_out)} checks, which call functions of the FMU")
     assert len(found) == len(CHECKS) - len(left_out) + 1
+
+
+def test_a_state_of_any_size_is_named_and_every_other_check_is_done(tmp_path: Path) -> None:
+    code, found = verdicts(odd_fmu("faults", tmp_path, "STATE_SIZE=(size_t)1<<45"), "--steps", 5)
+    assert code == 1
+    assert list(found) == [check.name for check in CHECKS]
+    words = "The FMU says that its state has 35184372088832 bytes; at most 100000000 are taken"
+    assert found["states"] == found["altered states"] == ("BAD", words)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of memory")
+@pytest.mark.parametrize("limit", [6_000_000_000, 900_000_000])
+def test_a_limit_of_memory_is_no_cause_where_there_is_room(
+    fmu: Callable[[str], Path], tmp_path: Path, limit: int
+) -> None:
+    """An FMU that is not instantiated, for its token is another."""
+    import resource
+
+    copy = tmp_path / "other.fmu"
+    with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
+        for name in source.namelist():
+            target.writestr(name, source.read(name).replace(b'guid="{small}"', b'guid="{other}"'))
+    done = subprocess.run(
+        [sys.executable, "-m", "ali3", "run", str(copy), "--out", str(tmp_path)],
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
+    )
+    assert done.returncode == 2
+    assert done.stderr.endswith("other.fmu cannot be loaded on linux: Failed to instantiate model\n")

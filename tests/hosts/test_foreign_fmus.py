@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import socket
 import subprocess
 import sys
 import tempfile
@@ -14,9 +13,6 @@ import numpy as np
 import psutil
 import pytest
 
-from ali3 import confinement
-from ali3.confinement import confine
-from ali3.errors import UserError
 from hosts.run.command import main
 from tests.hosts.odd_fmus import odd_fmu
 from tests.in_process import run
@@ -107,62 +103,3 @@ def test_memory_has_a_limit(faults: Path, tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False, preexec_fn=little)
     assert done.returncode == 1, done.stderr
     assert "failed steps      1 of 5" in done.stdout
-
-
-@pytest.fixture
-def confining(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ALI3_CONFINED", "")  # put back at the end
-    monkeypatch.delenv("ALI3_CONFINED")
-    try:
-        confine()
-    except UserError as error:
-        pytest.skip(str(error))
-    monkeypatch.delenv("ALI3_CONFINED")
-
-
-def test_a_confined_fmu_reaches_nothing_of_the_host(tmp_path: Path, temporary: Path, confining: None) -> None:
-    tried = tmp_path / "home"
-    tried.mkdir()
-    (tried / "letter").write_text("private")
-    fmu = odd_fmu("reaching", tmp_path, f'TRIED_FOLDER="{tried}"')
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port = server.getsockname()[1]
-        _, _, free = driven(fmu, tmp_path / "free", port)
-        (tried / "written").unlink()
-        code, said, bound = driven(fmu, tmp_path / "bound", port, "--confined")
-    assert code == 0, said
-    assert set(free[1:, 2]) == {15.0}
-    assert set(bound[1:, 2]) == {0.0}
-    assert sorted(p.name for p in tried.iterdir()) == ["letter"]
-    assert not list(temporary.iterdir())
-
-
-def test_a_confined_fmu_that_crashes_is_told_as_ever(faults: Path, tmp_path: Path, confining: None) -> None:
-    code, said, table = driven(faults, tmp_path / "out", CRASH, "--confined")
-    assert code == 1
-    assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in said
-    assert len(table) == 5
-
-
-def test_a_car_gives_the_same_bits_where_it_is_confined(prototype_fmu: Path, tmp_path: Path, confining: None) -> None:
-    tables = []
-    for name, options in (("free", ()), ("bound", ("--confined",))):
-        done = run(
-            main, prototype_fmu, "-m", "double_lane_change", "--stop-time", 1, "--out", tmp_path / name, *options
-        )
-        assert done.returncode == 0, done.stderr
-        (table,) = (tmp_path / name).glob("*.csv")
-        tables.append(table.read_bytes())
-    assert tables[0] == tables[1]
-
-
-def test_without_bubblewrap_nothing_is_run(
-    faults: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, confining: None
-) -> None:
-    confinement._bubblewrap.cache_clear()
-    monkeypatch.setenv("PATH", str(tmp_path))
-    done = run(main, faults, "--confined", "--out", tmp_path / "out")
-    confinement._bubblewrap.cache_clear()
-    assert done.returncode == 2
-    assert done.stderr == "error: --confined is not possible here, and nothing was run: install bubblewrap (bwrap).\n"
-    assert not (tmp_path / "out").exists()

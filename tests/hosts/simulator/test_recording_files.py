@@ -291,7 +291,7 @@ def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd
 def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     wishes = RunWishes(None, None, None, Wishes([], []))
-    (recording,), told = recordings_of([folder], None, wishes)
+    (recording,), told, _ = recordings_of([folder], None, wishes)
     assert told == []
     assert recording.scene is not None
     assert len(recording.t) == 183
@@ -302,7 +302,7 @@ def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], 
     (folder / "recording.json").write_text(json.dumps(meta | {"fmu": "gone.fmu"}))
     with pytest.raises(HostError, match="gone.fmu, which is not there any more; name it by --geometry FMU"):
         recordings_of([folder], None, wishes)
-    (recording,), _ = recordings_of([folder], fmus["sledge"], wishes)
+    (recording,), _, _ = recordings_of([folder], fmus["sledge"], wishes)
     assert recording.scene is not None
 
 
