@@ -27,7 +27,8 @@ class ContactPoints:
     Normal force over the depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
     ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road
     with v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a
-    spring and damper in series with a slider that slips at mu times the normal force: it holds at rest.
+    spring and damper in series with a slider that slips at mu times the normal force: it holds what rests. With hardly
+    any loss a body may bounce on a slope for ever, and walk down with it.
     """
 
     stiffness: Positive
@@ -45,7 +46,7 @@ class ContactPoints:
     radius: NotNegative = 0.0
     """Radius of the spheres around the points, as of tubes or edges, m."""
     restitution: Fraction = 0.0
-    """Least coefficient of restitution, that of fast impacts: ``chi d'`` saturates at 1/restitution - 1. 0: it does not."""
+    """Least coefficient of restitution e, that of fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not."""
 
     @staticmethod
     def for_mass(
@@ -113,7 +114,8 @@ class ContactPoints:
         places = array(points, (None, 3), f"the points of {what}")
         if len(axes) != 3 or not len(places):
             raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        order = ("radius", "stiffness", "onset", "loss", "restitution", "stick_stiffness", "stick_damping", "friction_factor")
+        order = ("radius", "stiffness", "onset", "loss", "restitution")
+        order += ("stick_stiffness", "stick_damping", "friction_factor")
         box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
         return ElementRecord(
             name,

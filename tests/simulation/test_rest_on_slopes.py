@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ def axes(slope):
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]).T
 
 
-def crate(sizes, mass, mu, slope, contact, fall=0.0, in_equilibrium=False):
+def crate(sizes, mass, mu, slope, contact, fall=0.0, in_equilibrium=False, stiffness=None):
     """A crate of `sizes` along `axes(slope)`, its lowest corners `fall` above the slope."""
     m = mbs.Model("crate")
     m.floating, m.start_in_equilibrium = not in_equilibrium, in_equilibrium
@@ -29,6 +30,8 @@ def crate(sizes, mass, mu, slope, contact, fall=0.0, in_equilibrium=False):
     inertia = R @ np.diag(mass / 3.0 * (half @ half - half**2)) @ R.T
     body = m.body("crate", mass=mass, com=com, inertia=inertia)
     m.contact_points("feet", body, corners, road=road, contact=contact)
+    if stiffness is not None:
+        m.parameter("stiffness", stiffness, 1.0, 1e9, "N/m", "of the feet", targets=[("feet", "stiffness", 1.0)])
     for c in "xyz":
         m.sense_position(c, body, None, c)
         m.sense_position(f"v{c}", body, None, c, order=1)
@@ -59,6 +62,34 @@ def test_a_crate_stands(degrees, h):
     system = crate((1.0, 1.0, 1.0), 10.0, 0.5, math.radians(degrees), ContactPoints.for_mass(10.0, 0.001))
     r = mbs.simulate(system, 10.0, h, progress=False)
     assert moved(r, 5.0) < 1e-9
+
+
+@pytest.mark.parametrize("fall", [0.01, -0.001])
+@pytest.mark.parametrize("degrees", [0.0, 3.0, 20.0, 25.0])
+def test_it_starts_in_equilibrium_on_a_slope(degrees, fall):
+    contact, slope = ContactPoints.for_mass(2.5), math.radians(degrees)
+    r = mbs.simulate(crate((1.0, 0.8, 0.6), 10.0, 0.5, slope, contact, fall, True), 2.0, 5e-3, progress=False)
+    assert moved(r, 0.0) < 1e-8
+    assert axes(slope)[:, 2] @ [r[c][0] for c in "xyz"] == pytest.approx(0.3, abs=0.01)
+
+
+def test_an_equilibrium_with_another_parameter_has_the_bits_of_a_compile_with_it():
+    soft = ContactPoints.for_mass(2.5)
+    stiff = replace(soft, stiffness=2.0 * soft.stiffness)
+    first, second = (
+        crate((1.0, 0.8, 0.6), 10.0, 0.5, math.radians(20.0), c, 0.0, True, c.stiffness) for c in (soft, stiff)
+    )
+    changed = mbs.Simulation(first, parameters={"stiffness": stiff.stiffness}).state
+    built, other = (mbs.Simulation(system).state for system in (second, first))
+    assert np.array_equal(changed.q, built.q)
+    assert np.array_equal(changed.y, built.y)
+    assert np.any(built.y != 0.0)
+    assert not np.array_equal(built.q, other.q)
+
+
+def test_no_equilibrium_is_found_where_friction_cannot_hold():
+    with pytest.raises(mbs.ModelError, match="has no static equilibrium near its drawing"):
+        crate((1.0, 0.8, 0.6), 10.0, 0.5, math.atan(0.51), ContactPoints.for_mass(2.5), 0.0, True)
 
 
 @pytest.mark.slow
