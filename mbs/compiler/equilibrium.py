@@ -19,23 +19,29 @@ TOLERANCE = 1e-8  # N
 MAX_ITERATIONS = 400
 
 
-def start_arrays(system: CompiledModel | None, parameters: Mapping[str, float]) -> dict[str, Any]:
-    """The `static_` arrays: whether a System starts in equilibrium, where that is sought from (the start of `system`),
-    and parameters that hold meanwhile.
+def start_arrays(
+    system: CompiledModel | None, parameters: Mapping[str, float], y: NDArray[np.float64] | None = None
+) -> dict[str, Any]:
+    """The `static_` arrays: whether a System starts in equilibrium, where that is sought from (the start of `system`,
+    with its states where `y`, those of the equilibrium, are others), and parameters that hold meanwhile.
     """
     if system is None:
         return {"static_start": [], "static_par": [], "static_value": [], "static_q": []}
     names = [entry["name"] for entry in system.meta["parameters"]]
+    q0, y0 = system.arrays["q0"], system.arrays["y0"]
     return {
         "static_start": [1],
         "static_par": [names.index(name) for name in parameters],
         "static_value": list(parameters.values()),
-        "static_q": system.arrays["q0"],
+        "static_q": q0 if np.array_equal(y0, y) else np.r_[q0, y0],
     }
 
 
-def equilibrium(system: CompiledModel, parameters: Mapping[str, float]) -> NDArray[np.float64]:
-    """Coordinates, shape (nq,), where all forces balance with the inputs at their start values.
+def equilibrium(
+    system: CompiledModel, parameters: Mapping[str, float]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Coordinates, shape (nq,), and states of elements, shape (ny,), where all forces balance with the inputs at their
+    start values.
 
     `parameters` hold only while it is sought: a drive that pushes has no equilibrium.
     """
@@ -66,4 +72,5 @@ def equilibrium(system: CompiledModel, parameters: Mapping[str, float]) -> NDArr
         )
         worst = open_row(report, [row["name"] for row in meta["rows"]])
         raise ModelError(f"{text}; {worst}." if worst else f"{text}.") from None
-    return np.array(instance.get_state()[0], float)
+    q, _, _, _, y = instance.get_state()
+    return np.array(q, float), np.array(y, float)

@@ -101,9 +101,9 @@ def compiled(
     if flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
         parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
         resting = CompiledModel(tables, meta)
-        q = equilibrium(resting, parameters)
-        tables.update(start_arrays(resting, parameters))
-        tables.update(q0=q, qd0=np.zeros_like(q), **_pose(model, reduced, ordered, q))
+        q, y = equilibrium(resting, parameters)
+        tables.update(start_arrays(resting, parameters, y))
+        tables.update(q0=q, y0=y, qd0=np.zeros_like(q), **_pose(model, reduced, ordered, q))
     return CompiledModel(tables, meta, frames, modes)
 
 

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import AffineVector
 from mbs.common.checks import array, positive
 from mbs.common.errors import ModelError
-from mbs.elements.reals import NotNegative, Positive, reals_of
+from mbs.elements.reals import Fraction, NotNegative, Positive, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, size
+from mbs.elements.record_checks import fraction, index, size
 from mbs.kernel.header.enumerations import ElementType
 
 STATES = 4
@@ -27,7 +27,8 @@ class ContactPoints:
     Normal force over the depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
     ``1/(1 - chi d')`` coming out (Hunt and Crossley 1975, without their pull), so that a point that meets the road
     with v leaves it with v1, ``(chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3``. Friction is elastoplastic, a
-    spring and damper in series with a slider that slips at mu times the normal force: it holds at rest.
+    spring and damper in series with a slider that slips at mu times the normal force: it holds what rests. With hardly
+    any loss a body may bounce on a slope for ever, and walk down with it.
     """
 
     stiffness: Positive
@@ -44,16 +45,19 @@ class ContactPoints:
     """Coefficient of friction on a road over the friction of the road."""
     radius: NotNegative = 0.0
     """Radius of the spheres around the points, as of tubes or edges, m."""
+    restitution: Fraction = 0.0
+    """Least coefficient of restitution e, that of fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not."""
 
     @staticmethod
     def for_mass(
         mass: float,
         depth: float = 0.005,
         onset: float = 0.005,
-        loss: float = 0.5,
+        loss: float | None = None,
         friction_factor: float = 1.0,
         radius: float = 0.0,
         gravity: float = 9.81,
+        restitution: float = 0.5,
     ) -> ContactPoints:
         """Points of which one carries a mass at rest at a depth; stick as stiff, critically damped.
 
@@ -65,14 +69,17 @@ class ContactPoints:
             At rest, m.
         onset : float
             Depth over which the stiffness sets in, m.
-        loss : float
-            chi, s/m.
+        loss : float, optional
+            chi, s/m, without a least restitution; by default both follow from `restitution`.
         friction_factor : float
             Multiplies the friction of the road.
         radius : float
             Of the spheres around the points, m.
         gravity : float
             m/s2.
+        restitution : float
+            Coefficient of restitution at the impact speed sqrt(gravity depth), above 0 and below 1; half of it is the
+            least restitution, that of fast impacts.
         """
         m, d, w = (
             positive(v, f"The {name} of contact points")
@@ -80,7 +87,12 @@ class ContactPoints:
         )
         g = positive(gravity, "The gravity of contact points")
         stiffness = m * g / (0.5 * d * d / w if d < w else d - 0.5 * w)
-        return ContactPoints(stiffness, stiffness, 2.0 * math.sqrt(stiffness * m), w, loss, friction_factor, radius)
+        stick = (stiffness, stiffness, 2.0 * math.sqrt(stiffness * m))
+        if loss is not None:
+            return ContactPoints(*stick, w, loss, friction_factor, radius)
+        what = "The restitution of contact points"
+        e = fraction(positive(restitution, what), what)
+        return ContactPoints(*stick, w, _loss(e) / math.sqrt(g * d), friction_factor, radius, 0.5 * e)
 
     def record(
         self, name: str, origin: AffineVector, axes: Sequence[AffineVector], points: ArrayLike, road: int
@@ -102,7 +114,8 @@ class ContactPoints:
         places = array(points, (None, 3), f"the points of {what}")
         if len(axes) != 3 or not len(places):
             raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        order = ("radius", "stiffness", "onset", "loss", "stick_stiffness", "stick_damping", "friction_factor")
+        order = ("radius", "stiffness", "onset", "loss", "restitution")
+        order += ("stick_stiffness", "stick_damping", "friction_factor")
         box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
         return ElementRecord(
             name,
@@ -120,3 +133,26 @@ class ContactPoints:
                 Output("depth", "m", "deepest penetration of a point"),
             ),
         )
+
+
+def _loss(e: float) -> float:
+    """Loss times impact speed of the coefficient of restitution e, where the least one is half of it.
+
+    With b = e/(2 - e) and u = chi |d'| the factors are (1 + (1 + b) u)/(1 + b u) and its inverse. Energies of the way
+    in, integral of u du over the factor from 0 to x, and of the way out, from 0 to e x, are equal.
+    """
+    b = e / (2.0 - e)
+
+    def energy(x: float, a: float, c: float) -> float:
+        """Integral of u (1 + a u)/(1 + c u)."""
+        return 0.5 * a / c * x * x + (1.0 - a / c) * (x / c - math.log1p(c * x) / (c * c))
+
+    low, high = 0.0, 1.0
+    while low < 0.5 * (low + high) < high:
+        x = 0.5 * (low + high)
+        impact = x / (1.0 - x)
+        if energy(impact, b, 1.0 + b) < energy(e * impact, 1.0 + b, b):
+            high = x
+        else:
+            low = x
+    return low / (1.0 - low)

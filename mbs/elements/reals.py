@@ -17,7 +17,7 @@ from itertools import pairwise
 from typing import Annotated, TypeAlias, get_type_hints
 
 from mbs.common.checks import not_negative, number, positive, vector
-from mbs.elements.record_checks import share
+from mbs.elements.record_checks import fraction, share
 
 Check: TypeAlias = Callable[[object, str], float]
 """One of the checks of numbers of `mbs.common.checks`."""
@@ -42,6 +42,7 @@ Number = Annotated[float, Real(number)]
 NotNegative = Annotated[float, Real(not_negative)]
 Positive = Annotated[float, Real(positive)]
 Share = Annotated[float, Real(share)]
+Fraction = Annotated[float, Real(fraction)]
 
 
 _DECLARED: dict[type, dict[str, Real]] = {}

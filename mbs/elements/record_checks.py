@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mbs.common.affine import AffineVector
-from mbs.common.checks import capital, number, positive, shown, whole
+from mbs.common.checks import capital, not_negative, number, positive, shown, whole
 from mbs.common.errors import ModelError
 
 MOST = 2**31 - 1
@@ -27,6 +27,14 @@ def share(value: object, what: str) -> float:
     x = positive(value, what)
     if x > 1.0:
         raise ModelError(f"{capital(what)} is {shown(value)}; it must be above 0 and at most 1.")
+    return x
+
+
+def fraction(value: object, what: str) -> float:
+    """A number from zero on, below one."""
+    x = not_negative(value, what)
+    if x >= 1.0:
+        raise ModelError(f"{capital(what)} is {shown(value)}; it must be at least 0 and below 1.")
     return x
 
 

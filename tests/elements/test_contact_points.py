@@ -53,8 +53,10 @@ def test_normal_force_is_the_gradient_of_its_potential(name, radius):
 
 
 @pytest.mark.parametrize("sticks", [True, False])
-def test_tangent_on_a_plane(sticks):
-    e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), ContactPoints(2e5, 2e5, 1e4, loss=0.5, friction_factor=50.0 * sticks))
+@pytest.mark.parametrize("restitution", [0.0, 0.25])
+def test_tangent_on_a_plane(sticks, restitution):
+    law = ContactPoints(2e5, 2e5, 1e4, loss=5.0, friction_factor=50.0 * sticks, restitution=restitution)
+    e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), law)
     rng = np.random.default_rng(4)
     for _ in range(10):
         u, ud = pose(rng, 0.28), 0.05 * rng.normal(size=12)
@@ -119,6 +121,18 @@ def test_pressing_loses_and_letting_go_does_not_pull():
         assert up == pytest.approx(still / (1.0 + 2.0 * v))
 
 
+def test_a_least_restitution_bounds_the_loss():
+    law = ContactPoints(2e5, 2e5, 1e4, loss=2.0, restitution=0.25)
+    e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), law, [[0.0, 0.0, 0.0]])
+    u = np.r_[0.0, 0.0, -0.01, np.eye(3).ravel()]
+    still = e(u, np.zeros(12)).out["normal_force"]
+    for v in (0.1, 1.0, 1e9):
+        factor = 1.0 + 2.0 * v / (1.0 + 2.0 * v / 3.0)
+        down, up = (e(u, np.r_[0.0, 0.0, s * v, np.zeros(9)]).out["normal_force"] for s in (-1.0, 1.0))
+        assert (down / still, up / still) == pytest.approx((factor, 1.0 / factor))
+    assert factor == pytest.approx(4.0)
+
+
 def test_far_above_nothing_is_done_and_states_are_forgotten():
     e = element()
     r = e(np.r_[0.0, 0.0, 2.0, np.eye(3).ravel()], np.ones(12), np.ones(12), 0.01, 0.005, 2.5e-5)
@@ -168,6 +182,7 @@ def test_kerb_lets_a_point_rest_on_its_top_and_stops_it_at_its_face():
         (lambda: element(points=[[np.nan, 0.0, 0.0]]), "not finite"),
         (lambda: element(contact=ContactPoints(-1.0, 1.0, 1.0)), "stiffness of the contact points 'feet' is -1"),
         (lambda: element(contact=ContactPoints(1.0, 1.0, 1.0, onset=0.0)), "onset of the contact points 'feet' is 0"),
+        (lambda: ContactPoints.for_mass(1.0, restitution=1.0), "restitution of contact points is 1.0; .* below 1"),
         (lambda: ContactPoints.for_mass(0.0), "mass of contact points is 0"),
     ],
 )

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import mbs
@@ -104,6 +105,26 @@ def test_ball_bounces_with_the_speed_of_the_closed_form(chi):
         errors.append(abs(r["vz"][-1] / after_impact(4.0, chi) - 1.0))
     assert errors[-1] < 3e-4
     assert errors[-1] < errors[0] / 6.0
+
+
+@pytest.mark.parametrize("times", [0.1, 1.0, 10.0])
+@pytest.mark.parametrize("e", [0.3, 0.5, 0.8])
+def test_the_default_loss_is_that_of_a_restitution(e, times):
+    """At sqrt(g depth) it is e, and e/2 is the limit of fast impacts; else by quadrature of m v dv = -F g dx."""
+    contact = ContactPoints.for_mass(MASS, 0.01, restitution=e)
+    v, bound = times * math.sqrt(G * 0.01), 0.5 * e / (1.0 - 0.5 * e)
+
+    def factor(u):
+        return 1.0 + contact.loss * u / (1.0 + contact.loss * u * bound)
+
+    taken = quad(lambda u: u / factor(u), 0.0, v)[0]
+    out = brentq(lambda x: quad(lambda u: u * factor(u), 0.0, x)[0] - taken, 0.0, v)
+    system = block(PlaneRoad(), (0.0, 0.0, -v), HEIGHT, [(0.0, 0.0, -HEIGHT)], contact, gravity=0.0)
+    r = run(system, 0.3 + 3.0 * HEIGHT / (e * v), min(1e-4 / v, 1e-3), settings=mbs.Settings(tolerance_r=1e-12))
+    assert r["touching"][-1] == 0
+    assert r["vz"][-1] == pytest.approx(out, rel=2e-4)
+    assert times != 1.0 or out == pytest.approx(e * v, rel=1e-9)
+    assert times != 10.0 or 0.5 * e * v < out < 0.8 * e * v
 
 
 def test_order_of_a_pressed_and_sliding_block():

@@ -46,8 +46,10 @@ double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1) {
 #endif
 
 real ali3_contact_loss(const ali3_contact_law *law, real rate, real *slope) {
-  const real w = law->loss * rate, behind = 1.0 / (1.0 - w);
+  const real whole = law->loss * rate,
+             kept = 1.0 / (1.0 + ali3_abs(whole) * (law->restitution / (1.0 - law->restitution)));
+  const real w = whole * kept, behind = 1.0 / (1.0 - w), along = law->loss * kept * kept;
   const truth presses = w >= 0.0;
-  *slope = ali3_where(presses, law->loss, law->loss * behind * behind);
+  *slope = ali3_where(presses, along, along * behind * behind);
   return ali3_where(presses, 1.0 + w, behind);
 }

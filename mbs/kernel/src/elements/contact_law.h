@@ -6,7 +6,9 @@
  * Loss: Hunt and Crossley (Journal of Applied Mechanics 42, 1975, 440-445), force F (1 + chi x'): the damping comes
  * and goes with the force. For x' < 0 the factor is 1/(1 - chi x') with the same slope at 0, which is never negative:
  * nothing is pulled. A mass that meets it with v leaves with v1, whatever F(x) is:
- *   (chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3. */
+ *   (chi v - ln(1 + chi v))/chi^2 = v1^2/2 + chi v1^3/3.
+ * Where a least restitution e > 0 is given, chi x' saturates at 1/e - 1: the factor stays within e and 1/e, and of fast
+ * impacts v1/v approaches e. */
 #ifndef ALI3_CONTACT_LAW_H
 #define ALI3_CONTACT_LAW_H
 #include "element.h"
@@ -14,7 +16,7 @@
 typedef struct {
   real stiffness, progression; /* k, L */
   real end, hard_stiffness, onset; /* x_end, K, w > 0 where K > 0 */
-  real loss; /* chi, s/m */
+  real loss, restitution; /* chi, s/m; e, 0: chi x' does not saturate */
 } ali3_contact_law;
 
 /* Conservative force; adds to *slope and *energy. 0 for x <= 0. */

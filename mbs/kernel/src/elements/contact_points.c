@@ -1,8 +1,8 @@
 /* Points of a body that touch a road: normal force with a smooth onset and loss, friction that holds at rest.
  *
  * Signals: origin o (3) and axes x, y, z (3 each) of the body; they need not be orthonormal, so a body that bends may
- * give averages of its own. Reals: radius m (0: points, else spheres), stiffness N/m, onset m, loss s/m, stick
- * stiffness N/m, stick damping N s/m, factor of the road's friction, lowest and highest
+ * give averages of its own. Reals: radius m (0: points, else spheres), stiffness N/m, onset m, loss s/m, least
+ * restitution, stick stiffness N/m, stick damping N s/m, factor of the road's friction, lowest and highest
  * x, y, z of the points, then x, y, z of each. Integers: road, number of points. States per point: deflections z1, z2
  * of the stick spring in the plane of contact and their rates. Outputs: sum of the normal forces N, number of points
  * that touch, force on the body in earth axes N (3), deepest penetration m.
@@ -26,6 +26,7 @@ enum {
   STIFFNESS,
   ONSET,
   LOSS,
+  RESTITUTION,
   STICK_STIFFNESS,
   STICK_DAMPING,
   FRICTION_FACTOR,
@@ -97,7 +98,7 @@ static void discrete_clearance(const ali3_road *road, const double point[3], con
 static touch press(ali3_element_args *a, const double local[3], int by_gradients) {
   const double *p = a->real;
   const ali3_road *road = &a->roads[a->integer[ROAD]];
-  const ali3_contact_law law = {0.0, 0.0, 0.0, p[STIFFNESS], p[ONSET], p[LOSS]};
+  const ali3_contact_law law = {0.0, 0.0, 0.0, p[STIFFNESS], p[ONSET], p[LOSS], p[RESTITUTION]};
   double point[3], velocity[3];
   ali3_clearance clearance[2];
   touch t = {0};
@@ -226,6 +227,8 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
     return "stiffness, onset, stick stiffness and stick damping of contact points must be positive";
   if (real[RADIUS] < 0.0 || real[LOSS] < 0.0 || real[FRICTION_FACTOR] < 0.0)
     return "radius, loss and friction factor of contact points must not be negative";
+  if (!(real[RESTITUTION] >= 0.0 && real[RESTITUTION] < 1.0))
+    return "the least restitution of contact points must be at least 0 and below 1";
   for (int32_t i = 0; i < integer[POINTS]; i++)
     for (int k = 0; k < 3; k++) {
       const double x = real[HEAD + 3 * i + k];

@@ -16,6 +16,7 @@ static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
         progressive ? ali3_where(law[side].stiffness > 0.0, p[ALI3_METAL_STIFFNESS], none) : none;
     law[side].onset = progressive ? p[ALI3_METAL_ONSET] : none;
     law[side].loss = progressive ? p[ALI3_STOP_LOSS + side] : none;
+    law[side].restitution = none;
   }
 }
 

@@ -70,16 +70,19 @@ static void put_back(ali3_instance *in) {
   ali3_parameters_switch(in);
 }
 
-/* The equilibrium in in->stage (nq), from where that of the file was sought: the same values then give the same bits,
+/* The equilibrium in in->stage (nq), its states in in->now.y, from where that of the file was sought: the same values then give the same bits,
  * whether a file has them or an instance. */
 static ali3_status search(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   ali3_vectors_copy(in, &in->whole, &in->now);
   memcpy(in->now.q, S->n_static_q > 0 ? S->static_q : S->q0, (size_t)S->size.nq * sizeof(double));
-  memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
+  const double *y = S->n_static_q > S->size.nq ? S->static_q + S->size.nq : S->y0;
+  memcpy(in->now.y, y, (size_t)S->size.ny * sizeof(double));
   const ali3_status status = ali3_solve_static(in, t, TOLERANCE, ITERATIONS);
   memcpy(in->stage, in->now.q, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->y_work, in->now.y, (size_t)S->size.ny * sizeof(double));
   ali3_vectors_copy(in, &in->now, &in->whole);
+  if (status == ALI3_OK) memcpy(in->now.y, in->y_work, (size_t)S->size.ny * sizeof(double));
   if (status == ALI3_OK || status == ALI3_NO_MEMORY) return status;
   return ALI3_NO_EQUILIBRIUM;
 }
@@ -90,6 +93,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   if (S->n_static_start == 0 || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
   const bool solve = changed(in);
   if (!solve && !in->start_moved) return ALI3_OK;
+  memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
   ali3_start_of_file(in);
   in->start_moved = false;
   if (solve) {

@@ -1,7 +1,11 @@
 /* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance
  * improves. The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness
  * or weight touches, such as the spin of a driven wheel, cannot come into balance at rest: it is held. in->w marks
- * with 0 what may be held, in->d0 what is; both have 1 elsewhere. */
+ * with 0 what may be held, in->d0 what is; both have 1 elsewhere.
+ *
+ * At rest friction holds nothing before it is deflected. Where there is no equilibrium without it, the way from the
+ * drawing is taken as one step of LONG, whose end then has the deflections: what damps does nothing, what sticks is a
+ * spring, and what slips holds its bound. */
 #include <math.h>
 #include <string.h>
 
@@ -21,18 +25,22 @@ static const double PENALTY = 1e9; /* c alpha, as in a step with eps_rel = 2.5e-
 static const double CLOSED = 1e-10; /* m */
 static const double OPEN = 1e-2; /* m: c does not grow beyond it */
 enum { SLOW = 20 }; /* iterations after which rows that close slowly, c K being large beside PENALTY, make c smaller */
+static const double LONG = 1e6; /* s */
 static const double ROUND_OFF = 1e-12; /* of the forces in balance */
 
 /* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is
- * returned. */
-static double balance(ali3_instance *in, double c) {
+ * returned. `h`: of the step from the drawing, or 0. */
+static double balance(ali3_instance *in, double c, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
   double largest = 0.0, scale = 0.0;
   ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  for (int32_t i = 0; h > 0.0 && i < S->size.nq; i++) v->qd[i] = 2.0 * (v->q[i] - in->now.q[i]) / h;
   const ali3_force_call call = {.q = v->q,
                                 .qd = v->qd,
                                 .y_old = in->now.y,
+                                .h = h,
+                                .wC = h > 0.0 ? 2.0 * c / h : 0.0,
                                 .wK = c,
                                 .tangent = true,
                                 .Q = in->Q,
@@ -99,28 +107,26 @@ static void mark(ali3_instance *in) {
   for (int32_t k = 0; k < S->size.nnz_rows; k++) in->w[S->row_col[k]] = 1.0;
 }
 
-ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations) {
-  const ali3_system *S = in->system;
-  memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
-  ali3_status status = ali3_solve_initial(in, t);
-  if (status != ALI3_OK) return status;
+/* The equilibrium in in->next, from in->now; in->y_work has its states. */
+static ali3_status search(ali3_instance *in, double tolerance, int32_t max_iterations, double h) {
+  ali3_status status = ALI3_OK;
   ali3_vectors_copy(in, &in->next, &in->now);
-  memset(in->next.qd, 0, (size_t)S->size.nq * sizeof(double));
+  memset(in->next.qd, 0, (size_t)in->system->size.nq * sizeof(double));
   mark(in);
-  double c = FIRST_C, last = balance(in, c);
+  double c = FIRST_C, last = balance(in, c, h);
   int32_t iteration = 0;
   for (; iteration < max_iterations; iteration++) {
     if (!(last < 1e300) || !(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
     if (iteration > 0 && last <= tolerance && in->report.violation <= CLOSED) break;
     while ((status = factorise(in, c)) == ALI3_SINGULAR && c > LEAST_C) {
       c *= 0.25;
-      balance(in, c);
+      balance(in, c, h);
     }
     double part = 1.0;
     if (status == ALI3_OK) status = correct(in, c, &part);
     if (status != ALI3_OK) return status;
     const double previous = last, used = c, open = in->report.violation;
-    last = balance(in, c);
+    last = balance(in, c, h);
     const bool closes = in->report.violation <= CLOSED || in->report.violation < 0.5 * open;
     if (part < 1.0 || last > 4.0 * previous)
       c = fmax(0.5 * c, LEAST_C);
@@ -128,10 +134,23 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
       c = fmax(0.25 * c, FIRST_C);
     else if (in->report.violation <= OPEN)
       c = fmin(4.0 * c, LARGEST_C);
-    if (c != used) last = balance(in, c); /* the element tangents carry c */
+    if (c != used) last = balance(in, c, h); /* the element tangents carry c */
   }
   in->report.last_iterations = iteration;
-  if (!(last <= tolerance && in->report.violation <= CLOSED)) return ALI3_NOT_CONVERGED;
+  return last <= tolerance && in->report.violation <= CLOSED ? ALI3_OK : ALI3_NOT_CONVERGED;
+}
+
+ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int32_t max_iterations) {
+  const ali3_system *S = in->system;
+  memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
+  ali3_status status = ali3_solve_initial(in, t);
+  if (status != ALI3_OK) return status;
+  status = search(in, tolerance, max_iterations, 0.0);
+  if (status != ALI3_OK && S->size.ny > 0) {
+    status = search(in, tolerance, max_iterations, LONG);
+    if (status == ALI3_OK) memcpy(in->now.y, in->y_work, (size_t)S->size.ny * sizeof(double));
+  }
+  if (status != ALI3_OK) return status;
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
   return ali3_solve_rates(in, true);

@@ -10,7 +10,8 @@ ali3_status ali3_check_start(const ali3_system *s, ali3_message m) {
   if (s->n_static_start != 0) CHECK(ali3_check_length(m, "static_start", s->n_static_start, 1));
   CHECK(ali3_check_indices(m, "static_start", s->static_start, s->n_static_start, 1, 2));
   CHECK(ali3_check_length(m, "static_value", s->n_static_value, s->n_static_par));
-  if (s->n_static_q != 0) CHECK(ali3_check_length(m, "static_q", s->n_static_q, s->size.nq));
+  if (s->n_static_q != 0 && s->n_static_q != s->size.nq + s->size.ny)
+    CHECK(ali3_check_length(m, "static_q", s->n_static_q, s->size.nq));
   CHECK(ali3_check_indices(m, "static_par", s->static_par, s->n_static_par, 0, s->size.np));
   for (int64_t i = 0; i < s->n_static_par; i++)
     if (!(s->static_value[i] >= s->par_min[s->static_par[i]] && s->static_value[i] <= s->par_max[s->static_par[i]]))
