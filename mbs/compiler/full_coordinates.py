@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.affine import Affine
-from mbs.compiler.eliminate import eliminate
+from mbs.compiler.eliminate import Elimination, eliminate
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.polynomial import RowTerms, cleaned, substitute
+from mbs.model.coordinate import CoordinateInfo
 from mbs.model.equation import Equation
 from mbs.model.mechanism import Mechanism
 
@@ -19,15 +20,16 @@ Array = NDArray[np.float64]
 
 
 def reduce_coordinates(
-    natural: NaturalCoordinates, linear: Sequence[Equation], grounded: bool, stay: set[int], length: float
-) -> tuple[list[int], list[Affine], list[Affine], int, list[RowTerms]]:
+    model: Mechanism, natural: NaturalCoordinates, linear: Sequence[Equation], stay: set[int], length: float
+) -> tuple[NaturalCoordinates, list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
-    `grounded`: whether a joint ties the scene to the ground; `stay`: coordinates of flexible bodies, which are never
-    eliminated; `length`: of the model as drawn, m.
+    `stay`: coordinates of flexible bodies, which are never eliminated; `length`: of the model as drawn, m.
 
     Returns
     -------
+    natural : NaturalCoordinates
+        Those given, and of a floating scene the vectors between points that its joints leave.
     remaining : list of int
         Natural coordinates that are z.
     full : list of Affine
@@ -40,18 +42,46 @@ def reduce_coordinates(
         Linear equations between coordinates that stay.
     """
     equations = [(e.name, substitute(e.linear_form(), natural.expressions)) for e in linear]
-    locked = {i for i, info in enumerate(natural.info) if info.kind in ("angle", "spin")}
-    points = {i for i, info in enumerate(natural.info) if info.kind == "point"}
-    # a scene without ties to the ground may go far: its rows must not hold differences of positions
-    result = eliminate(
-        len(natural.info), equations, locked, points, first_only=not grounded, stay=frozenset(stay), length=length
-    )
+
+    def solved(info: Sequence[CoordinateInfo], equations: Sequence[tuple[str, Affine]]) -> Elimination:
+        locked = {i for i, c in enumerate(info) if c.kind in ("angle", "spin")}
+        points = {i for i, c in enumerate(info) if c.kind == "point"}
+        # a scene without ties to the ground may go far: its rows must not hold differences of positions
+        return eliminate(
+            len(info), equations, locked, points, first_only=not model.grounded, stay=frozenset(stay), length=length
+        )
+
+    result = solved(natural.info, equations)
+    if model.floating and (between := _between(natural.info, result, stay, model.dimension)):
+        natural = NaturalCoordinates([*natural.info, *(info for info, _ in between)], natural.expressions)
+        result = solved(natural.info, equations + [(info.name, e) for info, e in between])
     full = [substitute(e, result.expressions) for e in natural.expressions]
     left = []
     for i, over in result.left:
         terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
         left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
-    return result.remaining, full, result.expressions, result.redundant, left
+    return natural, result.remaining, full, result.expressions, result.redundant, left
+
+
+def _between(
+    info: Sequence[CoordinateInfo], result: Elimination, stay: set[int], dimension: int
+) -> list[tuple[CoordinateInfo, Affine]]:
+    """New coordinates, each with its equation: vectors to the remaining points from that by which most are told.
+
+    A scene that goes far then has one position, and differences of positions lose no digits.
+    """
+    uses = {i: sum(k in e.terms for e in result.expressions) for k, i in enumerate(result.remaining)}
+    points = [i for i in result.remaining if info[i].kind == "point" and info[i].component == 0]
+    base = max(points, key=lambda i: (i in stay, uses[i]), default=-1)
+    found: list[tuple[CoordinateInfo, Affine]] = []
+    for i in points:
+        if i == base or i in stay:
+            continue
+        for k in range(dimension):
+            to, start, new = info[i + k], info[base + k], len(info) + len(found)
+            way = CoordinateInfo(f"{to.name} - {start.name}", "vector", k, to.reference - start.reference)
+            found.append((way, Affine({i + k: 1.0, base + k: -1.0, new: -1.0})))
+    return found
 
 
 def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, Array]:

@@ -132,7 +132,7 @@ def _reduced(model: Mechanism, closed: Corrections) -> _Reduced:
             raise refuse_joint(equation.name)
     length, size = model_length(model), drawn_length(model)
     stay = flexible_coordinates(model) | base_coordinates(model)
-    remaining, full, of_z, redundant, left = reduce_coordinates(natural, linear, model.grounded, stay, size)
+    natural, remaining, full, of_z, redundant, left = reduce_coordinates(model, natural, linear, stay, size)
     known = tell_apart(model, remaining, full, of_z, left)
     error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
     candidates = [row_terms(e, j, k, known.seen, size, error) for j, k, e in others]

@@ -180,7 +180,7 @@ void ali3_elements_defect(ali3_instance *in, double h, bool lanes, const double 
     if (S->el_front[e] < 0) continue;
     local(in, e, u, ud);
     ali3_element_forces(in, &call, e, u, ud, f, NULL);
-    ali3_add_defect(in, e, u, f, r);
+    ali3_add_defect(in, e, ud, f, r);
   }
 }
 

@@ -85,7 +85,7 @@ static void place_flexible(ali3_lane_group *g, ali3_pool *pool) {
   g->flex_c = items(g, pool, 9 * modes);
   g->stage = items(g, pool, any * 3 * (size_t)S->size.nq);
   g->S_tangent = items(g, pool, any * (size_t)S->el_S_off[S->size.ne]);
-  g->u_at = items(g, pool, any * (size_t)S->size.nsig);
+  g->ud_at = items(g, pool, any * (size_t)S->size.nsig);
 }
 
 static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {

@@ -65,7 +65,7 @@ typedef struct ali3_lane_group {
   real *element_force;
   real *ways; /* of elements whose work is watched, see ../state/work.c */
   real *flex, *flex_work, *flex_P, *flex_c; /* of flexible bodies; numbers of the System, the same in all lanes */
-  real *stage, *S_tangent, *u_at; /* of defect_correction.c */
+  real *stage, *S_tangent, *ud_at; /* of defect_correction.c */
   ali3_mask *idle;
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;

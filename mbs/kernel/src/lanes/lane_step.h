@@ -69,16 +69,16 @@ static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
 /* The next iterate writes again what elements have beside f; lanes that have ended come to the same. */
 void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real *q, const real *qd, real *r) {
   const ali3_system *S = in->system;
-  real u[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
+  real ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS];
   (void)h;
   *in->evaluated = lanes;
   memset(r, 0, (size_t)S->size.nq * sizeof *r);
   ali3_active_signals(in, q, qd);
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_front[e] < 0) continue;
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) u[i - S->el_sig_ptr[e]] = in->u[S->el_sig[i]];
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) ud[i - S->el_sig_ptr[e]] = in->ud[S->el_sig[i]];
     element(in, e, f, false);
-    ali3_add_defect(in, e, u, f, r);
+    ali3_add_defect(in, e, ud, f, r);
   }
 }
 

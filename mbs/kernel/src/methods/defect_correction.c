@@ -44,7 +44,7 @@ void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, trut
   truth open = lanes & ali3_not(largest < SMALL * tolerance);
   if (iteration == 0) open &= ali3_not(largest > TOO_LARGE);
   if (!ali3_any(open)) return;
-  memcpy(in->u_at, in->u, (size_t)in->system->size.nsig * sizeof *in->u);
+  memcpy(in->ud_at, in->ud, (size_t)in->system->size.nsig * sizeof *in->ud);
   memset(last, 0, (size_t)nq * sizeof *last);
   for (int k = 0; k < CORRECTIONS; k++) {
     const real size = defect(in, h, open, last, change);

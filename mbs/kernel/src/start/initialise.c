@@ -40,12 +40,14 @@ static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   return ali3_factorise(in, in->F);
 }
 
-/* Minimises (q - q_ref)' (M + BENDING K) (q - q_ref) on Phi = 0; q_ref is the position given. */
+/* Minimises w' (M + BENDING K) w on Phi = 0, w the way from the position given: added up, for a difference of positions
+ * far away loses digits. */
 static ali3_status close_position(ali3_instance *in) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  double *q = in->next.q, *lam = in->next.lam;
+  double *q = in->next.q, *lam = in->next.lam, *w = in->w;
   memcpy(q, in->now.q, (size_t)nq * sizeof(double));
+  memset(w, 0, (size_t)nq * sizeof(double));
   memset(lam, 0, (size_t)nc * sizeof(double));
   for (int iteration = 0;; iteration++) {
     ali3_constraints(in, q, in->now.s, in->Phi, in->J);
@@ -56,12 +58,11 @@ static ali3_status close_position(ali3_instance *in) {
     if (iteration == POSITION_ITERATIONS) return ali3_opening(S, in->Phi) <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
     const ali3_status status = factorise_metric(in, q);
     if (status != ALI3_OK) return status;
-    for (int32_t i = 0; i < nq; i++) in->w[i] = q[i] - in->now.q[i];
-    ali3_mass_times(in, in->w, in->r);
-    ali3_flexible_elastic(in, BENDING, in->w, in->r);
+    ali3_mass_times(in, w, in->r);
+    ali3_flexible_elastic(in, BENDING, w, in->r);
     for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
     ali3_rows_transposed(S, in->J, in->mu, in->x);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->mass_missing[i] * in->w[i] + in->x[i]);
+    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->mass_missing[i] * w[i] + in->x[i]);
     ali3_solve(in, in->F, in->x);
     if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
     double longest = 0.0;
@@ -71,7 +72,10 @@ static ali3_status close_position(ali3_instance *in) {
     ali3_rows_times(S, in->J, in->x, in->gamma);
     for (int32_t k = 0; k < nc; k++) /* a shortened step gives no information on the multipliers */
       lam[k] = part < 1.0 ? 0.0 : in->mu[k] + ALPHA * in->gamma[k];
-    for (int32_t i = 0; i < nq; i++) q[i] += part * in->x[i];
+    for (int32_t i = 0; i < nq; i++) {
+      w[i] += part * in->x[i];
+      q[i] += part * in->x[i];
+    }
   }
   memcpy(in->now.q, q, (size_t)nq * sizeof(double));
   return ALI3_OK;

@@ -67,33 +67,38 @@ static void turn(ali3_instance *in, double c, double s, bool rate, double *x) {
     if (S->pose_partner[i] != 0) x[i] = c * x[i] + s * in->w[i];
 }
 
+/* out = q + way (x, y): seen from a place far away no digits are lost. */
+static void shift(const ali3_system *S, const double *q, double x, double y, double *out) {
+  for (int32_t i = 0; i < S->size.nq; i++) out[i] = q[i] + (x * S->pose_x[i] + y * S->pose_y[i]);
+}
+
 void ali3_put_back(ali3_instance *in, const ali3_held_motion *start) {
   const ali3_system *S = in->system;
   double *q = in->now.q, *qd = in->now.qd;
   ali3_held_motion now = *start;
   look(in, &now);
+  shift(S, q, -now.place[0], -now.place[1], q);
   const double c = now.direction[0] * start->direction[0] + now.direction[1] * start->direction[1];
   const double s = now.direction[0] * start->direction[1] - now.direction[1] * start->direction[0];
   turn(in, c, s, false, q);
   turn(in, c, s, true, qd);
   look(in, &now);
-  for (int32_t i = 0; i < S->size.nq; i++)
-    q[i] += (start->place[0] - now.place[0]) * S->pose_x[i] + (start->place[1] - now.place[1]) * S->pose_y[i];
-  const double rate = start->rate - now.rate;
   for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = ali3_turned(S, i, q, false);
-  const double vx = start->velocity[0] - now.velocity[0] + rate * start->place[1];
-  const double vy = start->velocity[1] - now.velocity[1] - rate * start->place[0];
+  const double rate = start->rate - now.rate;
+  const double vx = start->velocity[0] - now.velocity[0], vy = start->velocity[1] - now.velocity[1];
   for (int32_t i = 0; i < S->size.nq; i++) qd[i] += rate * in->w[i] + vx * S->pose_x[i] + vy * S->pose_y[i];
+  shift(S, q, start->place[0], start->place[1], q);
 }
 
 double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *held) {
   const ali3_system *S = in->system;
-  const double *q = in->now.q, *qd = in->now.qd, rate = held->rate;
-  const double vx = held->velocity[0] + rate * held->place[1], vy = held->velocity[1] - rate * held->place[0];
+  const double *qd = in->now.qd, rate = held->rate;
   double most = 0.0;
+  shift(S, in->now.q, -held->place[0], -held->place[1], in->w);
   for (int32_t i = 0; i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0 && S->pose_z[i] == 0.0) continue; /* wheels turn */
-    most = fmax(most, fabs(qd[i] - rate * ali3_turned(S, i, q, false) - vx * S->pose_x[i] - vy * S->pose_y[i]));
+    const double along = held->velocity[0] * S->pose_x[i] + held->velocity[1] * S->pose_y[i];
+    most = fmax(most, fabs(qd[i] - rate * ali3_turned(S, i, in->w, false) - along));
   }
   return most;
 }

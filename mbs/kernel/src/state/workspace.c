@@ -102,7 +102,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
   in->S = ali3_pool_array(p, (size_t)s->el_S_off[z->ne]);
   const bool flexible = s->n_flexible > 0;
   in->S_tangent = ali3_pool_array(p, flexible ? (size_t)s->el_S_off[z->ne] : 0);
-  in->u_at = ali3_pool_array(p, flexible ? (size_t)z->nsig : 0);
+  in->ud_at = ali3_pool_array(p, flexible ? (size_t)z->nsig : 0);
   in->element_force = ali3_pool_array(p, (size_t)s->el_sig_ptr[z->ne]);
   in->SB = ali3_pool_array(p, ali3_signal_work(s));
   in->local = ali3_pool_array(p, ALI3_LOCAL * (size_t)s->max_front);
