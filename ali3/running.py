@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 
 from ali3.confinement import confine
 from ali3.errors import UserError, reason
+from ali3.extras import missing_module
 from ali3.processes import is_memory_short
 from ali3.signals import Stopped, stopped_by_signals
 from ali3.words import shortened

@@ -15,6 +15,7 @@ from ali3.errors import UserError
 from benchmarks.car import manoeuvres, trajectories
 from benchmarks.car.trajectories import Column
 from benchmarks.shared.pages import Row, table
+from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu import Fmu

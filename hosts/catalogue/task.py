@@ -64,8 +64,6 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
 
 def write_runs(task: Task, record: TestRecord) -> None:
     """A table of each run, and beside it what `ali3 view` needs to draw it; nothing where it has no folder."""
-    from hosts.run.result_files import write_csv
-
     if task.folder is None:
         return
     for name, result in record.runs.items():

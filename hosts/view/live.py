@@ -133,8 +133,6 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     """Results that are drawn beside the first FMU, with its drawing where they have none."""
     if not results:
         return []
-    from hosts.view.view_sources import RunWishes, recordings_of
-
     recordings, told, _ = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
     for line in told:
         print(line)

@@ -249,16 +249,6 @@ def _foreign(path: Path) -> str:
 
 def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str], bool]:
     """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
-    from hosts.driving.course_scenery import with_course, with_marks
-    from hosts.driving.driver import driver_of
-    from hosts.driving.manoeuvre import with_names_of
-    from hosts.driving.manoeuvre_settings import set_in
-    from hosts.driving.pilots.pilot import ACTS, SENSES
-    from hosts.driving.run_checks import check_columns, communication_step
-    from hosts.driving.run_with_bar import run_with_bar
-    from hosts.fmu.fmu import Fmu
-    from hosts.recordings.asked_manoeuvre import manoeuvre_of
-
     told = []
     with Fmu(path) as fmu:
         given = wanted.manoeuvre
