@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tqdm import tqdm
-
-if TYPE_CHECKING:
-    from tqdm import tqdm
 
 _DELAY = 2.0  # s before a bar appears
 _LATER = 1.5  # how much later than the last the next line comes

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from hosts.common.numbers import Value
     from hosts.fmu.setting import Setting
     from hosts.fmu.settings import Settings
-    from hosts.fmu.variables import Variables
 
 
 def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, show: bool = False) -> int:

@@ -31,8 +31,6 @@ from hosts.soak.grounds import IN_THE_FMU, jump_ground, world_ground
 from hosts.soak.table import is_good, print_outcomes
 
 if TYPE_CHECKING:
-    from hosts.fmu.fmu import Fmu
-    from hosts.soak.drive import Outcome, Task
     from hosts.soak.grounds import Ground
 
 SEEDS = 10

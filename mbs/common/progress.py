@@ -5,14 +5,10 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from tqdm import tqdm
 
 from ali3.bars import bar
-
-if TYPE_CHECKING:
-    from tqdm import tqdm
 
 DELAY = 2.0  # s of wall time before a bar appears by itself
 _FORM = "{percentage:3.0f} % {bar:40} {remaining} left"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,6 @@ from mbs.elements.record import ElementRecord, columns
 from mbs.elements.record_checks import size
 from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops, given_stops
 from mbs.kernel.header.enumerations import ElementType
-
-if TYPE_CHECKING:
-    from scipy.interpolate import PchipInterpolator
 
 Rows: TypeAlias = Sequence[Sequence[float]] | NDArray[np.float64]
 CLOSEST = 1e-9

@@ -34,8 +34,6 @@ from mbs.system.drawing import Drawing
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ali3.scene.recording import Recording
-
 
 class Trajectory(Mapping[str, NDArray[np.float64]]):
     """Sensor values over time: ``trajectory["bob.x"]`` is an array of shape (n,).

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
@@ -45,9 +45,6 @@ from mbs.vehicle.side import Side
 from mbs.vehicle.steep_road import tell_steep_face
 from mbs.vehicle.steering.steered import Steered
 from mbs.vehicle.tabled_axle import tabled_axle
-
-if TYPE_CHECKING:
-    from mbs.model.model import Model
 
 MOST_FAULTS = 8
 

@@ -14,7 +14,7 @@ from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of
 from ali3.running import run_command
 from ali3.units import quantity
-from mbs.worlds.world import shipped_worlds, world
+from mbs.worlds.shipped import shipped_worlds
 
 _EPILOG = """\
 inputs:
@@ -79,11 +79,12 @@ def _metres(text: str) -> float:
 
 
 def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    from mbs.worlds.road import make_road
+    from mbs.worlds.world import world
+
     if options.world is None:
         if options.thin:
             raise UserError("--thin is of a --world.")
-        from mbs.worlds.road import make_road
-
         if options.input is None:
             raise UserError("There is no INPUT to make a road of; --help lists what it may be. A world is a --world.")
         if options.out is not None:

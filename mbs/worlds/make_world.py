@@ -6,7 +6,7 @@ import shutil
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -22,9 +22,6 @@ from mbs.worlds.terrain import Terrain
 from mbs.worlds.thin_world import STEP, off_by, thinner
 from mbs.worlds.world_record import record_of, world_record
 from mbs.worlds.world_types import WorldDescription
-
-if TYPE_CHECKING:
-    from mbs.worlds.world_types import WorldDescription
 
 PLAIN = 250.0
 """m: bounds of a world that is a plane or a kerb, to all sides."""

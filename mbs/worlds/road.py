@@ -22,7 +22,7 @@ from mbs.roads.write_road import write_road
 from mbs.worlds.make_world import part_of_world
 
 if TYPE_CHECKING:
-    from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+    from mbs.elements.road import KerbRoad
 
 
 def make_road(options: argparse.Namespace) -> int:
@@ -31,8 +31,8 @@ def make_road(options: argparse.Namespace) -> int:
     if output is not None and output.suffix.lower() != ".road":
         raise UserError(f"{output} would be a road file; give it the suffix .road.")
     given = _given(options)
-    part = part_of_world(options.input) if options.part is not None and output is options.picture is None else None
-    if part is not None:
+    only_part = options.part is not None and output is None and options.picture is None
+    if only_part and (part := part_of_world(options.input)) is not None:
         write_text(options.part, json.dumps(part, allow_nan=False))
         print(f"written: {options.part}, as the world beside {options.input} draws it")
         return 0

@@ -19,16 +19,9 @@ from ali3.told_warnings import told_warnings
 from mbs.roads.kinds import CRG, MESHES
 from mbs.worlds.make_world import make_world
 from mbs.worlds.map_picture import draw_map
+from mbs.worlds.shipped import ROADS, WORLDS, shipped_worlds
 from mbs.worlds.stored import add_file, key_of, world_files
 from mbs.worlds.world_file import named_files
-
-WORLDS = Path(__file__).parent
-ROADS = Path(__file__).parents[1] / "roads" / "files"
-
-
-def shipped_worlds() -> list[str]:
-    """Names of the worlds and roads of the package."""
-    return [path.stem for path in sorted(WORLDS.glob("*.toml"))] + [path.stem for path in sorted(ROADS.glob("*.road"))]
 
 
 def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> int:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from mbs.worlds.command import main
-from mbs.worlds.world import WORLDS
+from mbs.worlds.shipped import WORLDS
 
 
 @pytest.fixture(scope="session")

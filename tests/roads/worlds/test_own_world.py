@@ -15,8 +15,8 @@ from mbs.scenes import prototype_car
 from mbs.worlds.command import main
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
+from mbs.worlds.shipped import ROADS
 from mbs.worlds.terrain import Terrain
-from mbs.worlds.world import ROADS
 from tests.roads.worlds.harness import drawn, opened
 
 PAGE = (Path(__file__).parents[3] / "docs" / "worlds.md").read_text(encoding="utf-8")

@@ -1,0 +1,13 @@
+"""Worlds and roads of the package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+WORLDS = Path(__file__).parent
+ROADS = Path(__file__).parents[1] / "roads" / "files"
+
+
+def shipped_worlds() -> list[str]:
+    """Names of the worlds and roads of the package."""
+    return [path.stem for path in sorted(WORLDS.glob("*.toml"))] + [path.stem for path in sorted(ROADS.glob("*.road"))]
