@@ -95,10 +95,10 @@ class TestedCar:
             step = communication_step(fmu, manoeuvre, self.step)
             every = 1 if record_step is None else max(1, round(record_step / step))
             driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
-            if wrong := driven.not_finite():
-                raise FailedFmuError(f"{wrong} Nothing of that run is measured.")
             result = marked(driven, pilot)
-            derive_columns(result, self.aliases, every > 1)
+            derive_columns(result, self.aliases, every > 1)  # before the check: rates of one row are no numbers yet
+            if wrong := result.not_finite():
+                raise FailedFmuError(f"{wrong} Nothing of that run is measured.")
             return result
 
     @cached_property

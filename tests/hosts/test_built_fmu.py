@@ -91,7 +91,7 @@ def test_a_command_takes_an_fmu_or_a_car(
         (tmp_path / "cut").write_text("")
         assert fmu_file(Path(given)) == Path(given)
     built = []
-    monkeypatch.setattr(built_fmu, "fmu_of_car", lambda name, tell, poses: built.append(name) or made)
+    monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell, poses: built.append(name) or made)
     assert fmu_file(Path("hatchback")) == fmu_file(None) == made
     assert built == ["hatchback", "prototype"]
     (tmp_path / "dist").mkdir()

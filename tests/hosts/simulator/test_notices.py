@@ -75,7 +75,7 @@ def test_a_count_that_starts_anew_is_not_a_step(clock: Any, times: TimesRecord) 
 
 @pytest.mark.parametrize("names", [("speed",), NAMES])
 def test_messages_of_an_fmu_that_talks_all_the_time(clock: Any, times: TimesRecord, names: tuple[str, ...]) -> None:
-    notices, car, said = Notices(names, clock, times), Steps(), []
+    notices, car, said = Notices(names, clock, times), Steps(np.zeros(len(names))), []
     for k in range(2000):
         clock.work(0.002)
         car.logged = [f"word {k}", f"again {k}"]
