@@ -145,7 +145,7 @@ def test_without_a_network_one_sentence_names_the_remedy(page, tmp_path, monkeyp
     ) as caught:
         bundle.bundle(page, tmp_path / "bundle")
     assert "\n" not in str(caught.value)
-    assert [path.name for path in page.glob(".part-*")] == []
+    assert [path.name for path in page.glob(".ali3-*")] == []
     assert not (page / "node_modules").exists()
 
 
