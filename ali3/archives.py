@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from ali3.errors import FileError, reason
+from ali3.limits import at_most, raised
 from ali3.reading import Error, is_file, open_file
 from ali3.words import brief, one_line
 
@@ -87,8 +88,8 @@ class Archive:
         what = f"{entry} in {self._name}"
         if entry not in self._sizes:
             raise self._error(f"{self._name} has no {entry}.")
-        if self._sizes[entry] > largest:
-            raise self._error(f"{what} has {self._sizes[entry]} bytes; it must have at most {largest}.")
+        if (size := self._sizes[entry]) > raised(largest):
+            raise self._error(f"{what} has {size} bytes; it must have {at_most(size, largest)}.")
         try:
             return self._archive.read(entry)
         except _DAMAGED as fault:
@@ -137,8 +138,9 @@ def _opened(
         directory = _directory_size(stream)
         if directory is None:
             raise error(f"{name} is not {kind} (not a zip archive).")
-        if directory > MOST_ENTRIES * _ENTRY:  # which is read whole
-            raise error(f"{name} has a directory of {directory} bytes; it must have at most {MOST_ENTRIES * _ENTRY}.")
+        if directory > raised(MOST_ENTRIES * _ENTRY):  # which is read whole
+            most = at_most(directory, MOST_ENTRIES * _ENTRY)
+            raise error(f"{name} has a directory of {directory} bytes; it must have {most}.")
         try:
             archive = zipfile.ZipFile(stream)
         except _DAMAGED as fault:
@@ -171,11 +173,11 @@ def _faults(archive: zipfile.ZipFile, unpacked: int) -> list[Fault]:
     files = {info.filename.casefold() for info in entries if not info.is_dir()}
     if inside := next((name for name in counts for n in _folders(name) if n in files), None):
         found.append(Fault(f"has the entry {brief(inside)} in a folder that is a file too"))
-    if len(entries) > MOST_ENTRIES:
-        found.append(Fault(f"has {len(entries)} entries; it must have at most {MOST_ENTRIES}"))
+    if len(entries) > raised(MOST_ENTRIES):
+        found.append(Fault(f"has {len(entries)} entries; it must have {at_most(len(entries), MOST_ENTRIES)}"))
     size = sum(info.file_size for info in entries)
-    if size > unpacked:
-        found.append(Fault(f"has {size} bytes when it is unpacked; it must have at most {unpacked}"))
+    if size > raised(unpacked):
+        found.append(Fault(f"has {size} bytes when it is unpacked; it must have {at_most(size, unpacked)}"))
     return found
 
 

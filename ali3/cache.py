@@ -6,11 +6,13 @@ import atexit
 import functools
 import os
 import tempfile
+from contextlib import ExitStack
 from pathlib import Path
 
 import platformdirs
 
 from ali3.errors import FileError, reason
+from ali3.temporary import temporary_folder
 
 VARIABLE = "ALI3_CACHE"
 
@@ -40,6 +42,6 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
 
 @functools.cache
 def _passing(name: str) -> Path:
-    temporary = tempfile.TemporaryDirectory(prefix=f"{name}-", ignore_cleanup_errors=True)
-    atexit.register(temporary.cleanup)
-    return Path(temporary.name)
+    held = ExitStack()
+    atexit.register(held.close)
+    return held.enter_context(temporary_folder())

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import ali3
 from ali3.errors import UserError
+from ali3.limits import VARIABLE
 
 _SWITCH = "ALI3_CONFINED"  # programs that this one starts, such as workers of a study, know it by their environment
 _SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/etc/ld.so.cache", "/etc/ld.so.conf.d")
-_KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+_KEPT = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", VARIABLE)
 _APART = ("--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--new-session")
 _PATIENCE = 20.0  # s
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import os
-import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from ali3.errors import FileError, reason
-
-WRITING = ".writing-"
+from ali3.temporary import temporary_folder
 
 
 @contextmanager
@@ -25,24 +23,20 @@ def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Itera
     """
     target = Path(os.path.realpath(file))  # a link stays a link
     _check_file(file, target)
-    folder = ""
     try:
         if target.exists() and not target.is_file():
             yield target
             return
         if make_parents:
             make_folder(target.parent)
-        folder = tempfile.mkdtemp(prefix=WRITING, dir=target.parent)
-        made = Path(folder, target.name)
-        yield made
-        made.replace(target)
+        with temporary_folder(target.parent) as folder:
+            made = folder / target.name
+            yield made
+            made.replace(target)
     except (FileError, BrokenPipeError):
         raise
     except OSError as error:
         raise FileError(f"{file} cannot be written: {reason(error)}.") from error
-    finally:
-        if folder:
-            shutil.rmtree(folder, ignore_errors=True)
 
 
 def write_text(file: str | os.PathLike[str], text: str) -> None:

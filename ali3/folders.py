@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.errors import FileError, reason
-from ali3.files import WRITING, make_folder
+from ali3.files import make_folder
+from ali3.temporary import temporary_folder
 
 
 @contextmanager
@@ -25,8 +25,8 @@ def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     target = Path(folder)
     parent = make_folder(target.parent)
     try:
-        with tempfile.TemporaryDirectory(prefix=WRITING, dir=parent, ignore_cleanup_errors=True) as room:
-            made = Path(room, target.name)
+        with temporary_folder(parent) as room:
+            made = room / target.name
             made.mkdir()
             yield made
             try:

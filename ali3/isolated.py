@@ -8,14 +8,12 @@ from __future__ import annotations
 
 import os
 import pickle
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 from collections.abc import Callable, Iterable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Generic, TypeAlias, TypeVar
@@ -28,6 +26,7 @@ from ali3.errors import UserError
 from ali3.frames import FrameError, read_frame
 from ali3.guard import LEFT
 from ali3.processes import module_command
+from ali3.temporary import temporary_folder
 from ali3.words import shortened
 
 DONE, TOLD, ERROR, READY = 0, 1, 2, 3
@@ -61,7 +60,8 @@ class _Process:
     """One process: what is started, and what is ended with it."""
 
     def __init__(self, work: bytes, reads: Iterable[Path], writes: Iterable[Path]) -> None:
-        self.folder = Path(tempfile.mkdtemp(prefix="isolated-"))
+        self._held = ExitStack()
+        self.folder = self._held.enter_context(temporary_folder())
         self.flooded, self._lock = False, threading.Lock()
         self.number: int | None = None
         self.unread = ""
@@ -92,7 +92,6 @@ class _Process:
             )
         except BaseException:
             self._close()
-            shutil.rmtree(self.folder, ignore_errors=True)
             raise
         finally:
             if life >= 0:
@@ -143,7 +142,6 @@ class _Process:
                 stream.close()  # type: ignore[union-attr]
         call, left, kept = last_call(self.folder), self._left(), keep(self.store)
         self._close()
-        shutil.rmtree(self.folder, ignore_errors=True)
         if self.unread:
             how = self.unread
         elif self.flooded:
@@ -164,6 +162,7 @@ class _Process:
         memory, self._memory = self._memory, -1
         if memory >= 0:
             os.close(memory)
+        self._held.close()
 
     def _close_life(self) -> None:
         with self._lock:

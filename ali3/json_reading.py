@@ -9,6 +9,7 @@ from operator import itemgetter
 from typing import Any
 
 from ali3.errors import FileError
+from ali3.limits import at_most, raised
 from ali3.reading import Error, check_content, file_text, read_bytes, too_deep
 from ali3.words import brief, one_line
 
@@ -26,8 +27,8 @@ def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
 
     `error`, `name`: as of `toml_of`; `finite`: whether NaN and Infinity, which Python writes, are refused.
     """
-    if data.count(b",") + data.count(b"[") + data.count(b"{") > MOST_ENTRIES:
-        raise error(f"{name} has more than {MOST_ENTRIES} entries.")
+    if (count := data.count(b",") + data.count(b"[") + data.count(b"{")) > raised(MOST_ENTRIES):
+        raise error(f"{name} has {count} entries; it must have {at_most(count, MOST_ENTRIES)}.")
     if not data.strip():
         raise error(f"{name} is empty; it must be a JSON file.")
     try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ali3.limits import factor, raised
 from ali3.reading import Error, check_file
 from ali3.words import brief
 
@@ -34,8 +35,10 @@ class NamedFiles:
                 raise
             raise self._error(f"{place}{brief(name)} is no name of a file.") from None
         self._count += 1
-        if self._count > MOST_FILES:
-            raise self._error(f"{place}more than {MOST_FILES} files are named; {brief(name)} is the first too many.")
+        if self._count > raised(MOST_FILES):
+            raise self._error(
+                f"{place}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
+            )
         check_file(found, self._left, self._error, f"{place}{brief(name)}")
-        self._left -= found.stat().st_size
+        self._left -= int(found.stat().st_size / factor())
         return found

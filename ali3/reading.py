@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, NoReturn
 
 from ali3.errors import FileError, reason
+from ali3.limits import at_most, raised
 from ali3.words import brief, one_line, place_words
 
 Error = type[Exception]
@@ -39,8 +40,8 @@ _MOST_DOTS = 200  # of a key: the time of the parser grows with their square
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
     """Refuse what is no regular file, or too large, before it is opened.
 
-    `largest`: bytes; `error`: what is raised, with one sentence; `name`: how the sentence calls the file; by default
-    its path.
+    `largest`: bytes, which `ali3.limits` raises; `error`: what is raised, with one sentence; `name`: how the sentence
+    calls the file; by default its path.
     """
     name = name or str(file)
     try:
@@ -53,8 +54,8 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
         raise error(f"{brief(name)} is no name of a file: {fault}.") from None
     if not stat.S_ISREG(found.st_mode):
         raise error(_no_regular(name, found.st_mode))
-    if found.st_size > largest:
-        raise error(f"{name} has {found.st_size} bytes; it must have at most {largest}.")
+    if found.st_size > raised(largest):
+        raise error(f"{name} has {found.st_size} bytes; it must have {at_most(found.st_size, largest)}.")
     return Path(file)
 
 
@@ -101,16 +102,16 @@ def read_bytes(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     name = name or str(file)
     try:
         with open_file(file, largest, error, name) as stream:
-            size = os.fstat(stream.fileno()).st_size
-            data = stream.read(min(size, largest) + 1)  # as much memory as it asks for is taken
-            if size < len(data) <= largest:  # files of the system have more than they say
-                data += stream.read(largest + 1 - len(data))
+            size, most = os.fstat(stream.fileno()).st_size, raised(largest)
+            data = stream.read(min(size, most) + 1)  # as much memory as it asks for is taken
+            if size < len(data) <= most:  # files of the system have more than they say
+                data += stream.read(most + 1 - len(data))
     except OSError as fault:
         if isinstance(fault, error):
             raise
         raise error(f"{name} cannot be read: {reason(fault)}.") from None
-    if len(data) > largest:
-        raise error(f"{name} has more than {largest} bytes.")
+    if len(data) > most:
+        raise error(f"{name} has more than {most} bytes.")
     return data
 
 

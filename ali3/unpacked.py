@@ -9,6 +9,7 @@ import zlib
 from pathlib import Path
 
 from ali3.errors import FileError, reason
+from ali3.limits import at_most, raised
 from ali3.reading import LONGEST_LINE, Error, open_file
 
 MOST_MEMORY = 4_000_000_000
@@ -19,8 +20,10 @@ _CELL = 24
 
 def check_memory(needed: float, error: Error, name: str, most: int = MOST_MEMORY) -> None:
     """Refuse what would take too much memory. `needed`: estimated, bytes; `error`, `name`: as of `check_file`."""
-    if needed > most:
-        raise error(f"{name} would take about {needed:.3g} bytes of memory; it must take at most {most:.3g}.")
+    if needed > most and needed > raised(most):
+        raise error(
+            f"{name} would take about {needed:.3g} bytes of memory; it must take {at_most(needed, most, '.3g')}."
+        )
 
 
 class Unpacked(io.RawIOBase):

@@ -33,8 +33,11 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
             )
         return out / SCRIPT
     if not _fresh(page, out):
+        from ali3.locks import locked
+        from viewer.page_build import build
+
         try:
-            with locked_folder(out):
+            with locked(out):
                 if not _fresh(page, out):  # another process may have built it meanwhile
                     build(page, out, (SCRIPT, LICENCES), STAMP, _hash(page))
         except OSError as error:

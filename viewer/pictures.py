@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 from ali3.files import check_writable, whole_file
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
+from ali3.temporary import temporary_folder
 from viewer.browser import screenshot
 from viewer.page_file import notes_of, thinned, write_page
 
@@ -50,7 +50,7 @@ def pictures(
     shown = thinned(recordings)
     if all(recording.scene is None for recording in shown):
         raise ViewerError("There is nothing to draw: no recording has a scene.")
-    with tempfile.TemporaryDirectory(prefix="ali3_page_", ignore_cleanup_errors=True) as folder:
+    with temporary_folder() as folder:
         page = write_page(Path(folder, "page.html"), shown, options={"controls": False, **(options or {})})
         yield from screenshot(page.path, times, size, camera)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 import os
-import tempfile
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing
 from fractions import Fraction
@@ -22,6 +21,7 @@ from ali3.files import check_writable, whole_file
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
 from ali3.scene.written import WrittenFilm
+from ali3.temporary import temporary_folder
 from viewer.browser import screenshot
 from viewer.page_file import notes_of, thinned, write_page
 
@@ -101,7 +101,7 @@ def write_mp4(
     times = _times(target, shown[0], fps, size, speed, begin, end)
     check_writable(path)
     encode = _mp4_encoder(fps, size) if target.suffix.lower() == ".mp4" else _animation_encoder(target, fps)
-    with tempfile.TemporaryDirectory(prefix="ali3-film-") as folder:
+    with temporary_folder() as folder:
         page = Path(folder, "page.html")
         chosen = {**(options or {}), "controls": False, "play": False}
         write_page(page, shown, options=chosen)

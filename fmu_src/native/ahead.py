@@ -11,7 +11,6 @@ A build that has ended well leaves a file beside that cache, and of the same sou
 from __future__ import annotations
 
 import subprocess
-import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -19,6 +18,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.cores import available_cores
+from ali3.temporary import temporary_folder
 from fmu_src.native.compile import library_command
 from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
@@ -38,7 +38,7 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
     `work`: faces, see `compile_library`, and platforms; the first is wanted first. What has not been begun when the
     context is left is left out, what has is ended.
     """
-    with tempfile.TemporaryDirectory(prefix="ali3-ahead-", ignore_cleanup_errors=True) as folder:
+    with temporary_folder() as folder:
         table = Path(folder, "table.c")
         names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]], "coordinate": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,6 +9,7 @@ from xml.etree import ElementTree
 from ali3.archives import Archive
 from ali3.errors import UserError
 from ali3.reading import is_file, no_file
+from ali3.temporary import temporary_folder
 from fmu_src.native.archive import write_zip
 from fmu_src.native.compile import compile_library, compile_packed
 from fmu_src.native.package import Telling, first_time
@@ -47,7 +47,7 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
     if "wasm32" in platforms and _ALONE not in files:
         raise UserError(f"The sources in {fmu} are older than the platform wasm32; build the FMU again.")
     added = [p for p in platforms if f"binaries/{p}/{name}{SUFFIXES[p]}" not in files]
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+    with temporary_folder() as folder:
         for platform in added:
             library = name + SUFFIXES[platform]
             with told(f"compiling for {platform}", first_time(platform)):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
@@ -10,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from ali3.temporary import temporary_folder
 from fmu_src.description.description import Description
 from fmu_src.description.documentation import documentation
 from fmu_src.description.probe import Dependencies
@@ -194,7 +194,7 @@ def pack_native(
         "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
         face.picture: _picture(runs[0]),
     } | reference_files(name, runs, contents.stop_time, contents.step_size)
-    with tempfile.TemporaryDirectory() as temporary:
+    with temporary_folder() as temporary:
         table = Path(temporary, "table.c")
         table.write_text(table_c, encoding="utf-8")
         for platform in platforms:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 import pythonfmu
 
+from ali3.temporary import temporary_folder
 from fmu_src.description.description import model_description
 from fmu_src.description.documentation import documentation
 from fmu_src.native.archive import identity_of, licence, write_zip
@@ -88,7 +88,7 @@ def pack_python(
             contents.reach,
         ),
     }
-    with tempfile.TemporaryDirectory() as temporary:
+    with temporary_folder() as temporary:
         table = Path(temporary, "table.c")
         table.write_text(contents.table_c(identity, guid), encoding="utf-8")
         for platform in platforms:

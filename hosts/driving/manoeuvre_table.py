@@ -66,7 +66,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             name, at, instant = rest.rpartition(" at ")
             if not at:
                 raise HostError(f"{where}: {brief(rest.strip())} is not of the form FILE at TIME.")
-            state = read_state(path.parent / name.strip(), where), number_of(instant, f"{where}, time of the state")
+            state = read_state(path.parent, name.strip(), where), number_of(instant, f"{where}, time of the state")
         elif key.strip() == "step":
             step = number_of(rest, f"{where}, communication step")
             if not step > 0.0:

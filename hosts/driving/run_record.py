@@ -69,7 +69,7 @@ def record_of(path: Path) -> RunRecord:
             raise ValueError
         if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
             raise ValueError
-        saved = (None, 0.0) if state is None else (read_state(path.parent / state["file"], str(file)), state["time"])
+        saved = (None, 0.0) if state is None else (read_state(path.parent, state["file"], str(file)), state["time"])
         begun = saved[0], float(saved[1])
         return RunRecord(first, start, set(held), jumps, begun, float(step), interval, tuple(lost))
     except (AttributeError, KeyError, TypeError, ValueError):

@@ -5,15 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from ali3.files import whole_file
+from ali3.named_files import NamedFiles
 from ali3.reading import LARGEST_STATE, read_bytes
 from hosts.common.errors import HostError
 
 
-def read_state(file: Path, where: str) -> bytes:
-    """The saved state of an FMU. `where`: the place that names it, for messages.
+def read_state(folder: Path, name: str, where: str) -> bytes:
+    """The saved state of an FMU. `name`: below the folder; `where`: the place that names it, for messages.
 
-    Raises `HostError`: it cannot be read.
+    Raises `HostError`: it lies elsewhere, or cannot be read.
     """
+    file = NamedFiles(folder, LARGEST_STATE, HostError).file(name, folder, f"{where}: the state")
     return read_bytes(file, LARGEST_STATE, HostError, f"{where}: the state {file}")
 
 

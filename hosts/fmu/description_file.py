@@ -11,6 +11,7 @@ from fmpy import read_model_description
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.archives import Archive
+from ali3.limits import VARIABLE, at_most, raised
 from ali3.processes import command_name
 from ali3.reading import DEEPEST, is_file, no_file
 from ali3.words import one_line
@@ -58,7 +59,7 @@ def read_description(
     try:
         description = read_model_description(str(path), validate=validate)
         count = sum(math.prod(v.shape or ()) for v in description.modelVariables)
-        if count > MOST_VARIABLES:
+        if count > raised(MOST_VARIABLES):
             raise HostError(_too_many(path, count))
         return description, *scalars(description, element_names(elements.decode()))
     except (ImportError, MemoryError, HostError):
@@ -71,7 +72,8 @@ def read_description(
 
 
 def _too_many(path: Path, count: int) -> str:
-    return f"{path} has {count} variables, the elements of arrays counted; it must have at most {MOST_VARIABLES}."
+    most = at_most(count, MOST_VARIABLES)
+    return f"{path} has {count} variables, the elements of arrays counted; it must have {most}."
 
 
 class _Bounds:
@@ -80,6 +82,7 @@ class _Bounds:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._depth = self._elements = self._variables = 0
+        self._most_variables, self._most_elements = raised(MOST_VARIABLES), raised(_MOST_ELEMENTS)
         self._parser = expat.ParserCreate()
         self._parser.StartElementHandler = self._begin
         self._parser.EndElementHandler = self._end
@@ -102,10 +105,10 @@ class _Bounds:
         self._variables += "valueReference" in attributes and self._depth == _DEPTH_OF_VARIABLES
         if self._depth > DEEPEST:
             self._refuse(f"has elements nested more than {DEEPEST} deep")
-        if self._variables > MOST_VARIABLES:
-            self._refuse(f"has more than {MOST_VARIABLES} variables")
-        if self._elements > _MOST_ELEMENTS:
-            self._refuse(f"has more than {_MOST_ELEMENTS} elements")
+        if self._variables > self._most_variables:
+            self._refuse(f"has more than {self._most_variables} variables; {VARIABLE} raises limits")
+        if self._elements > self._most_elements:
+            self._refuse(f"has more than {self._most_elements} elements; {VARIABLE} raises limits")
 
     def _end(self, name: str) -> None:
         self._depth -= 1

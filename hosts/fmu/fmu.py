@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
 import sys
-import tempfile
 import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,6 +20,7 @@ from numpy.typing import NDArray
 from ali3.errors import reason
 from ali3.near_names import did_you_mean
 from ali3.processes import cause_words
+from ali3.temporary import temporary_folder
 from ali3.words import brief, shortened
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
@@ -89,8 +88,9 @@ class Fmu(Closing, NamedScalars):
         if self._loaded is not None:
             return self._loaded
         path = self.path
-        folder, own = Path(tempfile.mkdtemp(prefix="fmu_")), os.getpid()  # which it goes with, not with forked ones
-        self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else shutil.rmtree(folder, True))
+        held, own = ExitStack(), os.getpid()  # which it goes with, not with forked ones
+        folder = held.enter_context(temporary_folder())
+        self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else held.close())
         self._folder = folder
         try:
             unpack(path, folder)

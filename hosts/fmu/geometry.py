@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from shlex import quote
@@ -14,6 +13,7 @@ from ali3.processes import command_name
 from ali3.reading import is_file
 from ali3.scene.errors import SceneError
 from ali3.scene.scene import read_scene
+from ali3.temporary import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -97,7 +97,7 @@ def _set(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
 
 def _part(name: str, fmu: Archive) -> dict[str, Any]:
     """A road file as a part of a scene."""
-    with tempfile.TemporaryDirectory(prefix="road_") as folder:
+    with temporary_folder() as folder:
         inside = next((n for n in (name, f"{_ROADS}/{name}") if n in fmu), None)
         file = Path(name.removeprefix("file://"))
         if inside is not None:

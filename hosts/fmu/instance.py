@@ -16,6 +16,7 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.call_mark import marked
+from ali3.limits import at_most, raised
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
 from hosts.common.errors import HostError
@@ -221,10 +222,9 @@ class Instance:
         measure = self.slave.fmi3SerializedFMUStateSize if self.three else self.slave.fmi2SerializedFMUstateSize
         try:
             measure(self.slave.component, state, ctypes.byref(size))
-            if size.value > LARGEST_STATE:
-                raise HostError(
-                    f"The FMU says that its state has {size.value} bytes; at most {LARGEST_STATE} are taken."
-                )
+            if size.value > raised(LARGEST_STATE):
+                most = at_most(size.value, LARGEST_STATE)
+                raise HostError(f"The FMU says that its state has {size.value} bytes; it must have {most}.")
             return bytes((self.slave.serializeFMUState if self.three else self.slave.serializeFMUstate)(state))
         finally:
             self.free_state(state)

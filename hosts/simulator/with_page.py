@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import signal
 import socket
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ali3.extras import missing_module
 from ali3.signals import handled, heeded
+from ali3.temporary import temporary_folder
 from hosts.common.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.guard import Guard
@@ -84,7 +84,7 @@ def drive_with_pages(
             await server.run(opened.listening, stop, told_ready, seen)
 
     with ExitStack() as stack:
-        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="drive_", ignore_cleanup_errors=True))
+        folder = stack.enter_context(temporary_folder())
         if opened.devices:
             _add_devices(stack, server, hands, car)
         asyncio.run(work())

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import logging
-import os
-import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import psutil
 from distributed import Client, KilledWorker
@@ -18,6 +14,7 @@ from ali3.cache import cache_folder
 from ali3.cores import available_cores
 from ali3.errors import UserError
 from ali3.reading import read_bytes
+from ali3.temporary import temporary_folder
 from hosts.common.errors import HostError
 from hosts.study.local_cluster import local_cluster
 from hosts.study.plan import Plan
@@ -46,12 +43,13 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
         with _without_logs(), client_of(scheduler) as client:
             yield client
         return
-    folder = _work_folder()
-    try:
-        with _without_logs(), local_cluster(workers or available_cores(), folder) as cluster, Client(cluster) as client:
-            yield client
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    with (
+        temporary_folder(cache_folder("study")) as folder,
+        _without_logs(),
+        local_cluster(workers or available_cores(), folder) as cluster,
+        Client(cluster) as client,
+    ):
+        yield client
 
 
 @contextmanager
@@ -66,19 +64,6 @@ def _without_logs() -> Iterator[None]:
         raise
     finally:
         logging.disable(before)
-
-
-def _work_folder() -> Path:
-    """A folder for what workers unpack; those of programs that were killed are removed."""
-    room = cache_folder("study")
-    for old in room.iterdir():
-        if not _is_alive(old.name.partition("-")[0]):
-            shutil.rmtree(old, ignore_errors=True)
-    return Path(tempfile.mkdtemp(prefix=f"{os.getpid()}-", dir=room))
-
-
-def _is_alive(number: str) -> bool:
-    return number.isdigit() and psutil.pid_exists(int(number))
 
 
 def bring(client: Client, plan: Plan) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
@@ -12,6 +11,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, register_namespac
 
 from ali3.files import check_writable, whole_file
 from ali3.parameter_set import Entry, ParameterSet
+from ali3.temporary import temporary_folder
 from ali3.words import brief
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
@@ -59,7 +59,7 @@ def write_ssp(
         raise HostError(f"The name of the system is {brief(name)}; it must be a text that can be printed.")
     check_writable(file)
     with ExitStack() as stack:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        folder = stack.enter_context(temporary_folder())
         fmus = fmus_of(parts, stack)
         wires = wires_of(connections, fmus)
         content = {f"resources/{part}.fmu": Path(path) for part, path in parts.items()}

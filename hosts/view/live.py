@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -11,7 +10,7 @@ from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
 
-from ali3.files import check_writable, whole_file
+from ali3.temporary import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.options import ROAD, Wishes
@@ -42,8 +41,8 @@ _MOST_PICTURES = 4
 
 def live(options: argparse.Namespace) -> int:
     """Write one HTML file that runs FMUs of this program in any browser, and open it; gives the exit code."""
-    with tempfile.TemporaryDirectory() as folder:
-        return _written(options, wishes_with_road(options, Path(folder)))
+    with temporary_folder() as folder:
+        return _written(options, wishes_with_road(options, folder))
 
 
 def _written(options: argparse.Namespace, given: Wishes) -> int:
@@ -195,8 +194,8 @@ def with_binary(fmu: FmuParts) -> FmuParts:
     """
     if fmu.wasm is not None:
         return fmu
-    with tempfile.TemporaryDirectory() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
-        arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", folder)
+    with temporary_folder() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+        arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", str(folder))
         try:
             run_ali3(*arguments)
             return replace(fmu, wasm=fmu_parts(Path(folder, fmu.path.name)).wasm)

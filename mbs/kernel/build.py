@@ -11,12 +11,12 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 
 from ali3.cache import cache_folder
+from ali3.temporary import temporary_folder
 
 HERE = Path(__file__).resolve().parent
 FLAGS = [
@@ -114,7 +114,7 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     if not kept.is_file():
         compile_c(sources(), target, kept, what="the kernel", exports=exports)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+    with temporary_folder(path.parent) as folder:
         shutil.copyfile(kept, Path(folder, path.name)).replace(path)  # as in `compile_c`
     return path
 
@@ -169,7 +169,7 @@ def compile_c(
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     environment = compiler_environment()
-    with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+    with temporary_folder(path.parent) as folder:
         made = Path(folder) / path.name
         command = compiler_command(
             files, target, made, include=include, defines=defines, shared=shared, exports=exports

@@ -6,7 +6,6 @@ import hashlib
 import os
 import shutil
 import sys
-import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from ali3.cache import cache_folder
 from ali3.files import make_folder, whole_file
 from ali3.folders import forget_oldest, whole_folder
 from ali3.reading import read_bytes
+from ali3.temporary import temporary_folder
 from mbs.roads.grid_files import MOST_BYTES
 from mbs.roads.road_header import RoadFileError
 
@@ -64,8 +64,7 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
             return _copied(entry, out), kept
         except FileNotFoundError:  # removed by another run just now
             pass
-    with tempfile.TemporaryDirectory(prefix=".world-", dir=out) as folder:
-        made = Path(folder)
+    with temporary_folder(out) as made:
         make(made)
         _keep(made, home, entry)
         return _copied(made, out), False

@@ -54,9 +54,9 @@ def test_the_folders_that_were_used_last_stay(tmp_path):
     for k in range(4):
         (tmp_path / str(k)).mkdir()
         os.utime(tmp_path / str(k), (k, k))
-    (tmp_path / ".writing-0").mkdir()  # of another program, now
+    (tmp_path / ".ali3-0").mkdir()  # of another program, now
     forget_oldest(tmp_path, 2)
-    assert sorted(place.name for place in tmp_path.iterdir()) == [".writing-0", "2", "3"]
+    assert sorted(place.name for place in tmp_path.iterdir()) == [".ali3-0", "2", "3"]
 
 
 def test_folders_in_use_stay_however_many_they_are(tmp_path):

@@ -19,10 +19,12 @@ import pytest
 import scipy.sparse as sp
 from scipy.io import mmwrite
 
-from ali3.errors import FileError
+from ali3.archives import Archive
+from ali3.errors import FileError, UserError
 from ali3.named_files import MOST_FILES, NamedFiles
+from ali3.reading import check_file, read_bytes
 from ali3.scene.mesh_file import MeshError, read_mesh
-from ali3.unpacked import Unpacked
+from ali3.unpacked import Unpacked, check_memory
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 from hosts.compare.log_file import read_log
@@ -234,3 +236,34 @@ def test_a_buffer_of_a_mesh_is_a_file_below_its_folder(tmp_path: Path) -> None:
     ):
         with pytest.raises(MeshError, match=f"a.gltf: {words}"):
             mesh(uri)
+
+
+def test_limits_are_raised_by_one_factor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file, what comes out of an archive, memory, and files that are named: each as it says itself."""
+    file = tmp_path / "a"
+    file.write_bytes(b"0123456789")
+    packed = tmp_path / "a.zip"
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.write(file, "a")
+    tries: list[Callable[[], object]] = [
+        lambda: read_bytes(file, 4),
+        lambda: check_file(file, 4),
+        lambda: check_memory(10, FileError, "a", 4),
+        lambda: Archive(packed, unpacked=4).close(),
+        lambda: Archive(packed).read("a", 4),
+        lambda: NamedFiles(tmp_path, 4, FileError).file("a", tmp_path),
+    ]
+    for tried in tries:
+        with pytest.raises(FileError, match=r"at most 4 \(or ALI3_LIMITS=3 set\)\.$"):
+            tried()
+    monkeypatch.setenv("ALI3_LIMITS", "3")
+    for tried in tries:
+        tried()
+    named = NamedFiles(tmp_path, 4, FileError)
+    named.file("a", tmp_path)
+    with pytest.raises(FileError, match="'a' has 10 bytes; it must have at most 3 "):
+        named.file("a", tmp_path)
+    for wrong in ("0.5", "much", "nan", ""):
+        monkeypatch.setenv("ALI3_LIMITS", wrong)
+        with pytest.raises(UserError, match=f"ALI3_LIMITS is '{wrong}'; it must be a number of at least 1"):
+            tries[0]()

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from ali3.signals import Stopped
+from ali3.temporary import PREFIX
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.fmu import built_fmu
@@ -52,7 +53,7 @@ def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None
         file.write_text(file.read_text() + "\n")
         assert built_fmu.fmu_of_car(str(car), told.append) != first
     assert len(told) == 4
-    assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(".writing-")] == []
+    assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(PREFIX)] == []
 
 
 def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -339,7 +339,7 @@ def test_a_named_pipe_does_not_block(tmp_path, copied):
     file = copied()
     (file.parent / "joints.csv").unlink()
     os.mkfifo(file.parent / "joints.csv")
-    with pytest.raises(CarFileError, match=r"joints\.csv\) is a pipe or device; it must be a file\.$"):
+    with pytest.raises(CarFileError, match=r"joints\.csv' is a pipe or device; it must be a file\.$"):
         load(file)
 
 

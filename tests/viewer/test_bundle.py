@@ -107,9 +107,9 @@ def test_a_build_that_is_killed_leaves_nothing_half(page, tmp_path, monkeypatch)
     )
     process = start(page, out)
     deadline = time.monotonic() + 60
-    while not list(out.glob(".part-*")) and time.monotonic() < deadline:
+    while not list(out.glob(".ali3-*")) and time.monotonic() < deadline:
         time.sleep(0.02)
-    assert list(out.glob(".part-*"))
+    assert list(out.glob(".ali3-*"))
     kill = process.kill if sys.platform == "win32" else lambda: os.killpg(process.pid, signal.SIGKILL)
     kill()  # with the node that it started
     process.communicate()
@@ -145,7 +145,7 @@ def test_without_a_network_one_sentence_names_the_remedy(page, tmp_path, monkeyp
     ) as caught:
         bundle.bundle(page, tmp_path / "bundle")
     assert "\n" not in str(caught.value)
-    assert [path.name for path in page.glob(".part-*")] == []
+    assert [path.name for path in page.glob(".ali3-*")] == []
     assert not (page / "node_modules").exists()
 
 
