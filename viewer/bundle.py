@@ -5,8 +5,9 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+from ali3.locks import locked
 from viewer.errors import REMEDY
-from viewer.page_build import build, locked_folder
+from viewer.page_build import build
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"
@@ -33,9 +34,6 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
             )
         return out / SCRIPT
     if not _fresh(page, out):
-        from ali3.locks import locked
-        from viewer.page_build import build
-
         try:
             with locked(out):
                 if not _fresh(page, out):  # another process may have built it meanwhile

@@ -146,6 +146,4 @@ def _state(table: Mapping[str, Any], path: Path) -> tuple[bytes | None, float]:
         return None, 0.0
     if set(table) != {"file", "time"} or not isinstance(table["file"], str):
         raise HostError(f"{path}: [state] must have the name of a file and a time.")
-    from hosts.driving.state_file import read_state
-
     return read_state(path.parent, table["file"], str(path)), _number(table["time"], f"{path}, time of the state")

@@ -6,7 +6,6 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-import psutil
 from distributed import Client, KilledWorker
 
 from ali3.archives import LARGEST_ARCHIVE

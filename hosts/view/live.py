@@ -10,6 +10,7 @@ from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
 
+from ali3.files import check_writable, whole_file
 from ali3.temporary import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
