@@ -51,7 +51,8 @@ def _defect(options: Namespace) -> list[dict[str, Any]]:
 
 def _both(rows: Sequence[Row], blocks: Callable[[Sequence[Row]], Mapping[str, str]]) -> str:
     """The table of the page, and below it the rows of the second table, which the page tells in words."""
-    return "\n\n".join([*blocks(rows).values(), plain_table([row for row in rows if row["table"] != rows[0]["table"]])])
+    others = [row for row in rows if row["table"] != rows[0]["table"]]
+    return "\n\n".join([*blocks(rows).values(), *([plain_table(others)] if others else [])])
 
 
 def _kerb(options: Namespace) -> list[dict[str, Any]]:
