@@ -15,7 +15,6 @@ from typing import Any
 
 import mbs
 from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
-from benchmarks.paper.measured_guides_chart import draw
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
@@ -98,7 +97,7 @@ PARTS = {
         options={"seeds": (3, "noises of a row")},
         pages=("flexible_car.md",),
         blocks=measured_guides.guide_blocks,
-        chart=lambda rows, file: draw(file),
+        chart=lambda rows, file: measured_guides.draw(file),
     ),
 }
 
