@@ -23,30 +23,28 @@ _COPIES = 2
 
 
 def read_arrays(
-    file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "", most: int = MOST_MEMORY
+    file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = ""
 ) -> dict[str, NDArray[np.generic]]:
     """Arrays by their names; that of a ``.npy`` file has an empty one.
 
-    `largest`, `error`, `name`: as of `check_file`; `most`: bytes of memory. Raises `error` with one sentence: it is no
+    `largest`, `error`, `name`: as of `check_file`. Raises `error` with one sentence: it is no
     such file, an array holds Python objects, or all would take more memory.
     """
     name = name or str(file)
     if Path(file).suffix.lower() != ".npz":
         with open_file(file, largest, error, name) as stream:
             size = Path(file).stat().st_size
-            return {"": _array(stream, size, error, name, most)}
+            return {"": _array(stream, size, error, name)}
     arrays: dict[str, NDArray[np.generic]] = {}
-    with Archive(file, error, name, "arrays of NumPy", largest, most // _COPIES) as archive:
+    with Archive(file, error, name, "arrays of NumPy", largest, MOST_MEMORY // _COPIES) as archive:
         for entry in archive.names:
             if entry.endswith(".npy"):
                 data = archive.read(entry)
-                arrays[entry.removesuffix(".npy")] = _array(
-                    io.BytesIO(data), len(data), error, f"{entry} in {name}", most
-                )
+                arrays[entry.removesuffix(".npy")] = _array(io.BytesIO(data), len(data), error, f"{entry} in {name}")
     return arrays
 
 
-def _array(stream: IO[bytes], size: int, error: Error, name: str, most: int) -> NDArray[np.generic]:
+def _array(stream: IO[bytes], size: int, error: Error, name: str) -> NDArray[np.generic]:
     try:
         version = npy.read_magic(stream)
         header = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
@@ -60,6 +58,6 @@ def _array(stream: IO[bytes], size: int, error: Error, name: str, most: int) -> 
         raise error(
             f"{name} cannot be read: its shape {shape} of {kind} needs {count * kind.itemsize} bytes; it has {there}."
         )
-    check_memory(_COPIES * there, error, name, most)
+    check_memory(_COPIES * there, error, name)
     array = np.frombuffer(stream.read(there), kind)
     return array.reshape(shape[::-1]).T if by_columns else array.reshape(shape)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import calculix, manoeuvres
-from benchmarks.car.frame_pictures import draw_gauges, kerb_pictures
+from benchmarks.car.frame_pictures import draw_gauges, kerb_picture
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.load_paths import MANOEUVRES, write_loads
 from benchmarks.shared.command import Part, run
@@ -53,8 +53,8 @@ PARTS = {
         rows=False,
     ),
     "stress": Part(
-        "the frame in the kerb test, deformed and coloured by stress, as PNG and film (extra `pictures`)",
-        lambda options: kerb_pictures(Path(options.out)),
+        "the frame in the kerb test, deformed and coloured by stress (extra `pictures`)",
+        lambda options: kerb_picture(Path(options.out)),
         options={"out": ("out", "folder")},
         rows=False,
     ),

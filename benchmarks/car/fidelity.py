@@ -152,14 +152,14 @@ def choice_blocks(rows: Sequence[Row]) -> dict[str, str]:
     return {"cheapest": table(lines, dict.fromkeys(lines[0], ""))}
 
 
-def choice_again(page: str, step_ms: float = 10.0) -> str:
-    """Errors of what a page has chosen with steps of some ms, the largest of all manoeuvres."""
+def choice_again(page: str) -> str:
+    """Errors of what a page has chosen with steps of 10 ms, the largest of all manoeuvres."""
     lines = []
     for row in rows_of(between(page, "cheapest")):
         number, step, _ = row["cheapest fidelity, step"].split()
-        if float(step) != step_ms:
+        if float(step) != 10.0:
             continue
-        fidelity, h, output = Fidelity.of(int(number.rstrip(","))), 1e-3 * step_ms, REQUIRED[row["required"]][0]
+        fidelity, h, output = Fidelity.of(int(number.rstrip(","))), 0.01, REQUIRED[row["required"]][0]
         error = max(errors_of(fidelity_runs.run(name, fidelity, h), name, fidelity, h)[output] for name in NAMES)
         lines.append({"required": row["required"], "error": _error(output, error)})
     return table(lines, dict.fromkeys(lines[0], ""))

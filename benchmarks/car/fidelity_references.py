@@ -7,6 +7,7 @@ import numpy as np
 from ali3.files import write_text
 from benchmarks.car import fidelity_runs
 from benchmarks.car.fidelity_runs import FILTERED, FOLDER, INTERVAL, LOADS, MOMENTS, POSITION
+from benchmarks.shared.tables import write_csv
 from mbs.vehicle import Fidelity
 
 STEP = 5e-4  # s
@@ -32,13 +33,9 @@ def write(name: str) -> str:
         f"# Prototype car, flexible chassis, {name.replace('_', ' ')}: this engine, 106 modes, steps of {STEP:g} s; "
         "made by python -m benchmarks.car fidelity-references",
         *(f"# differences with {text}" for text in said),
-        ",".join(["time", *signals]),
     ]
     t = INTERVAL * np.arange(len(values[POSITION[0]]))
-    for row in np.column_stack([t, *(values[s] for s in signals)]):
-        lines.append(",".join(f"{v:.7g}" for v in row))
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    write_text(FOLDER / f"{name}.csv", "\n".join(lines) + "\n")
+    write_csv(FOLDER / f"{name}.csv", lines, {"time": t} | {s: values[s] for s in signals}, 7)
     _write_peaks(name, fidelity_runs.peaks(fine, STEP))
     return f"{name}: " + "; ".join(said)
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ali3.low_pass import low_pass
 from benchmarks.car import manoeuvres
+from benchmarks.shared.tables import read_csv
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Settings, System, Trajectory, compile
 from mbs.scenes import kerb_test, prototype_car
@@ -61,10 +62,7 @@ def sampled(found: Trajectory, h: float, *, stresses: bool = True) -> dict[str, 
 
 def read_reference(name: str) -> dict[str, NDArray[np.float64]]:
     """Stored signals by name, with "time"."""
-    lines = (FOLDER / f"{name}.csv").read_text(encoding="utf-8").splitlines()
-    lines = [line for line in lines if not line.startswith("#")]
-    table = np.array([[float(v) for v in line.split(",")] for line in lines[1:]])
-    return dict(zip(lines[0].split(","), table.T, strict=True))
+    return read_csv(FOLDER / f"{name}.csv")[1]
 
 
 def peaks(found: Trajectory, h: float) -> dict[str, float]:

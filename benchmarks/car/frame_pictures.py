@@ -18,12 +18,10 @@ from mbs.flexible.reduced_body import ReducedBody
 from mbs.scenes import kerb_test, prototype_car
 from mbs.vehicle import Car, Fidelity
 from viewer.pictures import write_picture
-from viewer.video import write_mp4
 
 Array = NDArray[np.float64]
 SCALE = 150.0  # of the deformation
-ANIMATED = (7.6, 8.9)  # s, from before the front wheels leave the kerb until after the rear wheels land
-SPEED = 0.24  # of the animation beside real time
+END = 8.9  # s, after the rear wheels have landed
 PERCENTILE = 99.5  # of the stresses, where the colours end: single joints would take all the range
 SHOWN = ("wheel", "spring", "damper")  # beside the frame
 NEAR = (0.5, 0.1)  # m: the names of gauges that are nearer would lie on each other
@@ -43,21 +41,21 @@ class Motion:
     """Shape (n, elements, 2): largest normal stress at the ends of each element, Pa."""
 
 
-def kerb_pictures(folder: Path) -> None:
-    """Run the kerb test until the end of the animation, draw, and say where."""
+def kerb_picture(folder: Path) -> None:
+    """Run the kerb test until both axles have landed, draw, and say where."""
     car = prototype_car.car()
     frame, _ = car.frame_section.tubular(car.folder).frame()
     body = car.flexible_frame.reduced(Fidelity.DYNAMIC)
-    run: Trajectory = Simulation(compile(kerb_test.build(Fidelity.DYNAMIC))).run(
-        ANIMATED[1], kerb_test.STEP, progress=None
-    )
+    run: Trajectory = Simulation(compile(kerb_test.build(Fidelity.DYNAMIC))).run(END, kerb_test.STEP, progress=None)
     recording = run.recording()
     (part,) = (recording.scene or {})["flexible"]
     motion = motion_of(frame, body, run.t, np.column_stack([recording.columns[name] for name in part["amplitudes"]]))
     rest, peak = motion.stress[0].max() / 1e6, motion.stress.max() / 1e6
     print(f"largest normal stress {rest:.1f} MPa at rest, {peak:.1f} MPa in the test")
     folder.mkdir(parents=True, exist_ok=True)
-    print(f"written: {', '.join(map(str, draw(recording, motion, folder)))}")
+    picture = folder / "frame_stress.png"
+    draw(recording, motion, picture)
+    print(f"written: {picture}")
 
 
 def motion_of(frame: Frame, body: ReducedBody, t: Array, eta: Array, scale: float = SCALE) -> Motion:
@@ -83,15 +81,11 @@ def frame_alone(recording: Recording, limit: float) -> Recording:
     return recording
 
 
-def draw(recording: Recording, motion: Motion, folder: Path) -> list[Path]:
-    """Picture of the moment of the largest stress, and animation of the fall from the kerb."""
+def draw(recording: Recording, motion: Motion, picture: Path) -> None:
+    """The moment of the largest stress."""
     shown = frame_alone(recording, float(np.percentile(motion.stress, PERCENTILE)))
     options = {"stress": True, "deformation": SCALE}
-    picture, animation = folder / "frame_stress.png", folder / "frame_stress.webp"
     write_picture(picture, shown, motion.t[int(motion.stress.max(axis=(1, 2)).argmax())], (1000, 600), None, options)
-    begin, end = ANIMATED
-    write_mp4(animation, shown, fps=12, size=(700, 450), speed=SPEED, begin=begin, end=end, options=options)
-    return [picture, animation]
 
 
 def draw_gauges(car: Car, file: str) -> None:

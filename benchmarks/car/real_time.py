@@ -1,4 +1,4 @@
-"""Worst steps of wild driving: the prototype at random over kerbs, rough ground and ramps.
+"""Worst steps of wild driving: the prototype at random over kerbs across a rough half and ramps on a smooth one.
 
 At each fidelity and step it is driven once without a limit of the iterations of a step and once with `LIMITS`. Measured
 is processor time of the thread, which leaves out what others do in between.
@@ -7,25 +7,35 @@ is processor time of the thread, which leaves out what others do in between.
 from __future__ import annotations
 
 import tempfile
+import warnings
 from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import fmpy
+import numpy as np
 
+import mbs
 from ali3.errors import UserError
 from benchmarks.car.step_costs import drive, summary
-from benchmarks.car.wild_ground import write_ground
 from benchmarks.shared.pages import Row, table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
+from hosts.driving.wild_driver import Target
 from mbs.common.progress import progress_for
+from mbs.elements.road import GridRoad
 
 LIMITED_STEP = 2.0  # ms
 FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
 LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}
 """Limits of the iterations of a step by fidelity, for each of `STEPS`: what a quarter of the deadline has time for."""
+EDGE, SPACING = 150.0, 0.25  # m: half the side of the square, between points
+KERB, KERB_LENGTH, KERB_DISTANCE = 0.08, 2.0, 15.0  # m
+ROUGHNESS = 0.01  # m, standard deviation before smoothing
+RAMPS = ((25.0, -75.0, 0.3), (25.0, 0.0, 0.5), (25.0, 75.0, 0.7), (75.0, -37.5, 1.0), (75.0, 37.5, 1.0))
+"""Place of the lower edge and height at the upper one, m; they rise along x."""
+RAMP_LENGTH, RAMP_WIDTH, FRICTION = 8.0, 6.0, 0.9
 
 
 def measure(options: Namespace) -> list[dict[str, Any]]:
@@ -54,6 +64,23 @@ def measure(options: Namespace) -> list[dict[str, Any]]:
 def _built(folder: Path) -> Path:
     name, systems, default = load_fidelities("prototype_car")
     return build_fmu(list(systems.values()), name, folder, [fmpy.platform], kind="native", fidelity=default)
+
+
+def write_ground(file: Path) -> list[Target]:
+    """Write the road file; the same bytes each time."""
+    n = round(2.0 * EDGE / SPACING)
+    x = SPACING * np.arange(n) - EDGE
+    rough = np.random.Generator(np.random.PCG64(3)).normal(0.0, ROUGHNESS, (n, n))
+    rough = 0.5 * (rough + np.roll(rough, 1, 0) + np.roll(rough, 1, 1) + np.roll(rough, -1, 0))
+    heights = np.where(x[:, None] < 0.0, rough, 0.0)
+    heights[(x < 0.0) & ((x + EDGE) % KERB_DISTANCE < KERB_LENGTH)] += KERB
+    for x0, y0, top in RAMPS:
+        along, across = (x >= x0) & (x < x0 + RAMP_LENGTH), np.abs(x - y0) < 0.5 * RAMP_WIDTH
+        heights[np.ix_(along, across)] = top * ((x[along] - x0) / RAMP_LENGTH)[:, None]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mbs.roads.RoadWarning)  # ramps end in a drop; rough driving is what it is for
+        mbs.write_road(GridRoad((-EDGE, -EDGE), (SPACING, SPACING), heights, FRICTION), file)
+    return [Target(x0, y0, 0.0) for x0, y0, _ in RAMPS]
 
 
 def real_time_blocks(rows: Sequence[Row]) -> dict[str, str]:

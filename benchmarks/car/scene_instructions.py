@@ -2,25 +2,50 @@
 
 from __future__ import annotations
 
+import re
+import shutil
 import subprocess
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from benchmarks.car import manoeuvres
-from benchmarks.shared.instructions import instructions
 from benchmarks.shared.pages import Row, table
 from hosts.driving.manoeuvre import Manoeuvre
 from mbs import Simulation, System, compile
 from mbs.kernel import build
 from mbs.scenes import bricard, double_four_bar, flyball, kerb_test, prototype_car, spatial_chain
 
+_COLLECTED = re.compile(r"Collected : (\d+)")
 SOURCE = Path(__file__).parents[1] / "shared" / "c" / "run_system.c"
 STORED = Path(__file__).parents[1] / "data" / "instructions.json"
 MOST = 1.03
 """Ratio to the stored table from which on a step is dearer."""
+
+
+@cache
+def counter() -> str | None:
+    """The program valgrind; None where it is not installed."""
+    return shutil.which("valgrind")
+
+
+def instructions(command: Sequence[str]) -> int | None:
+    """Instructions of a program, the same on a busy machine and on an idle one; None without valgrind.
+
+    Raises `RuntimeError`: valgrind did not say how many.
+    """
+    valgrind = counter()
+    if valgrind is None:
+        return None
+    options = ("--tool=callgrind", "--callgrind-out-file=/dev/null")
+    done = subprocess.run([valgrind, *options, *command], capture_output=True, text=True, check=True)
+    found = _COLLECTED.search(done.stderr)
+    if found is None:
+        raise RuntimeError(f"{valgrind} did not say how many instructions it has counted.")
+    return int(found[1])
 
 
 class Scene(NamedTuple):

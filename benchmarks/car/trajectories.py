@@ -8,8 +8,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.files import write_text
 from benchmarks.car import manoeuvres
+from benchmarks.shared.tables import read_csv, write_csv
 from hosts.common.wheels import WHEELS
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.write_manoeuvre import write_manoeuvre
@@ -55,13 +55,9 @@ def read(
     length : float
         Of the path of the reference point, m.
     """
-    file = folder_of(car) / f"{name}.csv"
-    lines = file.read_text(encoding="utf-8").splitlines()
-    head = [line for line in lines if line.startswith("#")]
+    head, values = read_csv(folder_of(car) / f"{name}.csv")
     length = float(next(line for line in head if line.startswith("# path_length_m:")).partition(":")[2])
-    names = lines[len(head)].split(",")
-    table = np.array([[float(v) for v in line.split(",")] for line in lines[len(head) + 1 :]])
-    return table[:, 0], dict(zip(names[1:], table[:, 1:].T, strict=True)), length
+    return values.pop("time"), values, length
 
 
 def load_error_in_time(found: Trajectory, fine: Trajectory, late: float) -> float:
@@ -99,12 +95,8 @@ def write(name: str, car: str = manoeuvres.PROTOTYPE) -> str:
         "# path error and relative wheel load error of larger steps: "
         + "; ".join(f"{h:g} s {e:.2e} m, {w:.1e}" for h, e, w in zip(CHECKS, errors, loads, strict=True)),
         f"# order in the step {order:.2f}; error of this path if it is 2: {own:.1e} m",
-        ",".join(["time", *SENSORS]),
     ]
-    table = np.column_stack([fine.t[::every], *values.values()])
-    lines += [",".join(f"{v:.8g}" for v in row) for row in table]
-    folder_of(car).mkdir(parents=True, exist_ok=True)
-    write_text(folder_of(car) / f"{name}.csv", "\n".join(lines) + "\n")
+    write_csv(folder_of(car) / f"{name}.csv", lines, {"time": fine.t[::every]} | values, 8)
     return (
         f"{name:<26} path {length:8.3f} m, order {order:5.2f}, own error {own:.1e} m, "
         f"iterations {report.mean_iterations:.2f} (at most {report.max_iterations}), {report.halvings} halvings"

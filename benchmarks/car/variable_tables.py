@@ -17,24 +17,6 @@ from mbs.vehicle import car_names, load
 _WHEEL = re.compile(r"_(FL|FR|RL|RR)(?=\.|$)")
 _TITLES = {"input": "inputs", "parameter": "parameters", "output": "outputs", "local": "constants"}
 
-# What a person calls the outputs that begin so; others are described by what the model says of each.
-_WORDS = {
-    "accelerometer": "accelerations of the four corners of the chassis",
-    "bending_moment": "bending moments at the gauges of the frame",
-    "chassis": "pose (angles and quaternion), velocities, angular velocities and accelerations of the car's centre of "
-    "mass at rest; force of the ground on the chassis and points that touch it",
-    "energy": "energies, and works since the start",
-    "initial": "start: place of the front axle's centre, heading, speed; `initial.z` drops the car",
-    "solver": "iterations, violation, residual, halvings, status, error and balance of the energy, steps that ended at "
-    "the limit of their iterations and what they left",
-    "spring": "length and force of the coil springs",
-    "stress": "stresses at the gauges, and whether they are computed",
-    "used": "inputs after clamping to their ranges",
-    "vehicle": "constants: dimensions of the car and of its steering",
-    "wheel": "steer, inclination, spin, travel, forces, aligning moment, slips, deflection, brake torque; centre, "
-    "axis, angle on the carrier, quaternion of the carrier, contact point and normal of the road",
-}
-
 
 @dataclass(frozen=True)
 class Shown:
@@ -60,11 +42,6 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
     return {name: _table(name) for name in names}
 
 
-def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
-    """The tables of the page by their marks, from `tables`."""
-    return {"car variables": overview(found)} | full(found)
-
-
 def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     """The variables of all cars in the order of the first, without repetition for wheels and axles."""
     merged: dict[tuple[str, str, str], Shown] = {}
@@ -82,22 +59,10 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     return sorted(merged.values(), key=lambda s: list(_TITLES).index(s.variable.causality))
 
 
-def overview(found: Mapping[str, Sequence[Variable]]) -> str:
-    """A short table: a row for each part of the cars."""
-    groups: dict[tuple[str, str], list[Shown]] = {}
-    for s in shown(found):
-        part = s.name.rpartition(".")[0] if s.variable.causality == "parameter" else s.name.partition(".")[0]
-        groups.setdefault((s.variable.causality, part or s.name), []).append(s)
-    lines = ["| variables | what they are |", "| --- | --- |"]
-    for (causality, part), members in groups.items():
-        cars = {car for s in members for car in s.cars}
-        only = "" if len(cars) == len(found) else f" ({', '.join(car for car in found if car in cars)})"
-        lines.append(f"| {_names(members, part)} | {_words(members, causality, part)}{only} |")
-    return "\n".join(lines)
-
-
-def full(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
-    """A table for each causality by its name; start values of every car beside each other."""
+def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
+    """Tables of the page by their marks, from `tables`: one for each causality, start values of every car beside each
+    other.
+    """
     made = {}
     for causality, title in _TITLES.items():
         members = [s for s in shown(found) if s.variable.causality == causality]
@@ -152,39 +117,6 @@ def _short(names: Sequence[str]) -> str:
     if len(names) == len(WHEELS):
         return f"`{names[0]}` ... `{names[-1]}`"
     return ", ".join(f"`{name}`" for name in names)
-
-
-def _names(members: Sequence[Shown], part: str) -> str:
-    """The first cell of a row of the overview."""
-    first = members[0]
-    if first.name == part:
-        v = first.variable
-        ends = f" [{v.min:g}, {v.max:g}]" if v.causality == "input" and v.min is not None and v.max is not None else ""
-        return f"`{first.name}`{ends}"
-    if first.variable.causality == "parameter":
-        rows = []
-        for stem in dict.fromkeys(name.rpartition(".")[0] for s in members for name in s.names):
-            fields = [n.rpartition(".")[2] for s in members for n in s.names if n.rpartition(".")[0] == stem]
-            rows.append(", ".join([f"`{stem}.{fields[0]}`", *(f"`.{field}`" for field in fields[1:])]))
-        return "; ".join(rows)
-    if _WHEEL.search(part):
-        return f"`{part}.*` ... `{_WHEEL.sub('_RR', part)}.*`"
-    return f"`{part}.*`"
-
-
-def _words(members: Sequence[Shown], causality: str, part: str) -> str:
-    """The second cell of a row of the overview."""
-    known = _WORDS.get(_WHEEL.sub("", part))
-    only_outputs = part in ("solver", "chassis") and causality == "parameter"
-    if known is not None and not only_outputs and causality != "input":
-        return known
-    told = [_plain(s).partition(";")[0] + ("" if s.variable.unit == "1" else f", {s.variable.unit}") for s in members]
-    kinds = [s.variable.variability for s in members]
-    if causality == "input":
-        return f"input: {'; '.join(told)}"
-    if causality == "parameter" and len(set(kinds)) > 1:
-        return "; ".join(f"{text} ({kind})" for text, kind in zip(told, kinds, strict=True))
-    return "; ".join(told) + (f"; {kinds[0]}" if causality == "parameter" else "")
 
 
 def _plain(s: Shown) -> str:

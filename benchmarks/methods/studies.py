@@ -151,7 +151,6 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
             chunks[0] += 1
             yield chunk
 
-    begin = time.perf_counter()
     with connected(None, workers) as client:
         bring(client, plan)
         size = ChunkSize(trial.seconds, workers)
@@ -171,18 +170,17 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         "workers": workers,
         "runs": runs,
         "failed": int((frame["status"] == "failed").sum()),
-        "run_s": float(walls.mean()),
-        "start_s": started - begin,
+        "run, s": float(walls.mean()),
         "elapsed_s": elapsed,
-        "rate": runs / elapsed,
-        "overhead_ms": 1e3 * float(beside) / runs,
+        "runs/s": runs / elapsed,
+        "overhead, ms/run": 1e3 * float(beside) / runs,
         "overhead": float(beside / walls.sum()),
         "chunks": chunks[0],
-        "main_ms": 1e3 * processor / runs,
-        "before_mb": 1e-6 * before,
-        "main_mb": 1e-6 * max(memory),
-        "worker_mb": 1e-6 * of_worker,
-        "bytes": sum(f.stat().st_size for f in files) / runs,
+        "main, ms/run": 1e3 * processor / runs,
+        "main before, MB": 1e-6 * before,
+        "main at most, MB": 1e-6 * max(memory),
+        "worker, MB": 1e-6 * of_worker,
+        "bytes/run": sum(f.stat().st_size for f in files) / runs,
         "parts": len(files),
     }
 

@@ -12,7 +12,7 @@ def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Tables by name, of those that were measured."""
     made: dict[str, str] = {}
     runs = [r for r in rows if r["table"] == "runs"]
-    car, spring = ([_shown(r) for r in runs if r["case"] == case] for case in ("car", "spring"))
+    car, spring = ([r for r in runs if r["case"] == case] for case in ("car", "spring"))
     if car:
         columns = {"workers": "d", "runs": ",d", "run, s": ".4f", "runs/s": ".2f", "chunks": ",d"}
         columns |= {"overhead, ms/run": ".2f", "overhead": ".2%", "bytes/run": ".0f", "parts": "d", "failed": "d"}
@@ -30,16 +30,6 @@ def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
             single, {"what": "", "number": ",d", "ms each": ".4f", "in all, s": ".2f", "MB": ".0f"}
         )
     return made
-
-
-def _shown(row: Row) -> dict[str, Any]:
-    names = {
-        "workers": "workers", "runs": "runs", "run_s": "run, s", "rate": "runs/s", "chunks": "chunks", "parts": "parts",
-        "overhead_ms": "overhead, ms/run", "overhead": "overhead", "bytes": "bytes/run", "failed": "failed",
-        "before_mb": "main before, MB", "main_mb": "main at most, MB", "main_ms": "main, ms/run",
-        "worker_mb": "worker, MB",
-    }  # fmt: skip
-    return {name: row[key] for key, name in names.items()}
 
 
 def _single(rows: Sequence[Row]) -> list[dict[str, Any]]:

@@ -15,7 +15,6 @@ from typing import Any
 
 import mbs
 from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
-from benchmarks.paper.measured_guides_chart import draw
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
@@ -51,7 +50,8 @@ def _defect(options: Namespace) -> list[dict[str, Any]]:
 
 def _both(rows: Sequence[Row], blocks: Callable[[Sequence[Row]], Mapping[str, str]]) -> str:
     """The table of the page, and below it the rows of the second table, which the page tells in words."""
-    return "\n\n".join([*blocks(rows).values(), plain_table([row for row in rows if row["table"] != rows[0]["table"]])])
+    others = [row for row in rows if row["table"] != rows[0]["table"]]
+    return "\n\n".join([*blocks(rows).values(), *([plain_table(others)] if others else [])])
 
 
 def _kerb(options: Namespace) -> list[dict[str, Any]]:
@@ -97,7 +97,7 @@ PARTS = {
         options={"seeds": (3, "noises of a row")},
         pages=("flexible_car.md",),
         blocks=measured_guides.guide_blocks,
-        chart=lambda rows, file: draw(file),
+        chart=lambda rows, file: measured_guides.draw(file),
     ),
 }
 

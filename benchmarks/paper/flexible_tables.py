@@ -17,6 +17,7 @@ from mbs.vehicle import Fidelity, load
 KERB = (Fidelity.QUASI_STATIC, Fidelity.LOAD_PATHS, Fidelity.DYNAMIC)
 
 HATCHBACK = (*((f, kerb_test.STEP) for f in KERB), *((Fidelity.DYNAMIC, h) for h in (0.005, 0.0025, 0.00125)))
+PEAKS = {"peak change at SG1, SG3, N m": "peak", "the same after the low-pass of 10 Hz": "filtered"}
 _BEHIND_KERB = 9.0  # s
 
 
@@ -25,36 +26,27 @@ def size_table() -> str:
     rows = []
     for fidelity in (0, 1, 2, 3, 4, "paper"):
         system = mbs.compile(prototype_car.build(fidelity=fidelity))
-        name = f'"{fidelity}"' if isinstance(fidelity, str) else fidelity
-        rows.append(f"| {name} | {system.nq}, {system.nc} |")
-    return "\n".join(["| `fidelity` | coordinates, rows |", "| --- | --- |", *rows])
+        name = f'"{fidelity}"' if isinstance(fidelity, str) else str(fidelity)
+        rows.append({"`fidelity`": name, "coordinates, rows": f"{system.nq}, {system.nc}"})
+    return table(rows, dict.fromkeys(rows[0], ""))
 
 
 def kerb_table() -> str:
     """Sizes, iterations and peaks of the kerb test with steps of 10 ms; a column a fidelity."""
-    columns = []
+    titles = ("coordinates, rows, modes", "Newton iterations, mean (most)", *PEAKS)
+    rows = [{"": title} for title in titles]
     for fidelity in KERB:
         size, found = size_of("kerb_test", fidelity), fidelity_runs.run("kerb_test", fidelity, kerb_test.STEP)
         report, peaks = found.report, changes(found, kerb_test.STEP)
         assert report is not None
-        columns.append(
-            [
-                f"fidelity {int(fidelity)}",
-                "---",
-                f"{size['coordinates']}, {size['rows']}, {size['modes']}",
-                f"{report.mean_iterations:.1f} ({report.max_iterations})",
-                *(f"{peaks[f'{what}_SG1']:.2f}, {peaks[f'{what}_SG3']:.2f}" for what in ("peak", "filtered")),
-            ]
-        )
-    names = (
-        "",
-        "---",
-        "coordinates, rows, modes",
-        "Newton iterations, mean (most)",
-        "peak change at SG1, SG3, N m",
-        "the same after the low-pass of 10 Hz",
-    )
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in zip(names, *columns, strict=True))
+        cells = [
+            f"{size['coordinates']}, {size['rows']}, {size['modes']}",
+            f"{report.mean_iterations:.1f} ({report.max_iterations})",
+            *(f"{peaks[f'{what}_SG1']:.2f}, {peaks[f'{what}_SG3']:.2f}" for what in PEAKS.values()),
+        ]
+        for row, cell in zip(rows, cells, strict=True):
+            row[f"fidelity {int(fidelity)}"] = cell
+    return table(rows, dict.fromkeys(rows[0], ""))
 
 
 def hatchback_kerb_table(cases: Sequence[tuple[Fidelity, float]] = HATCHBACK) -> str:

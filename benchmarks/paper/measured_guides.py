@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from scipy.interpolate import PchipInterpolator, PPoly
 
 from ali3.low_pass import low_pass
 from benchmarks.car.fidelity_runs import FREQUENCY, MOMENTS
-from benchmarks.shared.command import watched
+from benchmarks.shared.command import pyplot, save_chart, watched
 from benchmarks.shared.pages import Row, table
 from mbs import Settings, Trajectory, compile, simulate
 from mbs.model.model import Model
@@ -162,6 +163,7 @@ COLUMNS = {
     "moments, %": ".1f",
     "peaks, %": ".1f",
 }
+_SMOOTH, _MEASURED, _SIGNAL = "#0b62c4", "#d55e00", "#b0b0b0"
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
 _LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is cut off at the end
 
@@ -250,3 +252,31 @@ def measure(seeds: int) -> list[dict[str, Any]]:
 def guide_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The table of the page."""
     return {"measured guides": table(rows, COLUMNS)}
+
+
+def draw(file: Path) -> None:
+    """One seed with all of its noise; moments after the low-pass."""
+    plt = pyplot()
+    true, plain = smooth(), simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
+    signals = measured(true)
+    found = motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
+    run = driven(found)
+    shown = [k for k, name in enumerate(MOMENTS) if name.endswith(("SG1", "SG3"))]
+    figure, parts = plt.subplots(2 + len(shown), 1, figsize=(9.0, 8.4), sharex=True, layout="constrained")
+    parts[0].plot(signals.time, signals.force[:, 0, 0], color=_SIGNAL, linewidth=0.6, label="accelerometer FL, along")
+    parts[0].plot(signals.time, np.gradient(kerb_test.speed(signals.time), signals.time), color=_SMOOTH, label="smooth")
+    parts[0].set_ylabel("m/s²")
+    parts[1].plot(found.time, kerb_test.speed(found.time), color=_SMOOTH, label="smooth guide")
+    parts[1].plot(found.time, found.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
+    parts[1].set_ylabel("speed, m/s")
+    wanted, got = moments(plain), moments(run)
+    for axes, k in zip(parts[2:], shown, strict=True):
+        axes.plot(plain.t[: len(wanted)], wanted[:, k], color=_SMOOTH, label="smooth guide")
+        axes.plot(run.t[: len(got)], got[:, k], color=_MEASURED, linewidth=1.0, label="from accelerations")
+        axes.set_ylabel(f"change at {MOMENTS[k].split('.')[-1]}, N m")
+    parts[-1].set_xlabel("time, s")
+    for axes in parts:
+        axes.legend(loc="upper left", frameon=False, ncols=2)
+        axes.margins(x=0)
+        axes.spines[["top", "right"]].set_visible(False)
+    save_chart(figure, file)

@@ -1,4 +1,4 @@
-"""Rows as aligned columns on the terminal and as JSON files."""
+"""Rows as aligned columns on the terminal and as JSON files; columns of numbers as CSV files with comments."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ali3.columns import in_columns
 from ali3.files import write_text
@@ -26,6 +27,21 @@ def write_json(file: Path, meta: Mapping[str, Any], rows: Sequence[Mapping[str, 
     """Write ``{"meta": ..., "rows": [...]}``; numbers that are not finite become null."""
     text = json.dumps({"meta": _plain(meta), "rows": _plain(rows)}, indent=1, allow_nan=False)
     write_text(file, text + "\n")
+
+
+def read_csv(file: Path) -> tuple[list[str], dict[str, NDArray[np.float64]]]:
+    """Lines of comment before the heading, and columns of numbers by name, each of shape (n,)."""
+    lines = file.read_text(encoding="utf-8").splitlines()
+    head = [line for line in lines if line.startswith("#")]
+    values = np.array([[float(v) for v in line.split(",")] for line in lines[len(head) + 1 :]])
+    return head, dict(zip(lines[len(head)].split(","), values.T, strict=True))
+
+
+def write_csv(file: Path, head: Sequence[str], columns: Mapping[str, NDArray[np.float64]], digits: int) -> None:
+    """Write what `read_csv` reads."""
+    rows = [",".join(f"{v:.{digits}g}" for v in row) for row in np.column_stack(list(columns.values()))]
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_text(file, "\n".join([*head, ",".join(columns), *rows]) + "\n")
 
 
 def _cell(value: Any) -> str:

@@ -22,8 +22,7 @@ from ali3.errors import UserError
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import DOCS, Row, table
 from benchmarks.validation import others, two_track
-from benchmarks.validation.bank import bank_of
-from benchmarks.validation.banked_log import write_banked
+from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
 from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, within

@@ -6,15 +6,17 @@ it shows the acceleration less g sin b, and, as the body rolls, a share of the a
 
 from __future__ import annotations
 
+import gzip
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
-from benchmarks.validation.drive import FITTED, Drive, Spans
+from benchmarks.validation.drive import FITTED, Array, Drive, Spans
 
-Array = NDArray[np.float64]
+PORT = "point_reference.Fy"
+"""Of an FMU with the ports ``forces=vehicle``, at which the bank is a force."""
 CUT_OFF = 1.0  # Hz, of what is taken as the road
 PIECE = 10.0  # m of the track, over which the map is a mean
 _SHORTEST, _LONGEST = 1000.0, 6000.0  # m, of a lap
@@ -83,3 +85,20 @@ def _lap(way: Array, curvature: Array) -> float:
     near = np.flatnonzero(alike > alike.max() - _NEARLY)
     first = near[near <= near[0] + _SHORTEST / 2.0]  # one lap, where there is room for several
     return float(shifts[first[np.argmax(alike[first])]])
+
+
+def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: float) -> tuple[Path, Path]:
+    """Write log and alias file once more, with mass times bank across the car at its reference point.
+
+    `bank`: of each row of the log, m/s2, positive to the left, shape (n,); `mass`: of the car, kg. The loads of the
+    wheels on a banked road are not in this force.
+    """
+    packed = log.suffix == ".gz"
+    text = gzip.decompress(log.read_bytes()).decode() if packed else log.read_text(encoding="utf-8")
+    head, *rows = text.splitlines()
+    told = [f"{row},{mass * a!r}" for row, a in zip(rows, bank.tolist(), strict=True)]
+    file, names = folder / "banked.csv", folder / "banked.toml"
+    file.write_text("\n".join([f"{head},bank_force [N]", *told, ""]), encoding="utf-8")
+    line = f'"{PORT}" = {{ name = "bank_force", unit = "N" }}\n'
+    names.write_text(aliases.read_text(encoding="utf-8") + line, encoding="utf-8")
+    return file, names

@@ -22,7 +22,7 @@ def _variables() -> dict[str, str]:
     return blocks(variable_tables())
 
 
-VARIABLES = ("car variables", "car inputs", "car parameters", "car outputs", "car constants")
+VARIABLES = ("car inputs", "car parameters", "car outputs", "car constants")
 MAKERS: dict[str, Callable[[], str]] = {
     "car file": tables,
     "sensors": sensor_table,

@@ -16,9 +16,7 @@ from fmu_src.native.package import Telling, first_time
 from fmu_src.native.platforms import SUFFIXES, TARGETS
 from fmu_src.native.sources import packed_sources
 
-_TABLE = "sources/table.c"
-_NATIVE = "sources/fmi2_direct.c"
-_ALONE = "sources/fmi2_alone.c"
+_SOURCES = ("sources/table.c", "sources/fmi2_direct.c", "sources/fmi2_alone.c")
 
 
 def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling) -> list[str]:
@@ -38,14 +36,12 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
     Raises
     ------
     ali3.errors.UserError
-        The file is no FMU of the kind ``native``, or its sources are older than the platform.
+        The file is no FMU of the kind ``native``.
     """
     files = _files(fmu)
     name = _identifier(fmu, files)
-    if _NATIVE not in files or _TABLE not in files:
+    if any(source not in files for source in _SOURCES):
         raise UserError(f"{fmu} is no FMU of ALi3 of the kind native (FMI 2.0 in C); only those can be compiled again.")
-    if "wasm32" in platforms and _ALONE not in files:
-        raise UserError(f"The sources in {fmu} are older than the platform wasm32; build the FMU again.")
     added = [p for p in platforms if f"binaries/{p}/{name}{SUFFIXES[p]}" not in files]
     with temporary_folder() as folder:
         for platform in added:

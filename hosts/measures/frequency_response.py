@@ -8,6 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import csd
 
+_RELATIVE_WIDTH = 0.03
+"""Half of the width of the band over which spectra are averaged, over its frequency; at least six lines."""
+
 
 @dataclass(frozen=True)
 class FrequencyResponse:
@@ -44,7 +47,6 @@ def frequency_response(
     answer: NDArray[np.float64],
     interval: float,
     frequency: NDArray[np.float64],
-    relative_width: float = 0.03,
 ) -> FrequencyResponse:
     """Estimate the response of `answer` to `given` from one record that begins and ends at rest.
 
@@ -56,8 +58,6 @@ def frequency_response(
         Between samples, s.
     frequency : ndarray of shape (m,)
         At which the response is wanted, Hz, increasing; the input must have power there.
-    relative_width : float
-        Half of the width of the band over which spectra are averaged, over its frequency; at least six lines.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def frequency_response(
     tiny = np.finfo(float).tiny
     response, coherence = np.empty(len(frequency), complex), np.empty(len(frequency))
     for k, f in enumerate(frequency):
-        width = max(relative_width * f, 3.0 / duration)
+        width = max(_RELATIVE_WIDTH * f, 3.0 / duration)
         near = slice(*np.searchsorted(lines, (f - width, f + width)))
         weight = 1.0 + np.cos(np.pi * (lines[near] - f) / width)
         sxy, sxx, syy = (complex(weight @ x[near]) for x in (cross, power, other))

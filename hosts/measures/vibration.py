@@ -52,12 +52,12 @@ def weighted(acceleration: NDArray[np.float64], interval: float) -> NDArray[np.f
     return np.asarray(sosfilt(zpk2sos(*factors), acceleration))
 
 
-def largest_running_rms(values: NDArray[np.float64], interval: float, window: float = 1.0) -> float:
-    """Largest root mean square within a window that runs along (MTVV of ISO 2631-1), in the unit of `values`.
+def largest_running_rms(values: NDArray[np.float64], interval: float) -> float:
+    """Largest root mean square within a window of 1 s that runs along (MTVV of ISO 2631-1), in the unit of `values`.
 
-    `values`: zero before the first sample, shape (n,); `interval`, `window`: in s.
+    `values`: zero before the first sample, shape (n,); `interval`: in s.
     """
-    samples = max(1, round(window / interval))
+    samples = max(1, round(1.0 / interval))
     squares = np.cumsum(np.concatenate([np.zeros(samples), np.square(values)]))
     return math.sqrt(max(0.0, float((squares[samples:] - squares[:-samples]).max())) / samples)
 

@@ -6,19 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 
-def _length(report: dict[str, Any]) -> list[str]:
-    """What tolerances are relative to; older Systems do not have it."""
-    if "length" not in report:
-        return []
-    source = "stated" if report["length_stated"] else "extent of the drawing"
-    return [f"  length, m             {report['length']:>8.4g}   ({source}; tolerances are relative to it)"]
-
-
 def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     """The report as lines of text."""
     rank, dofs = report["rank"], report["degrees_of_freedom"]
     space = "planar" if dimension == 2 else "spatial"
     still = "   (nothing can move)" if dofs == 0 else ""
+    source = "stated" if report["length_stated"] else "extent of the drawing"
     r = report
     lines = [
         f"System '{name}' ({space})",
@@ -32,7 +25,7 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
         f"  non-zeros of tangent  {r['tangent_nonzeros']:>8}   (lower triangle)",
         f"  non-zeros of factor   {r['factor_nonzeros']:>8}   ({r['fronts']} fronts, largest {r['largest_front']})",
         f"  force elements        {r['elements']:>8}",
-        *_length(r),
+        f"  length, m             {r['length']:>8.4g}   ({source}; tolerances are relative to it)",
         f"  inputs, sensors       {r['inputs']:>8}, {r['sensors']}",
     ]
     if r.get("closed"):

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks import cost
 from benchmarks.car import scene_instructions
-from benchmarks.shared.instructions import counter
+from benchmarks.car.scene_instructions import counter
 from mbs import simulate
 from tests.unoptimised import unoptimised
 

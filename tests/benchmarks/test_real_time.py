@@ -9,8 +9,8 @@ import pytest
 
 from benchmarks import cost
 from benchmarks.car import real_time
+from benchmarks.car.real_time import write_ground
 from benchmarks.car.step_costs import drive
-from benchmarks.car.wild_ground import write_ground
 
 H = 2e-3
 

@@ -20,8 +20,8 @@ def test_small_sizes_and_their_tables(tmp_path: Path) -> None:
     plan = studies.plan_alone("spring", fmu, 2000, "sobol", tmp_path / "plan")
     assert (runs["runs"], runs["failed"], runs["workers"]) == (40, 0, 1)
     # What is not in the runs is overhead: together they are the time of the worker.
-    assert 40 * (runs["run_s"] + 1e-3 * runs["overhead_ms"]) == pytest.approx(runs["elapsed_s"])
-    assert runs["main_mb"] >= runs["before_mb"] > 10.0
+    assert 40 * (runs["run, s"] + 1e-3 * runs["overhead, ms/run"]) == pytest.approx(runs["elapsed_s"])
+    assert runs["main at most, MB"] >= runs["main before, MB"] > 10.0
     assert again["start_s"] > 0.1
     assert 20.0 < written["bytes"] < 500.0
     tasks = {"table": "empty tasks", "runs": 100, "workers": 1, "elapsed_s": 0.1, "task_ms": 1.0, "main_ms": 0.5}

@@ -11,8 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from benchmarks.validation import fitting, two_track
-from benchmarks.validation.bank import bank_of
-from benchmarks.validation.banked_log import PORT, write_banked
+from benchmarks.validation.bank import PORT, bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body, Model, simulate
 from benchmarks.validation.drive import Drive, read_drive
 from hosts.common.errors import HostError

@@ -141,15 +141,11 @@ def test_tables_of_variables_are_those_of_the_cars():
     assert re.findall(r"<!-- made with the site: (.+) -->", text) == list(made)
     page = "\n".join(made.values())
     # nothing is missing and nothing is there that no car has
-    table = made["car variables"]
     names = {v.name for variables in found.values() for v in variables}
-    shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page.replace(table, ""), re.MULTILINE))
+    shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page, re.MULTILINE))
     listed = {name for cell in shown for name in re.findall(r"`([^`]+)`", cell)}
     four = {re.sub(r"_FL\b", f"_{wheel}", name) for name in listed for wheel in ("FL", "FR", "RL", "RR")}
     assert listed <= names == listed | (four & names)
-    groups = {re.sub(r"_(FL|FR|RL|RR)$", "", n.partition(".")[0]) for n in names}
-    cells = re.findall(r"`([^`]+)`", "\n".join(line.split("|")[1] for line in table.splitlines() if "|" in line))
-    assert {re.sub(r"_(FL|FR|RL|RR)$", "", c.partition(".")[0]) for c in cells if c[0] != "."} == groups
 
 
 def test_links_and_named_files_exist():

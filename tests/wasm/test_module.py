@@ -224,8 +224,8 @@ def test_what_cannot_be_compiled_again(
     (tmp_path / "text.fmu").write_text("x")
     assert "There is no file" in words(tmp_path / "none.fmu")
     assert "is not an FMU (not a zip archive)" in words(tmp_path / "text.fmu")
-    assert "is no FMU of ALi3 of the kind native" in words(without("fmi2_direct.c"))
-    assert "older than the platform wasm32" in words(without("fmi2_alone.c"))
+    for source in ("fmi2_direct.c", "fmi2_alone.c"):
+        assert "is no FMU of ALi3 of the kind native" in words(without(source))
     assert "has no modelDescription.xml" in words(without("modelDescription.xml"))
     assert not (tmp_path / "out").exists()
 

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from hosts.catalogue.car import CarFacts, Pilot
+from hosts.catalogue.car import CarFacts, Pilot, TestedCar
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
-from hosts.fmu.aliases.alias import Aliases
 
 INPUTS = ("steering_wheel_angle_demand", "throttle", "brake")
 OUTPUTS = (
@@ -22,12 +21,15 @@ OUTPUTS = (
 
 
 @dataclass(frozen=True)
-class BicycleCar:
+class BicycleCar(TestedCar):
     """Mass, axles and cornering stiffnesses, SI units; rolls by `roll` rad per m/s2 and at once.
 
     `excess` is added to the stiffness of the front axle in turns to the right, as a share.
     """
 
+    label: str = "bicycle"
+    path: Path = Path("bicycle.fmu")
+    step: float = 0.01
     mass: float = 1200.0
     inertia: float = 1600.0
     front: float = 1.1
@@ -38,10 +40,6 @@ class BicycleCar:
     roll: float = 0.008
     excess: float = 0.0
     push: float = 6.0
-    label: str = "bicycle"
-    path: Path = Path("bicycle.fmu")
-    aliases: Aliases = field(default_factory=Aliases)
-    step: float = 0.01
 
     @property
     def wheelbase(self) -> float:
@@ -53,13 +51,8 @@ class BicycleCar:
         return self.mass / self.wheelbase * (self.rear / front - self.front / self.rear_stiffness)
 
     @property
-    def facts(self) -> CarFacts:
+    def facts(self) -> CarFacts:  # type: ignore[override]
         return CarFacts(INPUTS, OUTPUTS, ("initial.speed",), {}, {"vehicle.wheelbase": self.wheelbase}, self.step)
-
-    inputs = property(lambda self: self.facts.inputs)
-    outputs = property(lambda self: self.facts.outputs)
-    parameters = property(lambda self: self.facts.parameters)
-    constants = property(lambda self: self.facts.constants)
 
     def drive(
         self,

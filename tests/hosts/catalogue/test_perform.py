@@ -30,7 +30,7 @@ class Talking:
 
 
 def test_what_the_fmu_says_is_noted_once() -> None:
-    record = perform(Talking(), BicycleCar())  # type: ignore[arg-type]
+    record = perform(Talking(), BicycleCar())
     assert record.notes == [
         "Noted.",
         "The FMU said in every run: The step is too long.",
@@ -40,11 +40,11 @@ def test_what_the_fmu_says_is_noted_once() -> None:
 
 def test_one_of_several_names_suffices() -> None:
     test = Talking()
-    assert missing_for(test, BicycleCar(), {}) is None  # type: ignore[arg-type]
+    assert missing_for(test, BicycleCar(), {}) is None
     test.needs = ("speed", "nothing | nowhere")
-    assert "has no nothing or nowhere; where it has" in str(missing_for(test, BicycleCar(), {}))  # type: ignore[arg-type]
+    assert "has no nothing or nowhere; where it has" in str(missing_for(test, BicycleCar(), {}))
     aliases = Aliases(missing={"nothing": "The file takes it from X."})
-    assert str(missing_for(test, BicycleCar(aliases=aliases), {})).endswith("; The file takes it from X.")  # type: ignore[arg-type]
+    assert str(missing_for(test, BicycleCar(aliases=aliases), {})).endswith("; The file takes it from X.")
 
 
 def test_settings_are_completed_and_checked() -> None:

@@ -93,4 +93,4 @@ def test_a_car_that_is_too_weak_has_no_gradient_but_a_reason() -> None:
 )
 def test_wrong_settings_are_told(settings: dict[str, float], words: str) -> None:
     with pytest.raises(HostError, match=words):
-        perform(TEST, BicycleCar(), settings)  # type: ignore[arg-type]
+        perform(TEST, BicycleCar(), settings)
