@@ -120,7 +120,7 @@ void slave_watch_start(slave *s) {
   if (t->ground >= t->n_variables || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return;
   const slave_variable *v = &t->variable[t->ground];
   const double pressed = s->sensors[v->index]; /* under a name of another program it may count the other way */
-  if (pressed > 0.0)
+  if (pressed > ali3_no_force(s->fidelity.kernel))
     slave_say(s, SLAVE_WARNING,
               "At the start the vehicle rests on its body: %s is %.4g%s, which its wheels do not bear. Set masses, "
               "springs and tyres, or the place on the road, so that it is 0.",

@@ -270,6 +270,8 @@ ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, con
  * start was raised for that, m; *uneven: how far the part that is highest above its place of rest has to sink, m; NULL:
  * not asked for. */
 ALI3_API double ali3_start_lift(const ali3_instance *in, double *uneven);
+/* What is no force in the System: 1e-6 of the largest force of gravity on a coordinate, N. */
+ALI3_API double ali3_no_force(const ali3_instance *in);
 /* After ALI3_WRONG_METHOD: what the method of the settings takes no System with, in words; "" if it takes all. */
 ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
 /* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);

@@ -65,6 +65,7 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
 
 /* A vehicle that rolls over presses the centre of a wheel some millimetres into the ground; this is a face. */
 static const double DEEP = 0.5; /* radii */
+static const double NO_FORCE = 1e-6; /* of the weight */
 
 /* Depth of the tyre of element e at which its rim is pressed in as far as it holds, m. */
 static double rim_depth(const ali3_instance *in, int32_t e) {
@@ -109,6 +110,12 @@ ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *
 }
 
 ali3_status ali3_wheels_watch(ali3_instance *in) { return look(in, &in->report, NULL, NULL, 0); }
+
+double ali3_no_force(const ali3_instance *in) {
+  double most = 0.0;
+  for (int32_t i = 0; in != NULL && i < in->system->size.nq; i++) most = fmax(most, fabs(in->gravity_force[i]));
+  return NO_FORCE * most;
+}
 
 ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text, size_t size) {
   if (in == NULL || text == NULL || size == 0) return ALI3_BAD_ARGUMENT;
