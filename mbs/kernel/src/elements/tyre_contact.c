@@ -6,6 +6,7 @@
 
 #define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
 #define CLEAR 1e-6 /* m: a depth that counts as none at a start */
+#define RIM_HOLDS 0.8 /* of the bottoming radius: nearer to the centre no wheel is pressed into a face */
 
 void ali3_tyre_axis(const real axis[3], real e[3]) {
   const real size = ali3_norm(axis);
@@ -21,7 +22,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
   ali3_contact contact[2];
   const real none = {0};
   ali3_tyre_patch mean = {.load = none, .beyond = none};
-  const real rim = ALI3_TYRE_RIM_HOLDS * s->bottoming_radius;
+  const real hub = ALI3_TYRE_HUB * s->radius;
   real deepest = ali3_same(-INFINITY), between[7], switching = none;
   for (int i = 0; i < 7; i++) between[i] = none;
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, s->radius, contact);
@@ -29,13 +30,13 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
     const ali3_contact *c = &contact[k];
     const real depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
     const truth touches = depth > 0.0, deeper = depth > deepest;
-    const truth sunk = radius < rim;
+    const truth sunk = radius < hub;
     real rho[3], b[7], rate = none;
     for (int i = 0; i < 3; i++) {
       rho[i] = radius * c->down[i];
       b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
       b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
-      rho[i] = ali3_where(sunk, rim * c->down[i], rho[i]);
+      rho[i] = ali3_where(sunk, hub * c->down[i], rho[i]);
     }
     b[6] = none;
     deepest = ali3_where(deeper, depth, deepest);
@@ -188,6 +189,6 @@ ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised) {
   const double deepest = fmax(ali3_tyre_depth(a, raised, &part), 0.0);
   return (ali3_start_verdict){.excess = deepest - a->real[0],
                               .rise = deepest > CLEAR ? deepest * part : 0.0,
-                              .pressed = deepest - a->real[0] + ALI3_TYRE_RIM_HOLDS * a->real[1]};
+                              .pressed = deepest - a->real[0] + RIM_HOLDS * a->real[1]};
 }
 #endif

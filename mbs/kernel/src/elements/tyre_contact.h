@@ -7,8 +7,8 @@
 #define ALI3_TYRE_SLOW                                                                                                 \
   1e-5 /* m/s, of the speed that slips refer to; small so that a parked car creeps by micrometres */
 #define ALI3_TYRE_ROLLS 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
-#define ALI3_TYRE_RIM_HOLDS                                                                                            \
-  0.8 /* of the bottoming radius: no wheel is pressed in nearer to its centre, nor is its patch */
+#define ALI3_TYRE_HUB                                                                                                  \
+  0.1 /* of the radius: the patch of a wheel that is deeper in the road stays so far from its centre */
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
 #define ALI3_TYRE_NO_GRIP 1e-6 /* of the friction at which the forces of the tyre hold */
 

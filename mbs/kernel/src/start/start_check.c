@@ -67,10 +67,9 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
 static const double DEEP = 0.5; /* radii */
 static const double NO_FORCE = 1e-6; /* of the weight */
 
-/* Depth of the tyre of element e at which its rim is pressed in as far as it holds, m. */
-static double rim_depth(const ali3_instance *in, int32_t e) {
-  const double *p = in->el_real + in->system->el_real_ptr[e];
-  return p[0] - ALI3_TYRE_RIM_HOLDS * p[1];
+/* Depth, m, down to which the tyre of element e is one: on a road without faces to its hub. */
+static double to_hub(const ali3_instance *in, int32_t e) {
+  return (1.0 - ALI3_TYRE_HUB) * in->el_real[in->system->el_real_ptr[e]];
 }
 
 /* The first wheel whose centre is deep in its grid; what rims meet on any road goes into `report`, if there is one. */
@@ -82,12 +81,12 @@ static ali3_status look(const ali3_instance *in, ali3_report *report, int32_t *e
     double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
     if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
     const bool grid = ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing);
-    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > rim_depth(in, e))) continue;
+    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > to_hub(in, e))) continue;
     const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
     const ali3_start_verdict v = S->el_kind[e]->start(&a, 0.0);
-    const double sunk = v.excess;
-    if (report != NULL && v.pressed > report->rim_pressed) {
-      report->rim_pressed = v.pressed;
+    const double sunk = v.excess, pressed = grid ? v.pressed : sunk + a.real[0] - to_hub(in, e);
+    if (report != NULL && pressed > report->rim_pressed) {
+      report->rim_pressed = pressed;
       report->rim_time = ali3_time(in);
       report->rim_x = u[0], report->rim_y = u[1];
       report->rim_element = e;
@@ -136,6 +135,6 @@ ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text,
              "At %.4g s a wheel at x = %.4g m, y = %.4g m was %.2g m deep in the road: the rim is pressed in by %.2g m "
              "more than it holds, so loads from there on are those of a stiff spring. Let it fall less high, or drive "
              "slower there.",
-             r->rim_time, r->rim_x, r->rim_y, r->rim_pressed + rim_depth(in, e), r->rim_pressed);
+             r->rim_time, r->rim_x, r->rim_y, r->rim_pressed + to_hub(in, e), r->rim_pressed);
   return ALI3_OK;
 }
