@@ -46,7 +46,7 @@ class Report:
     energy_floor : float
         What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
     rim_pressed, rim_time, rim_x, rim_y : float
-        How much deeper than a wheel holds a rim was pressed into a grid road, m, 0: never; when, s, and where, m.
+        How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     coarse_event, coarse_time : float
         Where a contact with a road was too quick for the steps: root of the squares of what they missed of ``v + h a``
         in 0.2 s, over the path of the velocity in that time, 0: never; and when, s.

@@ -123,7 +123,7 @@ def to_tolerance(
     _warn(control)
     if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
-    if told := run.simulation.instance.rim_text():
+    if told := run.simulation.rim_text:
         warnings.warn(told, RoadWarning, stacklevel=3)
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))

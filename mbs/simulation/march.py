@@ -34,6 +34,7 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
+NO_FORCE = 1e-6  # of the weight, as `ali3_no_force` has it
 WATCHED = 10  # parts of a run after which its samples are looked at
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
@@ -118,7 +119,8 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
     if meta["report"].get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
         found.append(f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
     for k, sensor in enumerate(sensors):
-        there = np.flatnonzero(values[:, k] if "notice" in sensor else ())
+        none = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
+        there = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())
         if len(there):
             most = values[np.argmax(np.abs(values[:, k])), k]
             found.append(

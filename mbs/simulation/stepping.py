@@ -474,7 +474,7 @@ class Simulation(SteppedSystem):
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
-        if not self._rim_told and (told := self.instance.rim_text()):
+        if not self._rim_told and (told := self.rim_text):
             self._rim_told = True
             warnings.warn(told, RoadWarning, stacklevel=3)
         if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
@@ -484,6 +484,12 @@ class Simulation(SteppedSystem):
             self._warned = True
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
             warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
+
+    @property
+    def rim_text(self) -> str:
+        """A sentence about the wheel whose rim was pressed deepest into a road; empty where none was."""
+        element, text = self.instance.rim_text()
+        return f"{text} It is the wheel of '{self._meta['elements'][element]['name']}'." if text else ""
 
     def save(self) -> bytes:
         """All that continues bit for bit, in this or another process.

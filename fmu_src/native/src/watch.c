@@ -51,13 +51,16 @@ static slave_status watch_limit(slave *s, const ali3_report *report) {
                    said == SLAVE_CAPPED ? "This is said again only where it is more than 1 mm." : "This is said once.");
 }
 
-/* A wheel that hit a wall: the step converges, so that nothing else tells it. */
+/* A wheel that hit a wall or fell deep into the ground: the step converges, so that nothing else tells it. */
 static slave_status watch_rims(slave *s, const ali3_report *report) {
+  const slave_table *t = &slave_the_table;
   char text[SLAVE_TEXT / 2];
+  int32_t element = -1;
   if (s->rim_said || !(report->rim_pressed > 0.0)) return SLAVE_OK;
-  if (ali3_rim_text(s->fidelity.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
+  if (ali3_rim_text(s->fidelity.kernel, &element, text, sizeof text) != ALI3_OK) return SLAVE_OK;
   s->rim_said = true;
-  return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
+  return slave_say(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is said once.", text,
+                   t->element[t->first_element[s->fidelity.number] + (size_t)element]);
 }
 
 /* What the steps themselves tell of an edge at speed, a fall, or a wheel on the metal of its rebound stop. */
@@ -117,7 +120,7 @@ void slave_watch_start(slave *s) {
   if (t->ground >= t->n_variables || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return;
   const slave_variable *v = &t->variable[t->ground];
   const double pressed = s->sensors[v->index]; /* under a name of another program it may count the other way */
-  if (pressed > 0.0)
+  if (pressed > ali3_no_force(s->fidelity.kernel))
     slave_say(s, SLAVE_WARNING,
               "At the start the vehicle rests on its body: %s is %.4g%s, which its wheels do not bear. Set masses, "
               "springs and tyres, or the place on the road, so that it is 0.",

@@ -307,9 +307,11 @@ class Instance(StandingInstance):
         """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""
         return self._text(self._library.ali3_branch_text)
 
-    def rim_text(self) -> str:
-        """A sentence about the deepest that a rim was pressed into a grid road; empty where none was."""
-        return self._text(self._library.ali3_rim_text)
+    def rim_text(self) -> tuple[int, str]:
+        """The element whose rim was pressed deepest into a road and a sentence on it; -1 and none where none was."""
+        element, text = c_int32(-1), ctypes.create_string_buffer(1024)
+        self._library.ali3_rim_text(self._handle, byref(element), text, len(text))
+        return element.value, text.value.decode(errors="replace")
 
     def _text(self, function: Callable[..., int]) -> str:
         text = ctypes.create_string_buffer(1024)

@@ -73,7 +73,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_sensor_rates": (c_int32, [c_void_p, _DOUBLES, c_char_p]),
     "ali3_report_get": (c_int32, [c_void_p, POINTER(ReportFields)]),
     "ali3_energy_balance": (c_double, [POINTER(ReportFields)]),
-    "ali3_rim_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
+    "ali3_rim_text": (c_int32, [c_void_p, POINTER(c_int32), c_char_p, c_size_t]),
     "ali3_branch_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_time": (c_double, [c_void_p]),
     "ali3_solver_value": (c_double, [c_void_p, c_int32]),

@@ -59,6 +59,7 @@ class ReportFields(Structure):
         ("rim_time", c_double),
         ("rim_x", c_double),
         ("rim_y", c_double),
+        ("rim_element", c_int64),
         ("event_miss", c_double),
         ("event_squares", c_double),
         ("event_path", c_double),

@@ -117,8 +117,10 @@ typedef struct {
   double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
   double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */
-  /* deepest that a rim was pressed into a grid road at the start of a step, m, 0: never; when, s, and where, m */
+  /* how much deeper than it holds a rim was pressed into a road at the start of a step, m, 0: never; when, s, where, m,
+   * and of which element */
   double rim_pressed, rim_time, rim_x, rim_y;
+  int64_t rim_element;
   /* of the quick change of velocity under way: what its worst step missed of v + h a, the squares of all since, the path
    * of the velocity since, and the time left of it, s */
   double event_miss, event_squares, event_path, event_left;
@@ -193,8 +195,8 @@ ALI3_API ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *elemen
  * if there is none, else ALI3_BEYOND_TABLE. *column: its number, or -1; its value and both ends of the table. Both may be
  * NULL. */
 ALI3_API ali3_status ali3_beyond_table(const ali3_instance *in, int32_t *column, double value_and_ends[3]);
-/* A sentence on a wheel that was driven into a face of a grid road so that its rim was pressed in, else "". */
-ALI3_API ali3_status ali3_rim_text(const ali3_instance *in, char *text, size_t size);
+/* A sentence on a wheel whose rim was pressed into the road, else "". *element: its number, or -1; may be NULL. */
+ALI3_API ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text, size_t size);
 ALI3_API ali3_status ali3_reset(ali3_instance *in); /* back to q0, qd0, y0, default inputs, parameters and settings */
 ALI3_API ali3_settings ali3_default_settings(void);
 ALI3_API ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings);
@@ -268,6 +270,8 @@ ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, con
  * start was raised for that, m; *uneven: how far the part that is highest above its place of rest has to sink, m; NULL:
  * not asked for. */
 ALI3_API double ali3_start_lift(const ali3_instance *in, double *uneven);
+/* What is no force in the System: 1e-6 of the largest force of gravity on a coordinate, N. */
+ALI3_API double ali3_no_force(const ali3_instance *in);
 /* After ALI3_WRONG_METHOD: what the method of the settings takes no System with, in words; "" if it takes all. */
 ALI3_API const char *ali3_method_excludes(const ali3_instance *in);
 /* Static equilibrium near the present position with all rates zero, max |Q - Phi_q' lam|_i <= tolerance (N, N m);

@@ -6,7 +6,7 @@
 
 #define TOUCH_DEPTH 0.005 /* m, over which the radial damping sets in */
 #define CLEAR 1e-6 /* m: a depth that counts as none at a start */
-#define RIM_HOLDS 0.8 /* of the bottoming radius: nearer to the centre no wheel is pressed in */
+#define RIM_HOLDS 0.8 /* of the bottoming radius: nearer to the centre no wheel is pressed into a face */
 
 void ali3_tyre_axis(const real axis[3], real e[3]) {
   const real size = ali3_norm(axis);
@@ -21,7 +21,8 @@ static real mixed(truth first, real mean, real old, real new, real total, real l
 ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *s) {
   ali3_contact contact[2];
   const real none = {0};
-  ali3_tyre_patch mean = {.load = none};
+  ali3_tyre_patch mean = {.load = none, .beyond = none};
+  const real hub = ALI3_TYRE_HUB * s->radius;
   real deepest = ali3_same(-INFINITY), between[7], switching = none;
   for (int i = 0; i < 7; i++) between[i] = none;
   const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, s->radius, contact);
@@ -29,14 +30,17 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
     const ali3_contact *c = &contact[k];
     const real depth = c->penetration, radius = s->radius - depth, lean = ali3_dot(e, c->normal);
     const truth touches = depth > 0.0, deeper = depth > deepest;
+    const truth sunk = radius < hub;
     real rho[3], b[7], rate = none;
     for (int i = 0; i < 3; i++) {
       rho[i] = radius * c->down[i];
       b[i] = c->normal[i] / c->cosine; /* minus the gradient of the depth */
       b[3 + i] = -lean * rho[i] / c->cosine * c->leaning;
+      rho[i] = ali3_where(sunk, hub * c->down[i], rho[i]);
     }
     b[6] = none;
     deepest = ali3_where(deeper, depth, deepest);
+    mean.beyond = ali3_where(sunk & (depth > mean.beyond), depth, mean.beyond);
     for (int i = 0; i < 3; i++) {
       mean.near_normal[i] = ali3_where(deeper, c->normal[i], mean.near_normal[i]);
       mean.near_rho[i] = ali3_where(deeper, rho[i], mean.near_rho[i]);
@@ -51,11 +55,15 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
                hard = ali3_where(deep > 0.0, s->bottoming_stiffness, none);
     const real ramp = ali3_where(depth < TOUCH_DEPTH, depth / TOUCH_DEPTH, ali3_same(1.0));
     const real part = 1.0 - c->yielded;
-    const real force =
-        part * ((s->stiffness + s->progression * depth) * depth + hard * deep + s->damping * rate * ramp);
+    /* a spring that grows softer holds its largest force */
+    const truth spent = s->stiffness + 2.0 * s->progression * depth < 0.0;
+    const real most = ali3_where(spent, -0.5 * s->stiffness / s->progression, depth);
+    const real spring = (s->stiffness + s->progression * most) * most;
+    const real force = part * (spring + hard * deep + s->damping * rate * ramp);
     a->potential = ali3_add_unless(
         ali3_not(touches), a->potential,
-        part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * depth) * depth * depth + hard * deep * deep)));
+        part * (0.5 * ((s->stiffness + s->progression * (2.0 / 3.0) * most) * most * most + hard * deep * deep)));
+    a->potential = ali3_add_unless(ali3_not(touches & spent), a->potential, part * spring * (depth - most));
     const truth presses = touches & (force > 0.0), first = ali3_not(mean.load > 0.0);
     const int32_t second = ALI3_TYRE_CONTACT_BITS * k;
     ALI3_PIECE(&a->piece, touches, ALI3_TYRE_TOUCHES << second);
@@ -74,7 +82,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
         ali3_where(presses, mixed(first, mean.friction, mean.load, c->friction, total, load), mean.friction);
     mean.load = ali3_where(presses, total, mean.load);
     if (!a->S) continue;
-    const real slope = s->stiffness + 2.0 * s->progression * depth + hard +
+    const real slope = ali3_where(spent, none, s->stiffness + 2.0 * s->progression * depth) + hard +
                        ali3_where(ramp < 1.0, s->damping * rate / TOUCH_DEPTH, none);
     const real stiffness = ali3_where(slope < 0.0, none, slope);
     for (int i = 0; i < 7; i++) { /* so that nothing is added where nothing presses */
@@ -82,8 +90,7 @@ ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const al
       between[i] += k ? -b[i] : b[i];
     }
     ali3_add_outer(a->S, 7, ali3_where(presses, part * (a->wK * stiffness + a->wC * s->damping * ramp), none), b);
-    switching = ali3_where(
-        presses, a->wK * c->switching * ((s->stiffness + s->progression * depth) * depth + hard * deep), switching);
+    switching = ali3_where(presses, a->wK * c->switching * (spring + hard * deep), switching);
   }
   const truth switches = switching > 0.0;
   if (a->S && ali3_any(switches)) ali3_add_outer(a->S, 7, ali3_where(switches, switching, none), between);
@@ -127,7 +134,8 @@ enum { ROLLING_MOMENT = NORMAL_X + 3 };
 
 void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
                        real radius, real ratio, const real force[2], real moment, real resisting) {
-  const real none = {0}, deflection = ali3_where(m->loaded < radius, radius - m->loaded, none);
+  const real none = {0}, sunk = contact->beyond;
+  const real deflection = ali3_where(sunk > 0.0, sunk, ali3_where(m->loaded < radius, radius - m->loaded, none));
   const real least = ali3_same(0.01);
   const real drive = -ratio * ali3_dot(m->forward, m->push) * a->ud[6]; /* circumferential speed */
   const real fastest = ali3_hypot(ali3_where(ali3_abs(drive) > ali3_abs(m->travel[0]), drive, m->travel[0]), least);

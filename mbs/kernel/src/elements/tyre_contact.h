@@ -7,6 +7,8 @@
 #define ALI3_TYRE_SLOW                                                                                                 \
   1e-5 /* m/s, of the speed that slips refer to; small so that a parked car creeps by micrometres */
 #define ALI3_TYRE_ROLLS 1.0 /* m/s, from which effective radius and trail are those of the rolling tyre */
+#define ALI3_TYRE_HUB                                                                                                  \
+  0.1 /* of the radius: the patch of a wheel that is deeper in the road stays so far from its centre */
 #define ALI3_TYRE_NO_LOAD 1e-9 /* N */
 #define ALI3_TYRE_NO_GRIP 1e-6 /* of the friction at which the forces of the tyre hold */
 
@@ -29,6 +31,8 @@ typedef struct { /* m, N/m, N/m^2 (force of the squared deflection), N s/m */
 typedef struct {
   real load, friction; /* sums or load-weighted means of the contacts */
   real normal[3], rho[3]; /* unit normal; contact patch relative to the wheel centre, in the wheel plane */
+  real
+      beyond; /* m: depth where the road is nearer to the wheel centre than the patch, which stays on the rim; else 0 */
   real near_normal[3], near_rho[3]; /* of the nearest contact, also in the air */
 } ali3_tyre_patch;
 
@@ -58,7 +62,7 @@ void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *con
                           ali3_tyre_motion *m);
 
 /* The outputs that every tyre begins with, ALI3_TYRE_OUTPUTS in number; `resisting`: of rolling, about the axis. */
-enum { ALI3_TYRE_OUTPUTS = 16 };
+enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
 void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
                        real radius, real ratio, const real force[2], real moment, real resisting);
 

@@ -65,25 +65,33 @@ double ali3_start_excess(const ali3_instance *in, int32_t *element, const char *
 
 /* A vehicle that rolls over presses the centre of a wheel some millimetres into the ground; this is a face. */
 static const double DEEP = 0.5; /* radii */
+static const double NO_FORCE = 1e-6; /* of the weight */
 
-/* The first wheel whose centre is deep in its grid; what rims meet on the way goes into `report`, if there is one. */
+/* Depth, m, down to which the tyre of element e is one: on a road without faces to its hub. */
+static double to_hub(const ali3_instance *in, int32_t e) {
+  return (1.0 - ALI3_TYRE_HUB) * in->el_real[in->system->el_real_ptr[e]];
+}
+
+/* The first wheel whose centre is deep in its grid; what rims meet on any road goes into `report`, if there is one. */
 static ali3_status look(const ali3_instance *in, ali3_report *report, int32_t *element, char *text, size_t size) {
   if (text != NULL && size > 0) text[0] = 0;
   if (element != NULL) *element = -1;
   for (int32_t e = 0; in != NULL && e < in->system->size.ne; e++) {
     const ali3_system *S = in->system;
     double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
-    if (S->el_kind[e]->depth != ali3_tyre_depth || !ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing))
-      continue;
+    if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
+    const bool grid = ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing);
+    if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > to_hub(in, e))) continue;
     const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
     const ali3_start_verdict v = S->el_kind[e]->start(&a, 0.0);
-    const double sunk = v.excess;
-    if (report != NULL && v.pressed > report->rim_pressed) {
-      report->rim_pressed = v.pressed;
+    const double sunk = v.excess, pressed = grid ? v.pressed : sunk + a.real[0] - to_hub(in, e);
+    if (report != NULL && pressed > report->rim_pressed) {
+      report->rim_pressed = pressed;
       report->rim_time = ali3_time(in);
       report->rim_x = u[0], report->rim_y = u[1];
+      report->rim_element = e;
     }
-    if (!(sunk > DEEP * a.real[0])) continue;
+    if (!grid || !(sunk > DEEP * a.real[0])) continue;
     if (element != NULL) *element = e;
     if (text != NULL)
       snprintf(
@@ -102,15 +110,31 @@ ali3_status ali3_wheel_in_road(const ali3_instance *in, int32_t *element, char *
 
 ali3_status ali3_wheels_watch(ali3_instance *in) { return look(in, &in->report, NULL, NULL, 0); }
 
-ali3_status ali3_rim_text(const ali3_instance *in, char *text, size_t size) {
+double ali3_no_force(const ali3_instance *in) {
+  double most = 0.0;
+  for (int32_t i = 0; in != NULL && i < in->system->size.nq; i++) most = fmax(most, fabs(in->gravity_force[i]));
+  return NO_FORCE * most;
+}
+
+ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text, size_t size) {
   if (in == NULL || text == NULL || size == 0) return ALI3_BAD_ARGUMENT;
   const ali3_report *r = &in->report;
+  const int32_t e = (int32_t)r->rim_element;
+  const bool pressed = r->rim_pressed > 0.0;
+  double spacing[2];
   text[0] = 0;
-  if (r->rim_pressed > 0.0)
+  if (element != NULL) *element = pressed ? e : -1;
+  if (pressed && ali3_road_spacing(&in->road[in->system->el_int[in->system->el_int_ptr[e]]], spacing))
     snprintf(text, size,
              "At %.4g s a wheel at x = %.4g m, y = %.4g m was driven into a face of the road that is too high or too "
              "steep at its speed: the rim is pressed in by %.2g m more than it holds, so loads from there on are those "
              "of a stiff spring. Drive slower there, or take a lower face.",
              r->rim_time, r->rim_x, r->rim_y, r->rim_pressed);
+  else if (pressed)
+    snprintf(text, size,
+             "At %.4g s a wheel at x = %.4g m, y = %.4g m was %.2g m deep in the road: the rim is pressed in by %.2g m "
+             "more than it holds, so loads from there on are those of a stiff spring. Let it fall less high, or drive "
+             "slower there.",
+             r->rim_time, r->rim_x, r->rim_y, r->rim_pressed + to_hub(in, e), r->rim_pressed);
   return ALI3_OK;
 }

@@ -110,8 +110,9 @@ static bool report_valid(const ali3_system *s, const ali3_report *r) {
          magnitude(r->event_miss) && magnitude(r->event_squares) && magnitude(r->event_path) &&
          r->event_left - r->event_left == 0.0 && magnitude(r->coarse_event) && r->coarse_time - r->coarse_time == 0.0 &&
          r->rim_time - r->rim_time == 0.0 && r->rim_x - r->rim_x == 0.0 && r->rim_y - r->rim_y == 0.0 &&
-         counted(r->steps) && counted(r->iterations) && counted(r->factorizations) && counted(r->solves) &&
-         counted(r->halvings) && counted(r->failures) && counted(r->capped) && magnitude(r->capped_residual) &&
+         counted(r->rim_element) && (r->rim_pressed == 0.0 || r->rim_element < s->size.ne) && counted(r->steps) &&
+         counted(r->iterations) && counted(r->factorizations) && counted(r->solves) && counted(r->halvings) &&
+         counted(r->failures) && counted(r->capped) && magnitude(r->capped_residual) &&
          r->energy_error - r->energy_error == 0.0;
 }
 
