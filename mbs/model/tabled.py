@@ -1,7 +1,7 @@
 """Bodies and numbers whose motion is a table of one or two coordinates, such as a wheel carrier over its travel.
 
-They bring no coordinates of their own to the equations and no rows: place and axes, X = r + Y p(a, b) and Y R(a, b)
-with r and Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are
+They bring no coordinates of their own to the equations and no rows: place on the base and axes, Y p(a, b) and Y R(a, b)
+with the axes Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are
 uniform cubic B-splines through the points of the table, twice continuously differentiable; their error falls with the
 fourth power of the spacing. Beyond the table they go on along their tangent; a step from there is refused.
 """
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.common.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate, CoordinateInfo
 
@@ -60,6 +61,14 @@ class TabledBody(Body):
     def coordinates(self) -> list[CoordinateInfo]:
         """Its dependent coordinates: of the position, then of each axis."""
         return [CoordinateInfo(c.name, "tabled", c.component, c.reference) for c in super().coordinates()]
+
+    def reference(self) -> Array:
+        """Its dependent coordinates in the reference configuration, shape (12,)."""
+        return np.concatenate([self.com - self.base.com, np.eye(3).ravel()])
+
+    def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:
+        own = super()._made(local, origin)
+        return self.base.point(self.base.com) + own if origin else own
 
     base: Body
     """What it is placed on."""

@@ -91,6 +91,43 @@ def test_far_away_the_rows_lose_no_digits():
     np.testing.assert_allclose(far["px"] - 1e5, near["px"], rtol=0, atol=1e-7)
 
 
+def train():
+    """Free bodies on springs, a slide and a rod, and one by table: no linear equation ties their positions."""
+    m = trolley()
+    frame = m.bodies[0]
+    box, inertia = {"mass": 3.0, "inertia": (0.2, 0.2, 0.3)}, (0.1, 0.1, 0.1)
+    free = m.body("free", com=(2.0, 0.1, 0.5), **box)
+    slide = m.body("slide", com=(-1.0, 0.0, 0.7), **box)
+    hung = m.body("hung", com=(0.3, 0.2, -0.6), **box)
+    ball = m.point_mass("ball", mass=1.0, position=(0.5, -0.5, 0.1))
+    m.spring_damper("coupling", (frame, (0.6, 0.0, 0.5)), (free, (1.6, 0.1, 0.5)), stiffness=400.0, damping=5.0)
+    m.prismatic("rail", frame, slide, axis=(1.0, 0.0, 0.3), point=(-1.0, 0.0, 0.7))
+    m.distance("rod", (frame, (0.3, 0.2, 0.2)), (hung, (0.3, 0.2, -0.3)))
+    m.spring_damper("leash", (slide, (-1.0, 0.0, 0.9)), (ball, (0.5, -0.5, 0.1)), stiffness=50.0, damping=1.0)
+    tabled = m.tabled_body(
+        "tabled", base=frame, parameters=m.travel("stroke"), axes=[np.linspace(-9.0, 9.0, 9)], mass=0.5,
+        places=np.linspace([-1.0, 0.0, -8.0], [1.0, 0.0, 10.0], 9), com=(0.0, 0.0, 1.0), inertia=inertia,
+        rotations=np.tile(np.eye(3), (9, 1, 1)),
+    )  # fmt: skip
+    m.spring_damper("hanger", (frame, (0.0, 0.1, 2.0)), (tabled, (0.0, 0.0, 1.0)), stiffness=70.0, damping=1.0)
+    for body in (free, slide, hung, ball, tabled):
+        m.sense_position(f"{body.name}.z", body, tuple(body.com), "z")
+    return m
+
+
+def test_far_away_several_bodies_move_as_at_the_origin_bit_for_bit():
+    system = compile(train())
+    inputs = {"yaw": 0.3, "speed": 3.0, "yaw_rate": 0.5}
+    near = Simulation(system, pose=Pose(**inputs)).run(0.5, 0.005)
+    for shift in (5e5, 5e6, 1e8):
+        far = Simulation(system, pose=Pose(shift, -shift, **inputs)).run(0.5, 0.005)
+        assert np.ptp(near["ball.z"]) > 0.1
+        for name in near:
+            if name not in ("px", "py"):
+                np.testing.assert_array_equal(far[name], near[name], name)
+        np.testing.assert_allclose(far["px"] - shift, near["px"], rtol=0, atol=1e-14 * shift)
+
+
 def test_a_scene_tied_to_the_ground_cannot_float():
     m = trolley()
     m.spherical("anchor", m.bodies[0], m.ground, point=(0, 0, 0.5))

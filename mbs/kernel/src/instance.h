@@ -103,7 +103,7 @@ struct ali3_instance {
   double *Q; /* nq */
   double *u, *ud; /* signals */
   double *S; /* signal tangents of all elements */
-  double *S_tangent, *ud_at; /* of defect_correction.c: S of the tangent in F; rates of signals of the last ali3_forces */
+  double *S_tangent, *ud_at; /* of defect_correction.c: S of the tangent in F; ud of the last ali3_forces */
   double *element_force; /* of the last ali3_forces, by the signals of each element */
   double *SB; /* one element: signals x coordinates */
   unsigned char *idle; /* ne: 1 where the last ali3_forces met no force and no tangent */

@@ -34,7 +34,7 @@ def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Itera
     """
     frame, chassis = car.frame_section, car.chassis
     structure = frame.structure(car.folder)
-    check_mass(structure.model, chassis)
+    check_mass(structure, chassis)
     points: dict[Point, str] = {p: chassis.key(f"accelerometers.{name}") for name, p in chassis.accelerometers.items()}
     for axle in (car.front, car.rear):
         points |= {tuple(point): axle.suspension.points.key(name) for name, point in axle.suspension.points}
@@ -78,13 +78,11 @@ def _mean_frame(body: Body, flexible: FlexibleFrame) -> tuple[AffineVector, list
     What acts on them loads the frame as forces at these joints. At the floating frame itself, one node, it would bend
     the floor; a quasi-static chassis would miss it.
     """
-    named = [flexible.place(joint) for pair in flexible.joints.ground for joint in pair]
+    named = [flexible.place(joint) for joint in flexible.carrying]
     origin = np.mean(named, axis=0)
-    rigid = np.vstack([np.array(named).T, np.ones(len(named))])
 
     def combination(sums: np.ndarray) -> AffineVector:
-        weights = np.linalg.lstsq(rigid, sums, rcond=None)[0]
-        terms = [body.point(p) * float(w) for p, w in zip(named, weights, strict=True)]
+        terms = [body.point(p) * float(w) for p, w in zip(named, flexible.shares(sums), strict=True)]
         return sum(terms[1:], terms[0])
 
     axes = [combination(np.append(e, 0.0)) for e in np.eye(3)]

@@ -7,13 +7,14 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+import scipy.sparse as sp
 
 from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.load_paths import load_path_deformations, load_path_modes
+from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.relief_matrices import InertiaRelief
@@ -39,15 +40,19 @@ class FlexibleFrame:
         Joints of the suspension.
     stiff_pairs : tuple of tuple of str
         Pairs of them that a wishbone keeps apart: no load stretches the frame between them.
+    carrying : tuple of str
+        Joints that carry what rides on the frame as on one rigid body.
     model : FiniteElementModel
-        Its interfaces at the hard points.
+        Its interfaces at the hard points, with all that rides on it.
     """
 
     def __init__(self, section: FrameSection, folder: Path, structure: Structure, joints: FrameJoints) -> None:
         self.section, self.folder, self.structure, self.joints = section, folder, structure, joints
         self.interfaces, self.stiff_pairs, self.reference = tuple(joints.interfaces), joints.held, joints.reference
         self.damping = RayleighDamping.fitted(section.damping.ratio, *section.damping.frequencies)
+        self.carrying = tuple(joint for pair in joints.ground for joint in pair)
         self.model = _at_hard_points(structure.model, joints)
+        self.model = self._with_riding()
         self._reduced: dict[Fidelity, ReducedBody] = {}
 
     @cached_property
@@ -59,6 +64,23 @@ class FlexibleFrame:
     def place(self, joint: str) -> np.ndarray:
         """Place of a joint, m."""
         return np.asarray(self.model.positions[self.model.node(joint)])
+
+    def shares(self, sums: np.ndarray) -> np.ndarray:
+        """Smallest weights of the carrying joints whose places and number have these sums: x, y, z, 1 of a point."""
+        rigid = np.vstack([np.transpose([self.place(joint) for joint in self.carrying]), np.ones(len(self.carrying))])
+        return np.linalg.lstsq(rigid, sums, rcond=None)[0]
+
+    def _with_riding(self) -> FiniteElementModel:
+        """The model with the masses that ride on it and bend it as payloads do."""
+        riding, model = self.structure.riding, self.model
+        if not riding:
+            return model
+        freedoms = np.array([model.freedoms(joint) for joint in self.carrying])
+        places, rows = np.array([self.place(joint) for joint in riding]), np.zeros((len(riding), 3, model.n_dof))
+        for row, place in zip(rows, places, strict=True):
+            row[np.arange(3), freedoms] = self.shares(np.append(place, 1.0))[:, None]
+        points = MassPoints(places, np.array([*riding.values()]), sp.csr_array(rows.reshape(-1, model.n_dof)))
+        return replace(model, mass=model.mass.merged(points))
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:
         """The frame with the modes of a flexible fidelity. `fidelity`: from LOAD_PATHS on."""
@@ -77,15 +99,20 @@ class FlexibleFrame:
             return body
         # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
         # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
-        loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
+        loads, pairs, alone = self.recorded_loads(), self._relief_with_stretch[1], self._alone(body)
         every = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
         guided = np.zeros((6, every.shape[1]))
         guided[:3, -3:] = np.eye(3)
-        deformation = load_path_deformations(body, every, guided)
+        deformation = load_path_deformations(alone, every, guided)
         size = np.sqrt(np.einsum("ik,ij,jk->k", deformation, body.K, deformation))
         scale = np.ones(every.shape[1])
         scale[loads.shape[1] :] = size[: loads.shape[1]].max() / size[loads.shape[1] :]
-        return load_path_modes(body, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
+        modes = load_path_modes(alone, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
+        return replace(modes, masses=body.masses)
+
+    def _alone(self, body: ReducedBody) -> ReducedBody:
+        """A reduction without the masses that ride on the frame: these load it at interfaces, as payloads do."""
+        return replace(body, masses=body.masses * (np.arange(len(body.masses)) < len(self.structure.model.mass.masses)))
 
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
@@ -128,7 +155,7 @@ class FlexibleFrame:
         `forces`: in N, shape (3 n_interfaces, n).
         """
         body = craig_bampton(self.model, self.reference, self.interfaces, 0, inertia_modes=True)
-        deformation = load_path_deformations(body, forces)
+        deformation = load_path_deformations(self._alone(body), forces)
         return np.asarray(deformation.T @ body.K @ deformation)
 
     @cached_property

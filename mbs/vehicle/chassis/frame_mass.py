@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible.fe_model import FiniteElementModel
+from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.section import Chassis
 
 MASS, INERTIA = 0.005, 0.02  # of the mass, of the largest moment of inertia
@@ -13,24 +13,27 @@ CENTRE = 0.005  # m
 _REMEDY = "Change the masses of the frame too; what a parameter of a run changes may differ: it rides on the frame."
 
 
-def check_mass(model: FiniteElementModel, chassis: Chassis) -> None:
-    """Refuse a frame that is another body than the rigid chassis. `model`: of the frame with all it carries.
+def check_mass(structure: Structure, chassis: Chassis) -> None:
+    """Refuse a frame that is another body than the rigid chassis. `structure`: with all it carries.
 
     Raises `ModelError`: mass, centre of mass or inertia differ.
     """
-    masses, total = model.mass.masses, float(model.mass.masses.sum())
+    points, riding = structure.model.mass, structure.riding
+    masses = np.concatenate([points.masses, list(riding.values())])
+    positions = np.vstack([points.positions, *(structure.joints[joint] for joint in riding)])
+    total = float(masses.sum())
     if abs(total - chassis.mass) > MASS * chassis.mass:
         raise ModelError(
             f"{chassis.key('mass')} is {chassis.mass:g} kg, but the frame with the masses it carries has "
             f"{total:.6g} kg. {_REMEDY}"
         )
-    centre = masses @ model.mass.positions / total
+    centre = masses @ positions / total
     if np.linalg.norm(centre - chassis.com) > CENTRE:
         raise ModelError(
             f"{chassis.key('com')} is {list(chassis.com)} m, but the centre of mass of the frame with the masses it "
             f"carries is {_shown(centre, 4)} m. {_REMEDY}"
         )
-    arms = model.mass.positions - centre
+    arms = positions - centre
     second = (masses[:, None] * arms).T @ arms
     tensor, given = np.trace(second) * np.eye(3) - second, np.array(chassis.tensor)
     if np.abs(tensor - given).max() > INERTIA * given.max():

@@ -45,7 +45,8 @@ class TubeTables(FrameSection):
     tubes: str
     """Table of the tubes: from, to, section, elements."""
     masses: str | None = None
-    """Table of the masses that joints carry: joint, mass; in a column image, no keeps a mass to its joint alone."""
+    """Table of the masses that joints carry: joint, mass; in a column image, no leaves out the image of a mass that
+    balances a payload: like one it rides on the frame at its place."""
     material: MaterialSection
     """Material of all tubes."""
     sections: dict[str, TubeSection]

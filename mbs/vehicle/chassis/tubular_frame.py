@@ -68,7 +68,7 @@ class TubularFrame:
         from the first joint of each tube to the second.
 
         `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: multiplies the number of elements of every tube;
-        `carried_masses`: without them the frame is bare tubes. Raises `ModelError`: a table is missing or does not
+        `carried_masses`: without them the frame is bare tubes; those that ride on it are `riding`. Raises `ModelError`: a table is missing or does not
         describe a frame.
         """
         material, sections = self.material, self.tube_sections
@@ -85,7 +85,7 @@ class TubularFrame:
             chain = [names.index(start), *range(first, first + len(inner)), names.index(end)]
             tubes.append(FrameTube(start, end, section, range(len(beams), len(beams) + divisions)))
             beams += [Beam(i, j, sections[section], material) for i, j in pairwise(chain)]
-        masses = self._masses(joints) if carried_masses else {}
+        masses: dict[str | int, float] = {**self._masses(joints, "yes")} if carried_masses else {}
         return Frame(np.array(positions), beams, masses, names, theory), tuple(tubes)
 
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
@@ -132,13 +132,18 @@ class TubularFrame:
             tubes += [(*pair, row["section"], row.count("elements", MOST_ELEMENTS)) for pair in pairs]
         return tubes
 
-    def _masses(self, joints: dict[str, np.ndarray]) -> dict[str | int, float]:
-        masses: dict[str | int, float] = {}
+    def riding(self) -> dict[str, float]:
+        """Masses without an image, by joint, kg. Raises `ModelError`: their table is missing or not right."""
+        return self._masses(self.joint_places(), "no")
+
+    def _masses(self, joints: dict[str, np.ndarray], image: str) -> dict[str, float]:
+        """Masses by joint of the lines that say so about their image."""
+        masses: dict[str, float] = {}
         if self.section.masses is None:
             return masses
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
             _known(row, row["joint"], joints, "joint", self.section.key("joints"))
-            for joint in _carrying(row):
+            for joint in _carrying(row, image):
                 masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MOST_MASS, "kg")
         return masses
 
@@ -148,11 +153,13 @@ def mirrored(name: str) -> str:
     return name[:-1] + IMAGE[name[-1]]
 
 
-def _carrying(row: Row) -> tuple[str, ...]:
-    """Joints that carry the mass of a line: the named one and its image, unless the column `image` says no."""
+def _carrying(row: Row, wanted: str) -> tuple[str, ...]:
+    """Joints that have the mass of a line: the named one and its image, unless the column `image` says no."""
     joint, image = row["joint"], row.cells.get("image") or "yes"
     if image not in ("yes", "no"):
         raise ModelError(f"{row.where}: image is {image!r}; it must be yes or no, or left empty for yes.")
+    if image != wanted:
+        return ()
     return (joint,) if image == "no" else tuple(dict.fromkeys((joint, mirrored(joint))))
 
 

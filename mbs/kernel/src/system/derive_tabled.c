@@ -216,8 +216,7 @@ static int32_t source_of(const ali3_system *s, const ali3_tabled_group *group, c
   return at >= 0 && at % 3 == x ? at / 3 : -1;
 }
 
-/* Whether signals i to i + 2 of a group are the components of a vector; *place: whether r or the place of a body is in
- * it. */
+/* Whether signals i to i + 2 of a group are the components of a vector; *place: whether r is in it. */
 static bool is_vector(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t i,
                       bool *place) {
   const int32_t first = group->entry[i], n = group->n_entry[i];
@@ -231,7 +230,7 @@ static bool is_vector(const ali3_system *s, const ali3_tabled_group *group, cons
         if (source_of(s, group, frame, o, x) == source) same += s->el_entry_value[o] == s->el_entry_value[k] ? 1 : 2;
       if (source < 0 || same != 1) return false;
     }
-    *place = *place || source % 4 == 0;
+    *place = *place || source == 0;
   }
   return true;
 }

@@ -67,7 +67,6 @@ static void along(const ali3_instance *in, const ali3_tabled *c, const ali3_tabl
   ali3_tabled_turn(in->tabled_base[c->base].axes, first, moved);
   ali3_tabled_turn(frame + 3, w->value[0] + 3 * v, out);
   for (int k = 0; k < 3; k++) out[k] += moved[k];
-  for (int k = 0; v == 0 && k < 3; k++) out[k] += frame[k];
 }
 
 /* Vector v of Bd qd: what of the second rates of X comes from rates. */
@@ -116,7 +115,6 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
       const int32_t v = vector[k], to = nq + c->first + 3 * v;
       real bent[3];
       ali3_tabled_turn(place + 3, w->value[0] + 3 * v, in->extended[0] + to);
-      for (int x = 0; v == 0 && x < 3; x++) in->extended[0][to + x] += place[x];
       along(in, c, w, qd, rate, v, in->extended[1] + to);
       if (qdd == NULL) continue;
       along(in, c, w, qdd, second, v, in->extended[2] + to);
@@ -162,10 +160,8 @@ static void back(const ali3_tabled *c, const ali3_tabled_work *w, const real *f,
   if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
   for (int32_t n = 0; n < c->n_seen; n++) {
     const int32_t v = 3 * c->seen[n];
-    for (int x = 0; x < 3; x++) {
-      if (v == 0) Q[c->frame[x]] += f[x];
+    for (int x = 0; x < 3; x++)
       for (int k = 0; k < 3; k++) Q[c->frame[3 + 3 * k + x]] += w->value[0][v + k] * f[v + x];
-    }
   }
 }
 
@@ -193,6 +189,7 @@ void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kineti
       along(in, c, work_of(in, i), qd, frame, v, X + 3 * v);
       bend(in, c, work_of(in, i), qd, frame, v, bent + 3 * v);
     }
+    for (int k = 0; k < 3; k++) X[k] += frame[k];
     ali3_tabled_moments(c->mass, X, P);
     for (int k = 0; k < 12; k++) {
       *kinetic += P[k] * bent[k];

@@ -79,7 +79,6 @@ ALI3_INLINED void spread(const ali3_tabled *c, const ali3_tabled_work *w, const 
   if (c->count[1] > 1) row[slot[FIRST_PARAMETER + 1]] += value * w->by[1][d];
   if (c->n != ALI3_TABLED_BODY || c->frame[0] < 0) return;
   const int32_t v = d / 3, x = d % 3;
-  if (v == 0) row[slot[x]] += value;
   for (int k = 0; k < 3; k++) row[slot[3 + 3 * k + x]] += value * w->value[0][3 * v + k];
 }
 
@@ -155,7 +154,6 @@ ALI3_INLINED void parts_of(const ali3_instance *in, const ali3_tabled_group *of,
         continue;
       }
       const ali3_tabled_work *w = in->tabled + of->item[local];
-      if (d == 0) p->share[i][0] += value;
       for (int K = 0; K < 3; K++) p->share[i][1 + K] += value * w->value[0][d + K];
       for (int q = 0; q < 2 && of->along[local][q] >= 0; q++)
         for (int x = 0; x < 3; x++) p->along[i][of->along[local][q]][x] += value * w->by[q][d + x];

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
 
@@ -33,6 +33,8 @@ class Structure:
     """What its gauges report, in the order of the outputs."""
     joints: Mapping[str, np.ndarray]
     """Each of shape (3,): nodes where suspension, drive and payloads may be fixed, m."""
+    riding: Mapping[str, float] = field(default_factory=dict)
+    """Masses that balance payloads, by joint, kg: like these they ride on the frame, and `model` does not have them."""
 
 
 class DampingSection(Section):

@@ -29,7 +29,7 @@ class TubesFrame(TubeTables):
         frame, tubes = tubular.frame()
         gauges = tubular.strain_gauges(tubes)
         readings = [r for gauge in gauges for r in self.gauges[gauge.name].readings(gauge, frame)]
-        return Structure(_assembled(pickle.dumps(frame)), in_order(readings), tubular.joint_places())
+        return Structure(_assembled(pickle.dumps(frame)), in_order(readings), tubular.joint_places(), tubular.riding())
 
     def check(self, folder: Path) -> None:
         """Read the tables and the places of the gauges, each of which must be on a tube."""
