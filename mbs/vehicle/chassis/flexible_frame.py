@@ -14,6 +14,7 @@ from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.load_paths import load_path_deformations, load_path_modes
 from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.reduced_body import ReducedBody
