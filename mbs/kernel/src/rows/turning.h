@@ -33,14 +33,16 @@ static inline void turning_rates(const ali3_instance *in, const real *rate, real
 
 static const double MOST_TURN = 0.52; /* rad in a step: there the first steps give some 8e-4 of the energy */
 
-/* Whether one of them would turn further in a step of h. */
-static inline bool turns_far(const ali3_instance *in, double h) {
+#ifndef ALI3_WIDTH
+/* Largest rate of them, rad/s. */
+static inline double fastest_turn(const ali3_instance *in) {
   const ali3_system *S = in->system;
-  bool far = false;
+  double fastest = 0.0;
   for (int32_t n = 0; n < S->n_turning; n++) {
-    const real rate = in->now.qd[S->angle_theta_col[S->turning[n]]];
-    far |= ali3_any((rate * h > MOST_TURN) | (rate * h < -MOST_TURN));
+    const double rate = in->now.qd[S->angle_theta_col[S->turning[n]]];
+    fastest = rate > fastest ? rate : -rate > fastest ? -rate : fastest;
   }
-  return far;
+  return fastest;
 }
+#endif
 #endif
