@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.errors import ModelError
+from mbs.compiler.dependent_rows import DEPENDENT
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.structure import rank_at
 from mbs.model.mechanism import Mechanism
@@ -17,6 +18,46 @@ Array = NDArray[np.float64]
 
 IMPOSSIBLE = 1e-6
 """Part of the largest rate a condition asks for that may stay open."""
+
+
+def locked_gears(model: Mechanism) -> str:
+    """A sentence about gears that form a ring round which the ratios contradict each other; empty where there is none.
+
+    Raises
+    ------
+    ModelError
+        One of the wheels that are tied to the ring has a rate to start with.
+    """
+    gears: dict[int, list[tuple[int, float, str]]] = {}
+    for joint in model.joints:
+        if joint.couples is not None:
+            first, second, ratio = joint.couples
+            gears.setdefault(first, []).append((second, 1.0 / ratio, joint.name))
+            gears.setdefault(second, []).append((first, ratio, joint.name))
+    turns: dict[int, float] = {}  # of each wheel for one of the first that it is tied to
+    path: dict[int, set[str]] = {}  # gears that lead to it from there
+    for start in gears:
+        if start in turns:
+            continue
+        turns[start], path[start], tied, ring = 1.0, set(), [start], ""
+        for wheel in tied:
+            for other, ratio, name in gears[wheel]:
+                asked = ratio * turns[wheel]
+                if other not in turns:
+                    turns[other], path[other] = asked, path[wheel] | {name}
+                    tied.append(other)
+                elif not ring and abs(asked - turns[other]) > DEPENDENT * abs(turns[other]):
+                    names = ", ".join(f"'{gear}'" for gear in sorted((path[wheel] ^ path[other]) | {name}))
+                    ring = (
+                        f"The gears {names} form a ring that is locked: '{model.coordinates[other].name}' would have to "
+                        f"turn {asked / turns[other]:g} times as far as by the other way round, so none of their wheels "
+                        "turns; check the ratios and their signs."
+                    )
+        if ring and any(wheel in model.coordinate_rates for wheel in tied):
+            raise ModelError(ring)
+        if ring:
+            return ring
+    return ""
 
 
 def check_motion(

@@ -23,7 +23,7 @@ from mbs.compiler.frames import frames_of
 from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compiler.fronts import Fronts, build_fronts
 from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
-from mbs.compiler.locked import check_motion
+from mbs.compiler.locked import check_motion, locked_gears
 from mbs.compiler.metadata import metadata
 from mbs.compiler.natural import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
@@ -291,10 +291,13 @@ def _metadata(
         **reduced.counts,
         "tangent_nonzeros": ordered.tangent_nonzeros,
         "no_tree": no_tree,
+        "locked": locked_gears(model),
         "closed": closed,
         "length": reduced.length,
         "length_stated": model.length is not None,
     }
+    if locked := locked_gears(model):
+        report["locked"] = locked
     coordinates = [reduced.known.remaining[k] for k in ordered.fronts.order]
     info = [reduced.natural.info[k] for k in coordinates]
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, coordinates), reduced.length)

@@ -41,6 +41,7 @@ def refusal(
         Status.NO_TREE,
         Status.START_REFUSED,
         Status.UNRESOLVED,
+        Status.TURNS_TOO_FAR,
         Status.TOO_DEAR,
         Status.TOO_STIFF,
         Status.TOO_FAR,
@@ -75,6 +76,9 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
         return _beyond_table(simulation)
     if status == Status.NO_EQUILIBRIUM:
         return _farthest_changed(simulation)
+    if status == Status.TURNS_TOO_FAR:
+        rate = simulation.instance.report()["fastest_rate"]
+        return f" Its rate is {rate:.3g} rad/s; a step of {0.49 / rate:.2g} s follows it, and so do more `max_halvings`."
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried

@@ -350,3 +350,33 @@ def test_a_screw_without_pitch_is_refused():
     nut = m.body("nut", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     with pytest.raises(ModelError, match="pitch of screw joint 's' is 0"):
         m.screw("s", nut, m.ground, point=(0, 0, 0), axis=(0, 0, 1), pitch=0.0)
+
+
+@pytest.mark.parametrize("free", [False, True])
+def test_a_ring_of_gears_that_cannot_turn_is_told(free):
+    """Three wheels of which each turns its neighbours the other way, also beside a wheel that turns."""
+
+    def ring(ratios, rate=0.0):
+        m = at_rest("ring")
+        angles = []
+        for k in range(4 if free else 3):
+            body = m.body(f"wheel {k}", mass=1.0, com=(0.3 * k, 0.0), inertia=0.1)
+            m.revolute(f"pin {k}", m.ground, body, point=(0.3 * k, 0.0))
+            angles.append(m.relative_angle(f"angle {k}", m.ground, body))
+        for k, ratio in enumerate(ratios):
+            m.gear(f"gear {k}", angles[k], angles[(k + 1) % 3], ratio=ratio)
+        m.torque_on("motor", angles[0], input=m.input("torque"))
+        m.sense_coordinate("angle", angles[0])
+        if rate:
+            m.initial_rate(angles[1], rate)
+        return m
+
+    locked = run(ring((-1.0, -1.0, -1.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
+    assert abs(locked["angle"][-1]) < 1e-12
+    told = "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
+    assert [text for text in locked.notices if text.startswith(told)]
+    with pytest.raises(ModelError, match="form a ring that is locked" if free else "is locked"):
+        compile(ring((-1.0, -1.0, -1.0), 2.0))
+    turning = run(ring((-2.0, -3.0, 1.0 / 6.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
+    assert turning["angle"][-1] > 1e-2
+    assert not turning.notices

@@ -32,6 +32,7 @@ class Status(IntEnum):
     BAD_NORMAL = 23
     BEYOND_TABLE = 24
     BAD_INERTIA = 25
+    TURNS_TOO_FAR = 26
 
 
 class SolverValue(IntEnum):

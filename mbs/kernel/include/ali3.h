@@ -46,6 +46,7 @@ typedef enum {
   ALI3_BAD_NORMAL,        /* the inputs of a road at a port give no normal; see ali3_is_road_normal */
   ALI3_BEYOND_TABLE,      /* a coordinate is beyond a table of it by more than the spacing of its points */
   ALI3_BAD_INERTIA,       /* parameters give a body an inertia that no distribution of mass has */
+  ALI3_TURNS_TOO_FAR,     /* what is geared turns too far in a step, also in halves; see report.fastest_rate */
   ALI3_STATUS_COUNT
 } ali3_status;
 
@@ -114,7 +115,8 @@ typedef struct {
    * above two the larger of what start and end of a step give */
   double speed_peak, velocity_path, predictor_path;
   double velocity_squares, predictor_squares; /* sums of the squares of what the steps add to both paths */
-  double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s */
+  double fastest_rate; /* where a step was refused as too stiff: largest rate of change of the motion there, 1/s; where
+                          what is geared turns too far, its rate, rad/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
   double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */
   /* how much deeper than it holds a rim was pressed into a road at the start of a step, m, 0: never; when, s, where, m,

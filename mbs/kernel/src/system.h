@@ -172,6 +172,7 @@ struct ali3_system {
   int32_t *angle_theta_col, *angle_theta_j, *angle_theta_pos;
   ali3_guide_term *gterm;
   int32_t *driven_row; /* n_driven: rows with such terms */
+  int32_t *turning; /* n_turning: angles that turn with more than what they measure (rows/turning.h), of angle_row */
   ali3_term *velocity; /* as velocity_a; b is the coordinate whose rate it takes */
   double *front_mass; /* front storage holding M, the start of every tangent */
   double *mass_floor; /* nq: M_ii, or a typical mass for massless coordinates */
@@ -216,7 +217,7 @@ struct ali3_system {
   int32_t n_guide_work; /* 1 where the work of guides is sensed, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
   int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
-  int32_t n_driven, n_contact;
+  int32_t n_driven, n_contact, n_turning;
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
 };
 

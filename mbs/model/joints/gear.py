@@ -27,5 +27,5 @@ def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordin
     else:
         equation = Equation(name, "gear", linear=turned(model, a) - turned(model, b) * i)
     joint = Joint(name, "gear", [equation], rows_weight=1.0)
-    joint.as_rows = True  # angles are never eliminated
+    joint.as_rows, joint.couples = True, (a.index, b.index, i)  # angles are never eliminated
     return joint

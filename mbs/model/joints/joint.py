@@ -131,6 +131,8 @@ class Joint:
         Of joints that can be part of a closed loop.
     rolls : RollingBody, RollingSpin or None
         Of a wheel that rolls.
+    couples : (int, int, float) or None
+        Of a gear: the coordinates of its wheels, and how far the first turns for one turn of the second.
     actuator : JointEnds or None
         Of a driven distance: its ends.
     slide : (int, SlidingPoint) or None
@@ -164,6 +166,7 @@ class Joint:
         self.actuator: JointEnds | None = None
         self.slide: tuple[int, SlidingPoint] | None = None
         self.rolls: RollingBody | RollingSpin | None = None
+        self.couples: tuple[int, int, float] | None = None
 
     @property
     def turns(self) -> bool:

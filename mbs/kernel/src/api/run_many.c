@@ -18,6 +18,7 @@
 #include "../methods/stiffness.h"
 #include "../methods/whole_step.h"
 #include "../rows/guides.h"
+#include "../rows/turning.h"
 #include "../sensors/sensors.h"
 #include "../state/axes.h"
 #include "../state/inputs.h"
@@ -85,7 +86,7 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   if (ali3_inputs_until(in, step->t) < step->t) return false;
   in->halves_left = false;
   in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
-  if (ali3_divides_ahead(in, step->h) || !goes_on(in, step->h)) return false;
+  if (ali3_divides_ahead(in, step->h) || fastest_turn(in) * step->h > MOST_TURN || !goes_on(in, step->h)) return false;
   if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
   ali3_vectors_copy_unwritten(in, to, from);
   if (ali3_input_jump(in, step->h) != ALI3_OK) return false;

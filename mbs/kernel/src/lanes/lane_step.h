@@ -10,6 +10,7 @@
 #include "../methods/extrapolation.h"
 #include "../methods/predict.h"
 #include "../methods/projection.h"
+#include "../rows/turning.h"
 
 static truth all_finite(const real *v, int32_t n) {
   real sum = {0}; /* v - v is 0 for finite v, NaN else */
@@ -316,6 +317,7 @@ static void step(ali3_lane_group *in) {
   ali3_constraint_rate(in, in->next.q, &in->next, in->Phit);
   const double left = ali3_round_left(in->system, c);
   real kinetic, work = ali3_constraint_work(in, h, in->guides);
+  turning_rates(in, in->mu, in->Phit);
   *in->at_work = *in->good;
   *in->velocity_violation = ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE,
                                          left * rule.rate, MAX_SWEEPS, true);

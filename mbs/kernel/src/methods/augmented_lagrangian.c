@@ -13,6 +13,7 @@
 #include "../method.h"
 #include "../rows/constraints.h"
 #include "../rows/guides.h"
+#include "../rows/turning.h"
 #include "../rows/velocity_rows.h"
 #include "../rows/violation.h"
 #include "../state/vectors.h"
@@ -180,6 +181,12 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
   const double alpha = ali3_penalty(in, h);
   ali3_vectors *from = &in->now, *to = &in->next;
   const bool is_alpha = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA || ali3_damped_start(in, h);
+  const double turning = in->settings.project ? fastest_turn(in) : 0.0;
+  if (turning * h > MOST_TURN && in->settings.step_iterations == 0) {
+    in->report.fastest_rate = turning;
+    return ALI3_TURNS_TOO_FAR;
+  }
+  in->capped |= turning * h > MOST_TURN;
   ali3_status status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, t, h);
@@ -224,6 +231,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
   if (in->settings.project) {
     const double left = ali3_round_left(S, c);
     double kinetic, end, open, guides, work = ali3_constraint_work(in, h, &guides);
+    turning_rates(in, in->mu, in->Phit);
     in->report.velocity_violation =
         ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, left * in->rule.rate, MAX_SWEEPS, true);
     ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);

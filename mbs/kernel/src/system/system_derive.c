@@ -47,6 +47,7 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->angle_theta_j = ali3_pool_items(p, na, sizeof(int32_t));
   s->angle_theta_pos = ali3_pool_items(p, na, sizeof(int32_t));
   s->gterm = ali3_pool_items(p, (size_t)s->n_gterm_row, sizeof *s->gterm);
+  s->turning = ali3_pool_items(p, na, sizeof(int32_t));
   s->driven_row = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
   s->velocity = ali3_pool_items(p, (size_t)s->n_velocity_a, sizeof *s->velocity);
   s->front_mass = ali3_pool_items(p, (size_t)s->size.front_size, sizeof(double));
@@ -149,6 +150,23 @@ static void derive_rows(ali3_system *s) {
       s->angle[t] = term;
     }
   }
+}
+
+/* Whether row k states an angle alone, whose coordinate has inertia or stands beside others in another row. */
+static bool turns_more(const ali3_system *s, int32_t k, int32_t theta) {
+  bool more = s->mass_floor[theta] > 0.0 && s->mass_missing[theta] == 0.0;
+  for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++)
+    if (s->row_lin[i] != 0.0) return false;
+  if (s->row_const[k] != 0.0 || s->quad_ptr[k] < s->quad_ptr[k + 1]) return false;
+  for (int32_t other = 0; other < s->size.nc && !more; other++)
+    for (int32_t i = s->row_ptr[other]; i < s->row_ptr[other + 1]; i++)
+      more |= other != k && s->row_col[i] == theta && s->row_ptr[other + 1] - s->row_ptr[other] > 1;
+  return more;
+}
+
+static void derive_turning(ali3_system *s) {
+  for (int32_t i = 0; i < s->n_angle_row; i++)
+    if (turns_more(s, s->angle_row[i], s->angle_theta_col[i])) s->turning[s->n_turning++] = i;
 }
 
 /* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
@@ -464,6 +482,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_columns(s);
   derive_fronts(s);
   derive_mass(s);
+  derive_turning(s);
   ali3_elements_derive(s);
   derive_flexible(s);
   const ali3_status tabled = ali3_tabled_derive(s, m);

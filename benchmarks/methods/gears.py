@@ -1,0 +1,225 @@
+"""Free wheels that gears, racks and screws tie: what a run of many steps does to their energy, teeth and angles.
+
+Nothing acts on them, so that all rates are constant.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.pages import Row, table
+
+STEP, STEPS, EVERY = 0.01, 100_000, 10
+TURNS = (0.01, 0.05, 0.1, 0.2, 0.5)
+"""Rate of the fastest wheel times the step, rad."""
+COLUMNS = {"mechanism": "", "turn": "g", "energy": ".1e", "slip": ".1e", "late": ".1e", "alone_late": ".1e"}
+INERTIA = 0.02  # kg m2
+
+
+class Wheels:
+    """A model without gravity whose wheels turn on pins of the ground or of each other."""
+
+    def __init__(self, dimension: int = 2) -> None:
+        self.model = mbs.Model("wheels", dimension=dimension, gravity=(0.0,) * dimension)
+        self.angles: dict[str, tuple[mbs.Coordinate, float]] = {}
+        """With the rate of each, rad/s."""
+        self.ties: list[tuple[str, str, float]] = []
+        """Sensors of which the first goes `ratio` times as far as the second."""
+        self.model.sense_energy("energy", "kinetic")
+
+    def wheel(self, name: str, inertia: float, x: float = 0.0, on: mbs.Body | None = None) -> mbs.Body:
+        """A wheel on a pin at x, m."""
+        body = self.model.body(name, mass=1.0, com=(x, 0.0), inertia=inertia)
+        self.model.revolute(f"pin {name}", on or self.model.ground, body, point=(x, 0.0))
+        return body
+
+    def angle(self, name: str, carrier: mbs.Body, body: mbs.Body, rate: float) -> mbs.Coordinate:
+        """A relative angle, sensed, with its rate."""
+        angle = self.model.relative_angle(name, carrier, body)
+        self.sensed(name, angle, rate)
+        return angle
+
+    def sensed(self, name: str, angle: mbs.Coordinate, rate: float) -> None:
+        """Sense an angle and give it its rate."""
+        self.model.initial_rate(angle, rate)
+        self.model.sense_coordinate(name, angle)
+        self.angles[name] = angle, rate
+
+    def gear(self, first: str, second: str, ratio: float) -> None:
+        """A gear between two angles."""
+        self.model.gear(f"{first} {second}", self.angles[first][0], self.angles[second][0], ratio=ratio)
+        self.ties.append((first, second, ratio))
+
+    def slide(self, name: str, pinion: mbs.Coordinate, radius: float) -> mbs.Body:
+        """A rack on the ground that a pinion moves along x."""
+        body = self.model.body(name, mass=2.0, com=(0.5, -radius), inertia=0.1)
+        self.model.prismatic(f"guide {name}", body, self.model.ground, axis=(1.0, 0.0))
+        self.model.rack(f"teeth {name}", pinion, body, carrier=self.model.ground, axis=(1.0, 0.0), radius=radius)
+        self.model.sense_position(name, body, (0.5, -radius), "x")
+        return body
+
+
+def train(*ratios: float) -> Callable[[float], Wheels]:
+    """Wheels in a row, each with as much of the energy as the first: the worst share for a pair."""
+
+    def build(rate: float) -> Wheels:
+        w, size = Wheels(), max(1.0, abs(math.prod(ratios)))
+        rates = [rate if abs(math.prod(ratios)) >= 1.0 else rate * abs(math.prod(ratios))]
+        rates += [rates[0] / math.prod(ratios[: k + 1]) for k in range(len(ratios))]
+        for k, own in enumerate(rates):
+            body = w.wheel(f"wheel {k}", INERTIA / size * (rate / own) ** 2, 0.3 * k)
+            w.angle(f"angle {k}", w.model.ground, body, own)
+        for k, ratio in enumerate(ratios):
+            w.gear(f"angle {k}", f"angle {k + 1}", ratio)
+        return w
+
+    return build
+
+
+def rack(rate: float, slides: bool = False) -> Wheels:
+    """A pinion and its rack; `slides`: which another slide follows."""
+    w = Wheels()
+    pinion = w.angle("pinion", w.model.ground, w.wheel("pinion body", 0.005), rate)
+    body = w.slide("rack", pinion, 0.05)
+    w.ties.append(("rack", "pinion", 0.05))
+    if slides:
+        other = w.model.body("other", mass=0.5, com=(0.0, 0.3), inertia=0.1)
+        w.model.prismatic("guide", other, w.model.ground, axis=(0.0, 1.0))
+        ends: dict[str, Any] = {"carrier_1": w.model.ground, "carrier_2": w.model.ground}
+        w.model.coupled_slides("slides", other, body, axis_1=(0.0, 1.0), axis_2=(1.0, 0.0), ratio=-2.0, **ends)
+        w.model.sense_position("other", other, None, "y")
+        w.ties.append(("other", "rack", -2.0))
+    return w
+
+
+def screw(rate: float) -> Wheels:
+    """A nut on its thread."""
+    w, lead = Wheels(3), 0.1
+    nut = w.model.body("nut", mass=2.0, com=(0.0, 0.0, 0.0), inertia=(0.01, 0.01, INERTIA))
+    thread = w.model.screw(
+        "thread", nut, w.model.ground, point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0), pitch=2.0 * math.pi * lead
+    )
+    w.model.sense_position("way", nut, None, "z")
+    w.sensed("turn", thread.angle, rate)
+    w.ties.append(("way", "turn", lead))
+    return w
+
+
+def differential(rate: float) -> Wheels:
+    """Two shafts against a carrier of the same axis."""
+    w = Wheels()
+    carrier = w.wheel("carrier", 0.1)
+    w.angle("carrier angle", w.model.ground, carrier, 0.6 * rate)
+    for name, inertia, own in (("left", 0.01, 0.4 * rate), ("right", 0.03, -0.4 * rate)):
+        w.angle(name, carrier, w.wheel(f"{name} shaft", inertia), own)
+    w.gear("left", "right", -1.0)
+    return w
+
+
+def planetary(rate: float) -> Wheels:
+    """A sun and a planet, which a carrier takes round."""
+    w = Wheels()
+    carrier = w.wheel("carrier", 0.1)
+    w.angle("carrier angle", w.model.ground, carrier, 0.3 * rate)
+    w.angle("planet", carrier, w.wheel("planet body", 0.01, 0.2, carrier), 0.7 * rate)
+    w.angle("sun", carrier, w.wheel("sun body", 0.02), -0.35 * rate)
+    w.gear("planet", "sun", -2.0)
+    return w
+
+
+def rotor(rate: float) -> Wheels:
+    """A wheel with a rotor behind a gear."""
+    w = Wheels()
+    angle = w.angle("angle", w.model.ground, w.wheel("wheel", INERTIA), rate)
+    w.model.armature("rotor", angle, inertia=INERTIA / 100.0, ratio=10.0)
+    return w
+
+
+MECHANISMS: dict[str, Callable[[float], Wheels]] = {
+    "pair, ratio -3": train(-3.0),
+    "pair, ratio 10": train(10.0),
+    "pair, ratio -0.1": train(-0.1),
+    "train, -3 and -2": train(-3.0, -2.0),
+    "rack": rack,
+    "screw": screw,
+    "coupled slides": lambda rate: rack(rate, True),
+    "differential": differential,
+    "planetary": planetary,
+    "armature": rotor,
+}
+
+
+def alone_late(turn: float) -> float:
+    """Part of its angle by which a wheel alone is late: the trapezoidal rule turns it by 2 atan(turn / 2)."""
+    return 1.0 - 2.0 * math.atan(0.5 * turn) / turn
+
+
+def growth(ratio: float, inertia: float, other: float, turn: float, second_turn: float) -> float:
+    """Part of its energy that a pair of wheels gains in a step of the paper's rule, to leading order (docs/theory.md).
+
+    `turn`, `second_turn`: rates of the wheels times the step.
+    """
+    share = ratio**2 * inertia * other / (ratio**2 * inertia + other) ** 2
+    return share * (turn**2 - second_turn**2) ** 2 / 12.0
+
+
+def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p") -> dict[str, Any]:
+    """Largest change of the energy, slip of the teeth and lateness of angles, in parts of what there is of each."""
+    wheels = MECHANISMS[name](turn / STEP)
+    every = min(EVERY, steps)
+    r = mbs.simulate(
+        mbs.compile(wheels.model), steps * STEP, STEP, method=method, every=every, progress=False, estimate_error=False
+    )
+    way = {end: r[end] - r[end][0] for end in {*wheels.angles, *(end for tie in wheels.ties for end in tie[:2])}}
+    slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in wheels.ties]
+    late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in wheels.angles.items()]
+    return {
+        "mechanism": name,
+        "turn": turn,
+        "energy": float(np.max(np.abs(r["energy"] / r["energy"][0] - 1.0))),
+        "slip": float(max(slips, default=0.0)),
+        "late": float(max(late) / (turn * steps)),
+        "alone_late": alone_late(turn),
+        "iterations": r.report.iterations / steps,
+        "halvings": r.report.halvings,
+    }
+
+
+def rows(names: Sequence[str], quick: bool) -> list[dict[str, Any]]:
+    """All mechanisms at all rates."""
+    return [measure(name, turn, STEPS // 100 if quick else STEPS) for name in names for turn in TURNS]
+
+
+def gear_blocks(found: Sequence[Row]) -> dict[str, str]:
+    """The table of the page."""
+    heads = {"energy": "energy", "slip": "slip of teeth", "late": "late", "alone_late": "wheel alone late"}
+    shown = [
+        {"mechanism": row["mechanism"], "rate x step": row["turn"]} | {head: row[key] for key, head in heads.items()}
+        for row in found
+        if row["turn"] in (TURNS[0], TURNS[2], TURNS[-1])
+    ]
+    return {"gears": table(shown, {"rate x step": "g"} | dict.fromkeys(heads.values(), ".1e"))}
+
+
+def draw(found: Sequence[Row], folder: Path) -> None:
+    """Change of the energy over rate times step, and what the paper's rule would gain in as many steps."""
+    plt = pyplot()
+    figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
+    for name in dict.fromkeys(row["mechanism"] for row in found):
+        own = [row for row in found if row["mechanism"] == name]
+        axes.loglog([row["turn"] for row in own], [row["energy"] for row in own], "o-", markersize=3.5, label=name)
+    turns = np.geomspace(TURNS[0], TURNS[-1], 60)
+    gained = np.array([STEPS * growth(-3.0, 1.0, 9.0, x, x / 3.0) for x in turns])
+    axes.loglog(turns, gained, "k--", label="pair, ratio -3, by the paper's rule")
+    axes.axhline(1e-3, color="0.6", linewidth=0.8)
+    axes.set(xlabel="rate of the fastest wheel x step, rad", ylabel="part of the energy", ylim=(1e-12, 1e2))
+    axes.set_title(f"Free wheels: largest change of energy over {STEPS:g} steps")
+    axes.legend(fontsize=7, ncols=2)
+    save_chart(figure, folder / "stability_gears.png")
