@@ -359,3 +359,15 @@ def _percent(share: float) -> str:
 
 def _of(unit: str) -> str:
     return f" of the range in {unit}" if unit != COORDINATES else " of the range of coordinates"
+
+
+
+def sizes(values: Mapping[str, Array], units: Mapping[str, str], length: float) -> dict[str, float]:
+    """What errors of sensors are compared with: the `extent` of those of its unit; without those in which nothing moves.
+    """
+    found = {}
+    for unit in dict.fromkeys(units.values()):
+        names = [n for n in values if units[n] == unit]
+        size = extent(unit, [values[n] for n in names], length)
+        found |= dict.fromkeys(names, size) if size > 0.0 else {}
+    return found
