@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 import mbs
 from benchmarks.references.newton_euler import NoReferenceError
 from mbs.elements.road import KerbRoad
-from mbs.results.accuracy import differences, judged_sensors
+from mbs.results.judged import differences, judged_sensors
 from mbs.simulation.prepared_system import length_of
 from mbs.vehicle import load as load_car
 
@@ -89,11 +89,11 @@ def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory])
         fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)
     except mbs.SimulationError as refused:
         raise NoReferenceError(str(refused)) from refused
-    groups = judged_sensors(system)
-    apart = max(differences(other, fine, groups, None, length_of(system))[0].values())
+    judged = {name: what for name, what in judged_sensors(system).items() if what.always}
+    apart = max(differences(other, fine, judged, None, length_of(system))[0].values())
     if not apart <= AGREE:
         raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
-    return {n: fine[n] for names in groups.values() for n in names}
+    return {name: fine[name] for name in judged}
 
 
 @cache

@@ -14,7 +14,8 @@ import mbs
 from benchmarks.methods.families import FAMILIES, Case, Found
 from benchmarks.references.newton_euler import NoReferenceError
 from benchmarks.shared.pages import Row, table
-from mbs.results.accuracy import WRONG_ERROR, sizes
+from mbs.results.accuracy import WRONG_ERROR
+from mbs.results.judged import judged_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
@@ -74,14 +75,14 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     h = float(rng.choice(case.steps))
     every = max(1, round(case.span / intervals / h))
     fixed = case.span / intervals / every  # the nearest step that ends at the instants
-    units = {sensor["name"]: sensor["unit"] for sensor in case.system.meta["sensors"]}
-    size = sizes(case.truth, {name: units[name] for name in case.truth}, length_of(case.system))
+    sensors = {name: what for name, what in judged_sensors(case.system).items() if name in case.truth}
+    size = sizes_of(case.truth, sensors, length_of(case.system))
 
     def of_range(values: Mapping[str, Array]) -> float:
         return max((float(np.abs(values[n] - case.truth[n]).max()) / s for n, s in size.items()), default=0.0)
 
     def of_length(values: Mapping[str, Array]) -> float:
-        places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if units[n] == "m"]
+        places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if sensors[n].unit == "m"]
         return float(max(places)) / length_of(case.system)
 
     yield _verdict(f"{h:g} s", lambda: case.run(h=fixed, every=every), of_range, WRONG_ERROR)
