@@ -16,7 +16,7 @@ import mbs
 from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.accuracy import extent, judged_sensors
+from mbs.results.judged import judged_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
@@ -51,8 +51,6 @@ class Scene:
     """Trajectory of a method and a step, recorded at the instants; further arguments as of `mbs.simulate`."""
     truth: Callable[[], Mapping[str, Array]]
     """Values by sensor."""
-    units: Callable[[], Mapping[str, list[str]]]
-    """Judged sensors by unit, of those with a truth."""
     system: Callable[[], mbs.System]
     """Whose length tells what is rest."""
     methods: Callable[[], list[str]]
@@ -61,18 +59,15 @@ class Scene:
     """From coarse to fine, s."""
 
     def error(self, found: mbs.Trajectory) -> tuple[float, float]:
-        """Largest error over the largest range of a unit, and the estimated error of its sensor over that range
-        (nan: none).
-        """
+        """Largest error of a sensor over what it is held against, and its estimated error over that (nan: none)."""
         worst, estimated = 0.0, float("nan")
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
-        true, length = self.truth(), length_of(self.system())
-        for unit, names in self.units().items():
-            size = extent(unit, [true[n] for n in names], length)
-            for name in names if size > 0.0 else ():
-                error = float(np.abs(found[name] - true[name]).max()) / size
-                if error >= worst:
-                    worst, estimated = error, estimate.get(name, float("nan")) / size
+        true, judged = self.truth(), judged_sensors(self.system())
+        judged = {name: what for name, what in judged.items() if what.always and name in true}
+        for name, size in sizes_of(true, judged, length_of(self.system())).items():
+            error = float(np.abs(found[name] - true[name]).max()) / size
+            if error >= worst:
+                worst, estimated = error, estimate.get(name, float("nan")) / size
         return worst, estimated
 
 
@@ -96,13 +91,7 @@ def _case_truth(name: str) -> dict[str, Array]:
     best = _case_run(name, method, case.end / (SAMPLES * division), estimate_error=False)
     for sensor, values in known.items():
         assert np.abs(best[sensor] - values).max() < CLOSE * np.ptp(exact), f"{name}: {sensor}"
-    return {n: best[n] for names in judged_sensors(system_of(name)).values() for n in names} | known
-
-
-def _case_units(name: str) -> dict[str, list[str]]:
-    true = _case_truth(name)
-    groups = {u: [n for n in names if n in true] for u, names in judged_sensors(system_of(name)).items()}
-    return {unit: names for unit, names in groups.items() if names and np.ptp([true[n] for n in names]) > 0.0}
+    return {n: best[n] for n, what in judged_sensors(system_of(name)).items() if what.always} | known
 
 
 def _case(name: str) -> Scene:
@@ -110,7 +99,6 @@ def _case(name: str) -> Scene:
     return Scene(
         partial(_case_run, name),
         partial(_case_truth, name),
-        partial(_case_units, name),
         partial(system_of, name),
         lambda: [m for m in KERNEL if suits(m, case.conservative, system_of(name))],
         tuple(case.end / (SAMPLES * d) for d in case.divisions),
@@ -181,7 +169,7 @@ def _car_truth(name: str) -> dict[str, Array]:
     """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
-    return {n: fine[n] for names in judged_sensors(manoeuvres.system_of(name)).values() for n in names}
+    return {n: fine[n] for n, what in judged_sensors(manoeuvres.system_of(name)).items() if what.always}
 
 
 def _car(name: str) -> Scene:
@@ -190,7 +178,6 @@ def _car(name: str) -> Scene:
     return Scene(
         partial(_car_run, name),
         partial(_car_truth, name),
-        lambda: judged_sensors(manoeuvres.system_of(name)),
         partial(manoeuvres.system_of, name),
         lambda: ["ali3p", "ali3p_no_projection", "ali3p_generalised_alpha", "energy_momentum"],
         steps,
@@ -202,7 +189,6 @@ SCENES: dict[str, Scene] = {
     "printed_crank_slider": Scene(
         _crank_run,
         _crank_truth,
-        lambda: {"rad": ["crank.angle"], "m": ["piston.x"]},
         printed_model,
         lambda: [m for m in KERNEL if suits(m, True, printed_model())],
         (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5, 2e-5),
@@ -210,7 +196,6 @@ SCENES: dict[str, Scene] = {
     "tumbling_body": Scene(
         _tumbling_run,
         _tumbling_truth,
-        lambda: {"m": [f"tip.{c}" for c in "xyz"]},
         tumbling_body,
         lambda: [m for m in KERNEL if suits(m, True, tumbling_body())],
         (0.02, 0.01, 0.005, 0.0025, 0.001, 0.0005, 0.0002),

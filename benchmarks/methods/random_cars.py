@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -10,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
+from benchmarks.references.newton_euler import NoReferenceError
 from mbs.elements.road import KerbRoad
-from mbs.results.accuracy import differences, judged_sensors
+from mbs.results.judged import differences, judged_sensors
 from mbs.simulation.prepared_system import length_of
 from mbs.vehicle import load as load_car
 
@@ -21,10 +23,6 @@ STEPS = (0.02, 0.01, 0.005, 0.002)  # s
 INTERVAL = 0.02  # s, of the record
 REFERENCE, CHECK = 2.5e-4, 1e-4  # s, steps of energy-momentum and of ALi3-P
 AGREE = 0.01  # of the range: by which they may differ
-
-
-class NoReferenceError(Exception):
-    """Two methods do not agree, or one of them refuses."""
 
 
 @dataclass(frozen=True)
@@ -58,23 +56,11 @@ class Drive:
     @property
     def system(self) -> mbs.System:
         """The car on its road."""
-        return _system(self.car, self.step)
+        return system_of(self.car, self.step)
 
     def truth(self) -> dict[str, Array]:
-        """Judged sensors at the instants of the record, as two methods show them.
-
-        Raises `NoReferenceError`: they do not agree, or one refuses.
-        """
-        try:
-            fine = self.run("ali3p", CHECK, estimate_error=False)
-            other = self.run("energy_momentum", REFERENCE, estimate_error=False)
-        except mbs.SimulationError as refused:
-            raise NoReferenceError(str(refused)) from refused
-        groups = judged_sensors(self.system)
-        apart = max(differences(other, fine, groups, None, length_of(self.system))[0].values())
-        if not apart <= AGREE:
-            raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
-        return {n: fine[n] for names in groups.values() for n in names}
+        """Judged sensors at the instants of the record, see `agreed`."""
+        return agreed(self.system, lambda method, h: self.run(method, h, estimate_error=False))
 
 
 def drive(rng: np.random.Generator) -> Drive:
@@ -94,8 +80,25 @@ def drive(rng: np.random.Generator) -> Drive:
     )
 
 
+def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory]) -> dict[str, Array]:
+    """Judged sensors at the instants of the record, as two methods show them; `simulate`: by a method in steps, s.
+
+    Raises `NoReferenceError`: they do not agree, or one refuses.
+    """
+    try:
+        fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)
+    except mbs.SimulationError as refused:
+        raise NoReferenceError(str(refused)) from refused
+    judged = {name: what for name, what in judged_sensors(system).items() if what.always}
+    apart = max(differences(other, fine, judged, None, length_of(system))[0].values())
+    if not apart <= AGREE:
+        raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")
+    return {name: fine[name] for name in judged}
+
+
 @cache
-def _system(name: str, step: float) -> mbs.System:
+def system_of(name: str, step: float) -> mbs.System:
+    """A car on level ground with a kerb, m up (positive) or down; without one on the road of its file."""
     car = load_car(name)
     if step == 0.0:
         return mbs.compile(car.model())

@@ -18,24 +18,17 @@ NEARLY_EQUAL = 0.3  # share of loops whose arms are drawn so that they all but l
 NEAR = (1e-3, 0.05)  # by which they differ, of their length
 
 
-def drawing(rng: np.random.Generator) -> tuple[str, Drawing]:
-    """A mechanism with its kind."""
-    kinds: dict[str, Callable[[np.random.Generator], Drawing]] = {
-        "four-bar": four_bar,
-        "slider-crank": slider_crank,
-        "six-bar": six_bar,
-        "four-bar with pendulum": _hung,
-        "chain": lambda r: _chain(r, 2),
-        "spatial chain": lambda r: _chain(r, 3),
-        "spatial four-bar": spatial_four_bar,
-        "spatial slider-crank": spatial_slider_crank,
-    }
-    kind = str(rng.choice(list(kinds)))
-    return kind, kinds[kind](rng)
+def drawing(rng: np.random.Generator, dimension: int | None = None) -> tuple[str, Drawing]:
+    """A mechanism with its kind, in the plane (2), in space (3), or either."""
+    kinds = [kind for kind in KINDS if dimension is None or dimension == (3 if "spatial" in kind else 2)]
+    kind = str(rng.choice(kinds))
+    return kind, KINDS[kind](rng)
 
 
-def model_of(d: Drawing) -> mbs.Model:
-    """The mechanism in the vocabulary of the engine."""
+def model_of(d: Drawing, rates: bool = False) -> mbs.Model:
+    """The mechanism in the vocabulary of the engine; with `rates` these are sensed, the torque of its drive, and what
+    rests or is prescribed, in place of its tips.
+    """
     down = (0.0, -d.gravity) if d.dimension == 2 else (0.0, 0.0, -d.gravity)
     m = mbs.Model("random", dimension=d.dimension, gravity=down)
     bodies = [
@@ -47,7 +40,9 @@ def model_of(d: Drawing) -> mbs.Model:
     of = {GROUND: m.ground, **dict(enumerate(bodies))}
     for i, j in enumerate(d.joints):
         first, second, name = of[j.first], of[j.second], f"j{i}"
-        if j.kind == "line":
+        if j.kind == "pin":
+            m.pin(name, first, j.point, on=j.held[0] <= 0.0)
+        elif j.kind == "line":
             m.point_on_line(name, (first, j.point), (m.ground, j.point), axis=j.axis)
         elif j.kind == "ball" or d.dimension == 2:
             (m.spherical if j.kind == "ball" else m.revolute)(name, second, first, point=j.point)
@@ -62,14 +57,20 @@ def model_of(d: Drawing) -> mbs.Model:
         if d.torque:
             m.torque_on("motor", angle, input=m.input("torque", start=d.torque))
         if d.drive is not None:
-            c = np.array([*d.drive[::-1], 0.0])[:, None]
-            m.drive("drive", angle, m.guide_time("guide", PPoly(c, [0.0, 2.0 * d.span]), unit="rad"))
+            drive = m.drive("drive", angle, m.guide_time("guide", d.drive, unit="rad"))
+            if rates:
+                m.sense_coordinate("motor.angle", angle)
+                m.sense_joint("motor.torque", drive, "drive")
     if d.drive is None and d.rate:
         turn = d.rate if d.dimension == 2 else d.rate * d.joints[0].axis
         arm = d.links[0].com - d.joints[0].point
         linear = d.rate * np.array([-arm[1], arm[0]]) if d.dimension == 2 else np.cross(turn, arm)
         m.initial_velocity(bodies[0], linear=linear, angular=turn)
-    for i, c in itertools.product(range(len(bodies)), "xyz"[: d.dimension]):
+    for c in "xyz"[: d.dimension] if rates else "":
+        m.sense_position(f"pin.{c}", bodies[0], d.joints[0].point, c)
+    for i, c in itertools.product(range(len(bodies)), "xyz" if d.dimension == 3 else "z") if rates else ():
+        m.sense_rotation(f"rate{i}.{c}", bodies[i], c, order=1)
+    for i, c in itertools.product(range(len(bodies)), "xyz"[: d.dimension]) if not rates else ():
         m.sense_position(f"tip{i}.{c}", bodies[i], None if d.links[i].inertia is None else d.tips[i], c)
     return m
 
@@ -105,9 +106,10 @@ def _moved(rng: np.random.Generator, d: Drawing) -> Drawing:
         "springs": springs,
         "rate": float(rng.normal(0.0, 2.0) * scale),
         "torque": 0.0 if driven or rng.random() < 0.6 else float(rng.normal(0.0, 0.5) * total * 9.81 * size),
-        "drive": (float(rng.uniform(-2.0, 2.0) * scale), float(rng.uniform(-0.3, 0.3) * scale**2)) if driven else None,
-        "span": float(rng.uniform(1.0, 3.0)),
     }
+    drive = (float(rng.uniform(-2.0, 2.0) * scale), float(rng.uniform(-0.3, 0.3) * scale**2)) if driven else ()
+    values["span"] = span = float(rng.uniform(1.0, 3.0))
+    values["drive"] = PPoly(np.array([*drive[::-1], 0.0])[:, None], [0.0, 2.0 * span]) if driven else None
     return Drawing(**values)
 
 
@@ -126,19 +128,23 @@ def _meet(a: Array, ra: float, b: Array, rb: float, side: float) -> Array | None
     return a + x * e + side * np.sqrt(ra**2 - x**2) * np.array([-e[1], e[0]])
 
 
-def _lengths(rng: np.random.Generator) -> Array:
-    """Crank, coupler, rocker and frame of a four-bar, m; some with arms that all but come into line."""
+def _lengths(rng: np.random.Generator, near: tuple[float, float] | None) -> Array:
+    """Crank, coupler, rocker and frame of a four-bar, m; some with arms that all but come into line, with `near` all,
+    by that much of their length.
+    """
     r = 10.0 ** rng.uniform(-0.6, 0.3, 4)
-    if rng.random() < NEARLY_EQUAL:
-        near = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(NEAR))
-        r[2] = (r[0] + r[3] - r[1]) * near if r[0] + r[3] > 1.1 * r[1] else r[1] + (r[3] - r[0]) * near
+    if rng.random() < NEARLY_EQUAL or near is not None:
+        part = 1.0 + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(*np.log10(near or NEAR))
+        r[2] = (r[0] + r[3] - r[1]) * part if r[0] + r[3] > 1.1 * r[1] else r[1] + (r[3] - r[0]) * part
     return np.abs(r)
 
 
-def _loop(rng: np.random.Generator) -> tuple[list[Link], list[Joint], list[Array], Array, Array]:
+def _loop(
+    rng: np.random.Generator, near: tuple[float, float] | None = None
+) -> tuple[list[Link], list[Joint], list[Array], Array, Array]:
     """Links, joints and tips of a four-bar, and the ends of its coupler."""
     while True:
-        crank, coupler, rocker, frame = _lengths(rng)
+        crank, coupler, rocker, frame = _lengths(rng, near)
         angle = rng.uniform(0.0, 2.0 * np.pi)
         a, d = np.zeros(2), np.array([frame, 0.0])
         b = crank * np.array([np.cos(angle), np.sin(angle)])
@@ -155,13 +161,13 @@ def _loop(rng: np.random.Generator) -> tuple[list[Link], list[Joint], list[Array
     return links, joints, [b, c, c], b, c
 
 
-def four_bar(rng: np.random.Generator) -> Drawing:
-    """Of all of Grashof's kinds."""
-    links, joints, tips, _, _ = _loop(rng)
+def four_bar(rng: np.random.Generator, near: tuple[float, float] | None = None) -> Drawing:
+    """Of all of Grashof's kinds; `near`: by which its arms differ where they come into line, of their length."""
+    links, joints, tips, _, _ = _loop(rng, near)
     return _moved(rng, _drawing(2, links, joints, tips))
 
 
-def _hung(rng: np.random.Generator) -> Drawing:
+def hung(rng: np.random.Generator) -> Drawing:
     """A pendulum on the coupler of a four-bar."""
     links, joints, tips, b, c = _loop(rng)
     hook = b + rng.uniform(0.2, 1.2) * (c - b)
@@ -213,7 +219,7 @@ def _direction(rng: np.random.Generator, d: int) -> Array:
     return np.asarray(v / np.linalg.norm(v))
 
 
-def _chain(rng: np.random.Generator, d: int) -> Drawing:
+def chain(rng: np.random.Generator, d: int) -> Drawing:
     """One to three links, each hung on the one before."""
     at, links, joints, tips = np.zeros(d), [], [], []
     for i in range(int(rng.integers(1, 4))):
@@ -260,3 +266,15 @@ def spatial_slider_crank(rng: np.random.Generator) -> Drawing:
         Joint("line", 2, GROUND, c, _direction(rng, 3)),
     ]
     return _moved(rng, _drawing(3, links, joints, [arm, 0.5 * (arm + c), c]))
+
+
+KINDS: dict[str, Callable[[np.random.Generator], Drawing]] = {
+    "four-bar": four_bar,
+    "slider-crank": slider_crank,
+    "six-bar": six_bar,
+    "four-bar with pendulum": hung,
+    "chain": lambda r: chain(r, 2),
+    "spatial chain": lambda r: chain(r, 3),
+    "spatial four-bar": spatial_four_bar,
+    "spatial slider-crank": spatial_slider_crank,
+}

@@ -5,11 +5,13 @@ share no coordinates, no equations and no integrator with the engine (Haug, "Com
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
+from scipy.interpolate import PPoly
 
 Array = NDArray[np.float64]
 GROUND = -1
@@ -36,8 +38,8 @@ class Link:
 
 @dataclass(frozen=True)
 class Joint:
-    """A shared point of two links, the first one moving; `kind` "ball", "hinge" about `axis`, or "line": the point
-    of the first link stays on a line of the ground along `axis`.
+    """A shared point of two links, the first one moving; `kind` "ball", "hinge" about `axis`, "line": the point
+    of the first link stays on a line of the ground along `axis`, or "pin": it stays where it is while `held`.
     """
 
     kind: str
@@ -45,6 +47,8 @@ class Joint:
     second: int
     point: Array
     axis: Array
+    held: tuple[float, float] = (-np.inf, np.inf)
+    """From when to when the joint is closed, s."""
 
 
 @dataclass(frozen=True)
@@ -76,11 +80,18 @@ class Drawing:
     kinetic energy."""
     torque: float
     """On link 0 from the ground about that axis, N m."""
-    drive: tuple[float, ...] | None
-    """Coefficients of the angle of link 0 in time, from the linear one on; None: not driven."""
+    drive: PPoly | None
+    """Angle of link 0 over time, 0 at the start; its rate may jump from piece to piece. None: not driven."""
     span: float
     """Duration, s."""
     gravity: float = 9.81
+
+    @property
+    def events(self) -> list[float]:
+        """When rows change, from 0 to the end, s."""
+        held = [t for joint in self.joints for t in joint.held]
+        breaks = [] if self.drive is None else list(self.drive.x)
+        return [0.0, *sorted({float(t) for t in (*held, *breaks) if 0.0 < t < self.span}), self.span]
 
     @property
     def size(self) -> float:
@@ -103,7 +114,8 @@ def square_to(axis: Array) -> Array:
     return np.asarray(np.linalg.svd(axis[None])[2][1:])
 
 
-def _quaternion_matrix(p: Array) -> Array:
+def quaternion_matrix(p: Array) -> Array:
+    """The rotation of a unit quaternion, scalar first, (3, 3)."""
     w, v = p[0], p[1:]
     return (w * w - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * w * _skew(v)
 
@@ -117,6 +129,7 @@ class Dynamics:
         self.parameters = 1 if self.d == 2 else 4
         self.com = np.array([link.com for link in drawing.links])
         self.calls = 0
+        self.between = (-np.inf, np.inf)  # the events around the time
         self.across = {id(j): square_to(j.axis) for j in drawing.joints}
         self.inertia = [np.eye(self.turns) * 1.0 if k.inertia is None else np.eye(self.turns) * k.inertia
                         if np.ndim(k.inertia) == 0 else np.asarray(k.inertia) for k in drawing.links]  # fmt: skip
@@ -131,10 +144,37 @@ class Dynamics:
             rows = np.vstack([rows, self._turn_of_first(x)])
             rate = self.drawing.rate
         else:
-            rate = self.drawing.drive[0]
-        velocity = self._solve(mass, rows, np.zeros(nv), np.append(np.zeros(len(rows) - 1), rate))
-        x[-nv:] = velocity
+            rate = self._driven(0.0, 1)
+        x[-nv:] = self._solve(mass, rows, np.zeros(nv), np.append(np.zeros(len(rows) - 1), rate))[:nv]
         return x
+
+    def struck(self, t: float, x: Array) -> Array:
+        """The state behind an event at t: the velocities that satisfy the rows, by impulses along them."""
+        mass, _, rows, _ = self._equations(t, x)
+        nv = len(mass)
+        right = np.zeros(len(rows))
+        if self.drawing.drive is not None:
+            right[-1] = self._driven(t, 1)
+        return np.concatenate([x[:-nv], self._solve(mass, rows, mass @ x[-nv:], right)[:nv]])
+
+    def rates_and_drive(self, t: float, x: Array) -> Array:
+        """Angular velocities of the links in their own axes, and the torque of the drive on link 0 (0 without one)."""
+        mass, force, rows, gamma = self._equations(t, x)
+        omega = x[-self.n * self.turns :]
+        if self.d == 3:
+            omega = np.einsum("nij,ni->nj", self._poses(x)[1], omega.reshape(self.n, 3)).ravel()
+        driven = self.drawing.drive is not None
+        return np.append(omega, -self._solve(mass, rows, force, -gamma)[-1] if driven else 0.0)
+
+    def _driven(self, t: float, order: int) -> float:
+        """Rate (1) or acceleration (2) of the drive, of the piece between the events around t."""
+        drive = self.drawing.drive
+        assert drive is not None
+        middle = min(max(0.5 * (self.between[0] + self.between[1]), 0.0), self.drawing.span)
+        if not np.isfinite(middle):
+            middle = t
+        k = int(np.clip(np.searchsorted(drive.x, middle, side="right") - 1, 0, len(drive.x) - 2))
+        return float(np.polyval(np.polyder(drive.c[:, k], order), t - drive.x[k]))
 
     def rates(self, t: float, x: Array) -> Array:
         """dx/dt."""
@@ -143,7 +183,7 @@ class Dynamics:
             raise NoReferenceError("the reference does not end")
         n, d = self.n, self.d
         mass, force, rows, gamma = self._equations(t, x)
-        acceleration = self._solve(mass, rows, force, -gamma)
+        acceleration = self._solve(mass, rows, force, -gamma)[: len(mass)]
         velocity = x[n * (d + self.parameters) :]
         omega = velocity[n * d :].reshape(n, self.turns)
         if d == 2:
@@ -166,7 +206,7 @@ class Dynamics:
         m = len(mass)
         matrix = np.zeros((m + k, m + k))
         matrix[:m, :m], matrix[:m, m:], matrix[m:, :m] = mass, rows.T, rows
-        return np.asarray(np.linalg.solve(matrix, np.concatenate([force, right]))[:m])
+        return np.asarray(np.linalg.solve(matrix, np.concatenate([force, right])))
 
     def _poses(self, x: Array) -> tuple[Array, Array]:
         n, d = self.n, self.d
@@ -174,7 +214,7 @@ class Dynamics:
         if d == 2:
             c, s = np.cos(orientation), np.sin(orientation)
             return place, np.array([[c, -s], [s, c]]).transpose(2, 0, 1)
-        return place, np.array([_quaternion_matrix(p / np.linalg.norm(p)) for p in orientation.reshape(n, 4)])
+        return place, np.array([quaternion_matrix(p / np.linalg.norm(p)) for p in orientation.reshape(n, 4)])
 
     def _lever(self, s: Array) -> Array:
         """Velocity of a point at s from the centre by the angular velocity (d, turns)."""
@@ -222,9 +262,15 @@ class Dynamics:
             along = gap / length
             pull = spring.stiffness * (length - spring.length) + spring.damping * float(along @ (v2 - v1))
             force += pull * along @ (rows_1 - rows_2)
-        all_rows, gamma = [], []
+        all_rows, gamma = [np.zeros((0, nv))], [np.zeros(0)]
         for joint in drawing.joints:
+            if not (joint.held[0] <= self.between[0] and self.between[1] <= joint.held[1]):
+                continue
             _, _, rows_1, in_1 = point(joint.first, joint.point)
+            if joint.kind == "pin":
+                all_rows.append(rows_1)
+                gamma.append(in_1)
+                continue
             if joint.kind == "line":
                 normals = self.across[id(joint)]
                 all_rows.append(normals @ rows_1)
@@ -241,7 +287,7 @@ class Dynamics:
         force += drawing.torque * first[0]
         if drawing.drive is not None:
             all_rows.append(first)
-            gamma.append([-sum(k * (k - 1) * a * t ** (k - 2) for k, a in enumerate(drawing.drive, 1) if k > 1)])
+            gamma.append(np.array([-self._driven(t, 2)]))
         return mass, force, np.vstack(all_rows), np.concatenate(gamma)
 
     def _hinge(self, joint: Joint, turn: Array, omega: Array) -> tuple[Array, Array]:
@@ -261,33 +307,43 @@ class Dynamics:
         return rows, product
 
 
-def motion(drawing: Drawing) -> Array:
-    """Positions of the tips (INSTANTS + 1, n, d), of a run that another at a hundred times its tolerance confirms.
+def motion(drawing: Drawing, rates: bool = False) -> Array:
+    """Positions of the tips (INSTANTS + 1, n, d), of a run that another at a hundred times its tolerance confirms; with
+    `rates` what `Dynamics.rates_and_drive` gives (INSTANTS + 1, k), before each event.
 
     Raises `NoReferenceError`: they differ by more than 1e-5 of the size of the drawing, or one of them does not end.
     """
-    coarse, found = (_run(drawing, tolerance) for tolerance in (COARSE, FINE))
+    (coarse, _), (found, seen) = (_run(drawing, tolerance) for tolerance in (COARSE, FINE))
     apart = float(np.abs(coarse - found).max()) / drawing.size
     if not apart <= AGREE:
-        coarse, found = found, _run(drawing, FINEST)
+        coarse, (found, seen) = found, _run(drawing, FINEST)
         apart = float(np.abs(coarse - found).max()) / drawing.size
     if not apart <= AGREE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the size")
-    return found
+    return seen if rates else found
 
 
-def _run(drawing: Drawing, tolerance: float) -> Array:
+def _run(drawing: Drawing, tolerance: float) -> tuple[Array, Array]:
     dynamics = Dynamics(drawing)
     t = np.linspace(0.0, drawing.span, INSTANTS + 1)
     # no step is so long that the motion between its stages could hide from both runs
     limit = drawing.span / (200.0 if tolerance == COARSE else 350.0)
+    tips, seen = [], []
+    x = np.zeros(0)
     try:
-        run = solve_ivp(
-            dynamics.rates, (0.0, drawing.span), dynamics.start(), t_eval=t, method="DOP853",
-            rtol=tolerance, atol=0.1 * tolerance, max_step=limit,
-        )  # fmt: skip
+        for begin, end in itertools.pairwise(drawing.events):
+            dynamics.between = (begin, end)
+            x = dynamics.struck(begin, x) if len(x) else dynamics.start()
+            asked = t[(t > begin if begin > 0.0 else t >= begin) & (t <= end)]
+            run = solve_ivp(
+                dynamics.rates, (begin, end), x, t_eval=np.append(asked[asked < end], end), method="DOP853",
+                rtol=tolerance, atol=0.1 * tolerance, max_step=limit,
+            )  # fmt: skip
+            if not run.success:
+                raise NoReferenceError(run.message)
+            x = run.y[:, -1]
+            tips += [dynamics.tips(state) for state in run.y.T[: len(asked)]]
+            seen += [dynamics.rates_and_drive(*row) for row in zip(asked, run.y.T[: len(asked)], strict=True)]
     except np.linalg.LinAlgError as singular:
         raise NoReferenceError("the rows are singular") from singular
-    if not run.success:
-        raise NoReferenceError(run.message)
-    return np.array([dynamics.tips(x) for x in run.y.T])
+    return np.array(tips), np.array(seen)

@@ -47,6 +47,8 @@ class Part:
     """Draws the rows; a folder for several charts."""
     check: Callable[[Sequence[Row], Namespace], Sequence[str]] | None = None
     """Sentences that make the exit code 1."""
+    meant: bool = False
+    """Whether options without the name of a part are of this one."""
 
 
 def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Sequence[str] | None = None) -> int:
@@ -64,7 +66,10 @@ def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Seque
         chosen = parser.add_subparsers(dest="part", metavar="PART", required=True)
         for key, part in parts.items():
             _add_options(chosen.add_parser(key, help=part.about, description=part.about), part)
-    options = parser.parse_args(arguments)
+    given = [*(sys.argv[1:] if arguments is None else arguments)]
+    if given and given[0].startswith("--") and given[0] != "--help":
+        given = [key for key, part in parts.items() if part.meant and len(parts) > 1] + given
+    options = parser.parse_args(given)
     part = parts[options.part]
     for key, (default, _) in part.options.items():
         value = getattr(options, key)

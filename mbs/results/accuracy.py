@@ -5,22 +5,19 @@ a repeated run with shorter steps.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mbs.kernel.header.enumerations import GuideType, SensorType
+from mbs.kernel.header.enumerations import GuideType
 from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
-from mbs.results.missed_load import missed_load
+from mbs.results.judged import COORDINATES, INSTANTS, Judged
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import is_open_tree
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
-
-Array = NDArray[np.float64]
 
 WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
@@ -36,13 +33,7 @@ MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 
 GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
-INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
-WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
-STILL = 1e-4  # of the largest value in the unit, or of `size_in`: a smaller range is rest
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
-COORDINATES = "1"
-WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
-LENGTHS, RATES = ("m", "rad", "N"), ("m/s", "rad/s")
 
 
 class AccuracyWarning(UserWarning):
@@ -97,38 +88,6 @@ class Accuracy:
         return "; ".join(said)
 
 
-def judged_sensors(system: System) -> dict[str, list[str]]:
-    """Names of the sensors that a repeat is judged by, by unit, of those that the System computes.
-
-    Positions and lengths, angles that are not wrapped, forces of elements such as wheel loads; of a System without
-    them velocities. Wrapped angles, gears, energies and accelerations change in jumps, or change sign, where a small
-    shift in time is a large difference: they say nothing.
-    """
-    arrays = system.arrays
-    found: dict[str, list[str]] = {}
-    for i, sensor in enumerate(system.meta["sensors"]):
-        if not sensor.get("computed", True):
-            continue
-        kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"]
-        first, last = arrays["sen_int_ptr"][i : i + 2]
-        order = int(arrays["sen_int"][first]) if kind in WITH_ORDER and last > first else 0
-        place = kind == SensorType.SIGNAL or (kind in WITH_ORDER and order == 0)
-        rate = kind in (SensorType.SIGNAL_RATE, SensorType.ANGULAR_RATE) or (kind in WITH_ORDER and order == 1)
-        if (
-            (place and unit in ("m", "rad"))
-            or (kind == SensorType.ELEMENT_OUTPUT and unit in ("m", "N"))
-            or (rate and unit in RATES)
-        ):
-            found.setdefault(unit, []).append(sensor["name"])
-    units = LENGTHS if any(unit in found for unit in ("m", "rad")) else (*RATES, *LENGTHS)
-    return {unit: names for unit, names in found.items() if unit in units}
-
-
-def has_motion_sensor(system: System) -> bool:
-    """Whether some sensor measures positions or velocities; else the coordinates of the System are compared."""
-    return any(unit != "N" for unit in judged_sensors(system))
-
-
 def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | None = None) -> str:
     """How a run is to be checked: empty, not at all; `SCREEN` by one of twice the step, `REPEAT` by one of half.
 
@@ -177,79 +136,6 @@ def recorded_every(every: int, steps: int) -> int:
     """A divisor of `every` with which a run of so many steps has enough samples to be compared."""
     least = max(1, steps // INSTANTS)
     return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
-
-
-def instants(samples: int) -> NDArray[np.int_]:
-    """Numbers of the samples at which two runs are compared: all of a short record, 51 of a longer one."""
-    last = max(samples - 1, 0)
-    return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
-
-
-def rows_judged(unit: str, samples: int) -> NDArray[np.int_]:
-    """Numbers of the samples at which sensors of a unit are compared: forces at `instants`, others at all."""
-    return instants(samples) if unit == "N" else np.arange(samples)
-
-
-def size_in(unit: str, length: float) -> float:
-    """Beyond this a value tells where something is, not how large it is: of a model with this length, m."""
-    return {"m": length, "rad": 1.0, COORDINATES: max(length, 1.0)}.get(unit, math.inf)
-
-
-def extent(unit: str, values: Sequence[Array], length: float) -> float:
-    """What errors of sensors of one unit are compared with: their largest range, of forces their largest value, since
-    they carry loads that stay; 0 where nothing moves in a model with this length, m, wherever it lies.
-    """
-    largest = max(float(np.abs(v).max()) for v in values)
-    moved = max(float(np.ptp(v)) for v in values)
-    if moved <= STILL * min(largest, size_in(unit, length)):
-        return 0.0
-    return largest if unit == "N" else moved
-
-
-def differences(
-    coarse: Mapping[str, Array],
-    fine: Mapping[str, Array],
-    groups: Mapping[str, Sequence[str]],
-    before: Mapping[str, Array] | None,
-    length: float,
-) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs, at their `instants` and of loads between them.
-
-    Ranges are those of the finer run together with `before`, the ends of what moved in the runs before these.
-
-    Returns
-    -------
-    units : dict of str to float
-        Largest difference over the `extent`, per unit; units in which nothing moves are left out.
-    sensors : dict of str to float
-        Largest difference per sensor.
-    ranges : dict of str to float
-        Largest range per unit, see `extent`.
-    """
-    units: dict[str, float] = {}
-    sensors: dict[str, float] = {}
-    ranges: dict[str, float] = {}
-    for unit, names in groups.items():
-        forces = unit == "N"
-        rows = rows_judged(unit, len(coarse[names[0]]))
-        gaps = {name: float(np.abs(coarse[name][rows] - fine[name][rows]).max()) for name in names}
-        if forces:
-            gaps = {name: max(gap, missed_load(coarse[name], fine[name])) for name, gap in gaps.items()}
-        size = extent(
-            unit, [fine[name] if not before else np.append(fine[name], before[name]) for name in names], length
-        )
-        if size > 0.0:
-            sensors |= gaps
-            units[unit] = max(gaps.values()) / size
-            ranges[unit] = size
-    return units, sensors, ranges
-
-
-def add_ends(ends: dict[str, Array], run: Mapping[str, Array], groups: Mapping[str, Sequence[str]]) -> None:
-    """Widen the least and the largest value of what is compared by those of a run."""
-    for name in (name for names in groups.values() for name in names):
-        values = np.append(run[name], ends.get(name, ()))
-        ends[name] = np.array([values.min(), values.max()])
 
 
 def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
@@ -306,13 +192,13 @@ def remedy(system: System, method: str, h: float, accuracy: Accuracy) -> str:
     return f"Steps of {step:g} s or less would bring it to about {_percent(2.0 * GOAL_ERROR)}{others}."
 
 
-def error_text(accuracy: Accuracy, ranges: Mapping[str, float], groups: Mapping[str, Sequence[str]]) -> str:
+def error_text(accuracy: Accuracy, sizes: Mapping[str, float], judged: Mapping[str, Judged]) -> str:
     """The estimated error in a sentence, with the worst sensor."""
-    unit, share = max(accuracy.units.items(), key=lambda item: item[1])
-    name = max(groups[unit], key=lambda n: accuracy.sensors[n])
+    name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
+    unit, share = judged[name].unit, accuracy.sensors[name] / sizes[name]
     least = "at least" if share > FAR else "about"
     what, of = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
-    gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{ranges[unit]:.3g}{of}"
+    gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{sizes[name]:.3g}{of}"
     return (
         f"The result is off by {least} {_percent(share)} of the largest range, as a repeat with steps of "
         f"{accuracy.repeated_with:g} s shows: {what} '{name}' by {gap} of {size}."
@@ -359,3 +245,5 @@ def _percent(share: float) -> str:
 
 def _of(unit: str) -> str:
     return f" of the range in {unit}" if unit != COORDINATES else " of the range of coordinates"
+
+

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from mbs.results.accuracy import Accuracy, judged_sensors, missed_share, summed_miss
+from mbs.results.accuracy import Accuracy, missed_share, summed_miss
+from mbs.results.judged import Judged, has_loads, judged_sensors
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
@@ -62,12 +63,12 @@ def rest_missed(report: Report, method: str) -> float:
 def has_whole(system: System, settings: Settings) -> bool:
     """Whether the coarser runs of a method of order two have all iterations."""
     limited = settings.method in LIMITED and not settings.step_iterations
-    whole = not limited or len(system.arrays["y0"]) > 0 or "N" in judged_sensors(system)
+    whole = not limited or len(system.arrays["y0"]) > 0 or has_loads(judged_sensors(system))
     return METHOD_TABLE[settings.method].order <= 2 and whole
 
 
 def glances(
-    settings: Settings, groups: Mapping[str, Sequence[str]], states: bool, unresolved: float, run: Report
+    settings: Settings, judged: Mapping[str, Judged], states: bool, unresolved: float, run: Report
 ) -> tuple[Glance, ...]:
     """The coarser runs in turn that resolve the motion; too long steps miss forces and what sticks.
 
@@ -76,7 +77,7 @@ def glances(
     """
     method = settings.method
     limited = method in LIMITED and not settings.step_iterations
-    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if "N" in groups else TWICE if states else QUICK
+    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if has_loads(judged) else TWICE if states else QUICK
     order, rest = METHOD_TABLE[method].order, 0.0
     if order > 2:
         chosen = HIGH

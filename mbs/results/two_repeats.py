@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.results.accuracy import WARNED_ERROR, Accuracy, differences
+from mbs.results.accuracy import WARNED_ERROR, Accuracy
+from mbs.results.judged import Judged, differences
 
 Array = NDArray[np.float64]
 EVENT_ORDER = 1.75  # behind abrupt events: between that of the event's time, one, and that of the method, nearer to it
@@ -28,7 +29,7 @@ def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
 def by_limit(
     known: Accuracy,
     tables: Sequence[Mapping[str, Array]],
-    groups: Mapping[str, Sequence[str]],
+    judged: Mapping[str, Judged],
     before: Mapping[str, Array] | None,
     length: float,
 ) -> Accuracy:
@@ -40,8 +41,8 @@ def by_limit(
         By the last repeat.
     tables : sequence of Mapping of str to array of shape (n,)
         The run, and the last two repeats, of which the last has half the step, at the same samples.
-    groups : mapping of str to sequence of str
-        Names of what is compared, by unit.
+    judged : mapping of str to Judged
+        What is compared.
     before : mapping of str to ndarray or None
         The ends of what moved before, by name.
     length : float
@@ -49,7 +50,6 @@ def by_limit(
     """
     run, coarse, fine = tables
     more = 1.0 / (2.0**EVENT_ORDER - 1.0)
-    names = [name for unit in groups for name in groups[unit]]
-    limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in names}
-    units, sensors, _ = differences(run, limit, groups, before, length)
+    limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in judged}
+    units, sensors, _ = differences(run, limit, judged, before, length)
     return replace(known, units=units, sensors=sensors)

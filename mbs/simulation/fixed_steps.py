@@ -87,13 +87,13 @@ def judged_run(
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
-        if len(made) == 1 and checked and not look and before is None and has_whole(system, simulation.settings):
+        if len(made) == 1 and checked and before is None and has_whole(system, simulation.settings):
             watch = note
         return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 
     checked = estimate_error is not False
     most = accuracy.MOST_COST if estimate_error is None or isinstance(estimate_error, bool) else estimate_error
-    look = (checked or before is not None) and not accuracy.has_motion_sensor(system)
+    look = checked or before is not None
     often = accuracy.recorded_every(every, count_steps(t0, t_end, h)) if checked else every
     wanted = every // often
     try:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
 from mbs.results import accuracy
+from mbs.results.judged import instants
 from mbs.results.left_out import LeftOut
 from mbs.results.run_report import Report
 from mbs.results.trajectory import Trajectory
@@ -69,8 +70,8 @@ def march(
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
     left_out = left_out_of_run(simulation, given, h, every)
-    instants = [int(k) * every for k in accuracy.instants(len(values))]
-    looks = instants if look or simulation.bending.watches else []
+    compared = instants(len(values)) if look else []
+    looks = [int(k) * every for k in instants(len(values))] if simulation.bending.watches else []
     if watch is not None:
         looks = sorted({*looks, *(len(values) * k // WATCHED * every for k in range(1, WATCHED))})
     seen = [simulation.state.q] if look else []
@@ -83,6 +84,8 @@ def march(
             row = done // every + 1
             part = values[row : (done + n) // every + 1]
             places = record.rows(row, len(part))
+            if look and places is None:
+                places = np.empty((len(part), simulation.system.nq))
             begin = time.perf_counter()
             try:
                 instance.run(h, n, None, every, part, places)
@@ -97,11 +100,9 @@ def march(
             wall += spent
             record.take(row, places)
             done += n
-            if ahead and n == ahead[0]:
-                q = simulation.state.q
-                simulation.bending.look(simulation.time, q)
-                if look:
-                    seen.append(q)
+            seen += [places[k - row].copy() for k in compared if places is not None and row <= k < row + len(part)]
+            if ahead and n == ahead[0] and simulation.bending.watches:
+                simulation.bending.look(simulation.time, simulation.state.q)
             bar.update(done / steps)
             if watch is not None and ahead and n == ahead[0] and watch(values[: done // every + 1]):
                 values = values[: done // every + 1]

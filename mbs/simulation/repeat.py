@@ -13,6 +13,19 @@ from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
+from mbs.results.judged import (
+    COORDINATES,
+    WHOLE,
+    Judged,
+    add_ends,
+    differences,
+    has_loads,
+    judged_in,
+    judged_sensors,
+    rows_judged,
+    shows_motion,
+    sizes_of,
+)
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
@@ -84,8 +97,8 @@ class Repeats:
         By the last repeat.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
-    groups : dict of str to list of str
-        Names of what is compared, by unit.
+    judged : dict of str to Judged
+        What is compared, by name.
     parts : int
         By what the step is divided for the repeat with half of what was really made.
     unresolved : float
@@ -109,8 +122,7 @@ class Repeats:
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
-        self.groups, self._ranges = accuracy.judged_sensors(self.system), dict[str, float]()
-        self._finer = dict[int, Run]()
+        self._finer, self._sizes = dict[int, Run](), dict[str, float]()
         self._length = length_of(self.system)
         settings, report, self.known = self.run[0].settings, self.run[0].report, self.run[0].accuracy
         assert settings is not None
@@ -121,10 +133,16 @@ class Repeats:
             unresolved_share(self.system, settings.method, (self.run[0].t[0], self.run[0].t[-1]), self.inputs),
         )
         self.has_order = self.unresolved > UNRESOLVED
-        if self.run[1]:
-            angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
-            self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
-            self.groups = {accuracy.COORDINATES: list(self._columns)}
+        angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
+        self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
+        coordinates = dict.fromkeys(self._columns, Judged(COORDINATES, place=True))
+        seen = self._coordinates(self.run)
+        stands = bool(seen) and not sizes_of(seen, coordinates, self._length, self.before)
+        self.judged = judged_in(self.run[0], judged_sensors(self.system), self._length, self.before, stands)
+        if shows_motion(self.judged):
+            self.run = self.run[0], []
+        elif self.run[1]:
+            self.judged |= coordinates
 
     def coarser(self, glance: Glance, most: float) -> Accuracy | None:
         """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere.
@@ -135,7 +153,7 @@ class Repeats:
         steps, thin = max(round(self.every / glance.times), 1), max(round(glance.times / self.every), 1)
         times = thin * self.every / steps
         h, intervals = times * self.h, len(self.run[0].t) - 1
-        coordinates, loads = bool(self.run[1]), "N" in self.groups and intervals <= accuracy.WHOLE
+        coordinates, loads = bool(self.run[1]), has_loads(self.judged) and intervals <= WHOLE
         long_enough = self.run[0].t[-1] - self.run[0].t[0] >= h - 0.5 * self.h
         enough = glance.times == 2 or intervals // thin >= FEWEST
         if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
@@ -217,12 +235,12 @@ class Repeats:
         while True:
             first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
             if parts > 2 * self.parts and not self.has_order:
-                known = by_limit(known, [self._table(self.run), first, second], self.groups, self.before, self._length)
+                known = by_limit(known, [self._table(self.run), first, second], self.judged, self.before, self._length)
                 self.known = known
             told = not self.has_order and (known.error or 0.0) > WARNED_ERROR
             if parts == 8 * self.parts or (parts == 4 * self.parts and told):
                 break  # of this one and the last the larger error counts
-            apart = accuracy.differences(first, second, self.groups, self.before, self._length)[0]
+            apart = differences(first, second, self.judged, self.before, self._length)[0]
             if self.has_order and not self.coarse:  # the finer one errs by less than that, by order two at least
                 apart = {unit: gap / 3.0 for unit, gap in apart.items()}
             if not (unsure(known, apart) or (self.coarse and not self.has_order)):
@@ -235,11 +253,11 @@ class Repeats:
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
         if self.before is not None:
-            accuracy.add_ends(self.before, self._table(self.run), self.groups)
+            add_ends(self.before, self._table(self.run), self.judged)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
-        return accuracy.error_text(known, self._ranges, self.groups)
+        return accuracy.error_text(known, self._sizes, self.judged)
 
     def _again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
         before, self.tried, share = 1.0 + self.cost, h, 0.0
@@ -277,7 +295,7 @@ class Repeats:
 
     def _continued(self, twin: Trajectory, run: Trajectory) -> Trajectory:
         """A run that ended where it agreed with this one, as if both were equal from there on."""
-        names = [name for judged in self.groups.values() for name in judged]
+        names = list(self.judged)
         values = np.column_stack([np.append(twin[n], run[n][len(twin.t) :]) for n in names])
         t = np.append(twin.t, run.t[len(twin.t) :])
         return Trajectory(t, values, names, [run.units[n] for n in names], twin.report, twin.settings)
@@ -288,16 +306,15 @@ class Repeats:
         It ends it where `smooth` samples are made, and what both differ by in the last tenth of the whole is at most
         `AGREED` of `right`, and as it grew in that tenth comes to no more than `right` in the end.
         """
-        ranges = accuracy.differences(run, run, self.groups, self.before, self._length)[2]
         column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
-        judged = [(unit, column[n], run[n], size) for unit, size in ranges.items() for n in self.groups[unit]]
-        rows, tenth = {unit: accuracy.rows_judged(unit, len(run.t)) for unit in ranges}, len(run.t) / WATCHED
+        sizes, tenth = sizes_of(run, self.judged, self._length, self.before), len(run.t) / WATCHED
+        rows = {name: rows_judged(self.judged[name], len(run.t)) for name in sizes}
 
         def look(values: NDArray[np.float64]) -> bool:
             agreed, left = len(values) >= smooth, (len(run.t) - len(values)) / tenth
-            for unit, k, own, size in judged:
-                there = rows[unit][rows[unit] < len(values)]
-                gaps = np.abs(values[there, k] - own[there]) / size
+            for name, size in sizes.items():
+                there = rows[name][rows[name] < len(values)]
+                gaps = np.abs(values[there, column[name]] - run[name][there]) / size
                 if gaps.max() > most:
                     raise TooFarError
                 old = there < len(values) - 1 - tenth
@@ -315,10 +332,14 @@ class Repeats:
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
         """What is compared of a run, by name."""
-        if not run[1]:
+        if not self.run[1]:
             return run[0]
+        return {name: run[0][name] for name, what in self.judged.items() if what.load} | self._coordinates(run)
+
+    def _coordinates(self, run: Run) -> dict[str, NDArray[np.float64]]:
+        """Of a run at the instants, by name; none where they are not kept."""
         q = np.array(run[1])
-        return {name: q[:, i] for name, i in self._columns.items()}
+        return {name: q[:, i] for name, i in self._columns.items()} if len(q) else {}
 
     def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
@@ -328,7 +349,7 @@ class Repeats:
         assert coarse[0].report is not None
         assert fine[0].report is not None
         tables = self._table(coarse), self._table(fine)
-        units, sensors, self._ranges = accuracy.differences(*tables, self.groups, self.before, self._length)
+        units, sensors, self._sizes = differences(*tables, self.judged, self.before, self._length)
         order = float(METHOD_TABLE[run.settings.method].order)
         if ratio < FAR_FINER:  # else the other is so much nearer that the order hardly counts
             reports = coarse[0].report, fine[0].report
@@ -368,7 +389,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         return known
     last = 0.0
     if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        chosen = glances(run[0].settings, repeats.groups, len(system.arrays["y0"]) > 0, repeats.unresolved, report)
+        chosen = glances(run[0].settings, repeats.judged, len(system.arrays["y0"]) > 0, repeats.unresolved, report)
         for glance in chosen:
             try:
                 screened = repeats.coarser(glance, glance.difference if glance is chosen[-1] else HOPELESS)

@@ -17,6 +17,7 @@ from benchmarks.methods import random_machines, random_mechanisms
 from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.results.accuracy import Accuracy, missed_share
+from mbs.results.judged import Judged
 from mbs.results.glance import FORCES, QUICK, TWICE, difference_from, glances
 from mbs.results.smooth_laws import LOOPS, OPEN, UNRESOLVED, unresolved_share
 from tests.simulation.drawn import drawn
@@ -164,12 +165,12 @@ def test_which_coarser_runs_are_made() -> None:
     """One iteration shows what long steps miss, but not of forces nor of what sticks; none where the run is coarse."""
     run = mbs.simulate(ball(1e3, 0.5), 1.25, 0.005, estimate_error=False, progress=False)
     assert run.report is not None
-    still, moves, settings = replace(run.report, predictor_path=0.0), {"m": ["x"]}, mbs.Settings()
+    still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Judged("m", place=True)}, mbs.Settings()
     abrupt = replace(run.report, predictor_path=run.report.velocity_path)
     energy_momentum = mbs.Settings(method="energy_momentum")
     assert glances(settings, moves, False, UNRESOLVED, still) == QUICK
     assert glances(settings, moves, True, UNRESOLVED, still) == TWICE
-    assert glances(settings, {**moves, "N": ["force"]}, False, UNRESOLVED, still) == FORCES
+    assert glances(settings, {**moves, "force": Judged("N", load=True)}, False, UNRESOLVED, still) == FORCES
     assert glances(settings, moves, False, UNRESOLVED, run.report) == QUICK[1:]
     assert glances(settings, moves, False, UNRESOLVED, abrupt) == ()
     assert glances(energy_momentum, moves, False, UNRESOLVED, abrupt) == ()
@@ -289,8 +290,8 @@ def test_coarser_runs_that_do_not_come_nearer_clear_no_contact() -> None:
         mbs.simulate(system, machine.span, machine.span / 1800, every=36, progress=False)
 
 
-def test_a_guide_that_ends_within_the_run_is_abrupt() -> None:
-    """It is one polynomial, and stands still behind it: 14 % off, of which half the step told 0.03 %."""
+def test_a_guide_that_ends_within_the_run_ends_a_step() -> None:
+    """It is one polynomial, and stands still behind it: 14 % off before a step ended there."""
     m = mbs.Model("cart", dimension=2)
     cart = m.body("cart", mass=1.0, com=(0.0, 0.0), inertia=0.1)
     rod = m.body("rod", mass=1.0, com=(0.0, -0.3), inertia=0.03)
@@ -301,8 +302,12 @@ def test_a_guide_that_ends_within_the_run_is_abrupt() -> None:
     m.sense_position("x", rod, (0.0, -0.6), component="x")
     system = mbs.compile(m)
     assert unresolved_share(system, "runge_kutta_8", (0.0, 0.7)) == LOOPS
-    with pytest.warns(mbs.AccuracyWarning, match="off by"):
-        mbs.simulate(system, 3.0, 0.2, method="runge_kutta_8", progress=False)
+    run, fine = (
+        mbs.simulate(system, 3.0, h, method="runge_kutta_8", every=round(0.2 / h), progress=False) for h in (0.2, 0.02)
+    )
+    assert run.report is not None
+    assert run.report.divisions == 1
+    assert np.abs(run["x"] - fine["x"]).max() < 1e-3 * np.ptp(fine["x"])
 
 
 def cam(lift: PPoly, stiffness: float, damping: float) -> mbs.System:
@@ -320,12 +325,12 @@ def cam(lift: PPoly, stiffness: float, damping: float) -> mbs.System:
 @pytest.mark.parametrize(
     ("method", "piece", "rate", "stiffness", "damping", "h", "cost"),
     [
-        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 4.0, id="a quarter of the step misses as much as the step"),
-        pytest.param("ali3p", 0.08, 0.5, 5600.0, 11.0, 0.002, 14.0, id="an eighth misses as much as a half"),
+        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.0, id="it cost 4 runs"),
+        pytest.param("ali3p", 0.08, 0.5, 5600.0, 11.0, 0.002, 0.25, id="it cost 14"),
     ],
 )
-def test_a_guide_whose_rate_jumps_ends_the_check(method, piece, rate, stiffness, damping, h, cost) -> None:
-    """No step resolves it, so that a 16th was made, at 30 times the cost of the run."""
+def test_a_guide_whose_rate_jumps_needs_no_repeat(method, piece, rate, stiffness, damping, h, cost) -> None:
+    """Steps end where it jumps; before no step resolved it, so that a 16th was made, at 30 times the cost."""
     slopes = np.array([0.0, rate, 0.0, -rate, 0.0])
     lift = PPoly(np.array([slopes, piece * rate * np.array([0, 0, 1, 1, 0])]), piece * np.array([0, 1, 2, 3, 4, 10]))
     span = 5.0 * piece

@@ -9,7 +9,7 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_cars
-from mbs.results import accuracy
+from mbs.results.judged import instants, judged_sensors
 from mbs.results.missed_load import WIDTH, missed_load
 from mbs.scenes import prototype_car
 
@@ -26,7 +26,7 @@ def landing(at: float, width: float = 12.0, peak: float = PEAK, rest: float = 10
 @pytest.mark.parametrize("at", [970.0, 970.5, 987.3])
 def test_a_peak_that_one_run_has_alone_is_seen(at: float) -> None:
     """Between two of the 51 instants; also where it is of a few samples, and where it is a load that drops."""
-    rows = accuracy.instants(N)
+    rows = instants(N)
     for width in (2.0, 5.0):
         there, flat = landing(at, width), landing(at, width, 0.0)
         assert np.abs(there - flat)[rows].max() < SMALL
@@ -45,16 +45,16 @@ def test_a_landing_that_comes_late_is_not() -> None:
 
 def test_a_short_record_is_compared_at_all_its_samples() -> None:
     """What a record has beside the 51 instants was not looked at: 5.8 % were told as 2.6 %."""
-    assert accuracy.instants(111).tolist() == list(range(111))
-    assert accuracy.instants(201).tolist() == list(range(201))
-    assert len(accuracy.instants(202)) == 51
-    assert accuracy.instants(1).tolist() == [0]
+    assert instants(111).tolist() == list(range(111))
+    assert instants(201).tolist() == list(range(201))
+    assert len(instants(202)) == 51
+    assert instants(1).tolist() == [0]
     drive = random_cars.drive(_stream(2, 14))
     fine = drive.run(h=0.00125, estimate_error=False)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5.[67] %"):
         run = drive.run(h=0.02)
     load = "spring_RR.force"
-    size = max(np.abs(fine[n]).max() for n in accuracy.judged_sensors(drive.system)["N"])
+    size = max(np.abs(fine[n]).max() for n, what in judged_sensors(drive.system).items() if what.load)
     gaps = np.abs(run[load] - fine[load]) / size
     assert gaps.max() > 0.05
     assert gaps[np.linspace(0, len(gaps) - 1, 51).round().astype(int)].max() < 0.03
@@ -82,7 +82,7 @@ def _stream(seed: int, number: int) -> np.random.Generator:
 def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """50 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
     system = mbs.compile(prototype_car.build())
-    names = accuracy.judged_sensors(system)["N"]
+    names = [n for n, what in judged_sensors(system).items() if what.load]
 
     def run(height: float) -> tuple[float, list[str]]:
         """Largest error of a peak over the largest load, and what is said."""

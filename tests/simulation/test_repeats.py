@@ -11,6 +11,7 @@ import pytest
 import mbs
 from mbs.kernel.header.enumerations import Status
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
+from mbs.results.judged import Judged
 from mbs.results.two_repeats import EVENT_ORDER, by_limit, unsure
 from mbs.simulation.repeat import Repeats, Run
 
@@ -31,7 +32,7 @@ def by(**units: float) -> Accuracy:
 def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
     run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
-    found = by_limit(by(N=0.2), [run, coarse, fine], {"N": ["a", "b"]}, None, 1.0)
+    found = by_limit(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Judged("N", load=True)), None, 1.0)
     left = 0.125**order - (0.25**order - 0.125**order) / (2.0**EVENT_ORDER - 1.0)
     true = float(np.abs(run["a"] - FORCE).max())
     assert abs(left) < (1e-15 if order == EVENT_ORDER else 0.08)

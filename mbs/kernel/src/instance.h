@@ -97,6 +97,7 @@ struct ali3_instance {
   bool has_J0;
   double *Phi, *Phit, *gamma, *mu, *lam; /* nc */
   double *drive, *guide_mean; /* nc: work of drives by a unit of the multipliers at the end; ng: mean rates of guides */
+  double *guide_jump; /* 2 ng: of rate and acceleration of guides of time, the least jump that ends a step */
   double *guide_follows; /* ng: 1 where a filtered guide moves in the step, else 0 */
   double *J, *J_tangent; /* row pattern: Phi_q at the iterate, and where the tangent was made */
   double *F; /* front storage */

@@ -3,19 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../flexible/bodies.h"
-#include "../flexible/mass.h"
 #include "../instance.h"
 #include "../method.h"
 #include "../methods/energy_balance.h"
 #include "../rows/constraints.h"
 #include "../start/initialise.h"
 #include "../state/vectors.h"
-
-static double kinetic_energy(ali3_instance *in) {
-  ali3_bodies_prepare(in, in->now.q);
-  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
-}
 
 static void set(ali3_instance *in, int32_t number, bool on) {
   const ali3_system *S = in->system;
@@ -42,7 +35,7 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
     return ALI3_OK;
   }
   ali3_vectors_copy(in, &in->start, &in->now);
-  const double before = kinetic_energy(in);
+  const double before = ali3_kinetic_energy(in);
   set(in, number, on == 1);
   const ali3_status status = ali3_solve_rates(in, false);
   in->report.last_status = (int32_t)status;
@@ -51,7 +44,7 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
     in->report.failures++;
     return status;
   }
-  in->report.energy_jump = kinetic_energy(in) - before;
+  in->report.energy_jump = ali3_kinetic_energy(in) - before;
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   ali3_balance_open(in, ali3_has_balance(in));
   return ALI3_OK;

@@ -1,6 +1,12 @@
 /* A step by the method of the settings, in parts where it does not converge, a force changes abruptly or inputs jump. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
 #include "../instance.h"
 #include "../method.h"
+#include "../rows/guides.h"
+#include "../start/initialise.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"
 #include "../state/vectors.h"
@@ -57,13 +63,50 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   return first == ALI3_OK ? advance_part(in, t, 0.5 * h, depth - 1, iterations_end) : first;
 }
 
-/* A step to time t by the method of the settings, which may halve it so deep, in parts that end where inputs jump. */
+static const double AT_END = 1e-6; /* of a step: a jump so near to its end is at it */
+static const double ROUND_OFF = 4.0 * DBL_EPSILON; /* of the time of a jump: guides are before or behind it */
+
+/* Velocities, accelerations and multipliers behind a jump of a guide at the present time, as by an impulse of its rows,
+ * whose work is that of the guide; nothing of the past predicts the next step. */
+static ali3_status guide_jump(ali3_instance *in, double time) {
+  const bool counts = in->system->n_guide_work > 0;
+  const double before = counts ? ali3_kinetic_energy(in) : 0.0;
+  in->t_now = time;
+  ali3_guides_time(in, &in->now, time + ROUND_OFF * fabs(time));
+  const ali3_status status = ali3_solve_rates(in, false);
+  if (status != ALI3_OK) return status;
+  if (counts) ali3_guides_work(in, &in->now, ali3_kinetic_energy(in) - before);
+  memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
+  return ALI3_OK;
+}
+
+/* When a step of h to time t ends or is parted: behind its present time where an input or a guide jumps, else at t;
+ * `*guide`: when a guide jumps there, else infinity. */
+static double part_end(const ali3_instance *in, double t, double h, double *guide) {
+  const double inputs = ali3_inputs_until(in, t), near = AT_END * h;
+  const double until = in->system->size.ng > 0 ? ali3_guides_break(in, in->t_now + near, inputs + near) : inputs + near;
+  *guide = until < inputs + near ? until : HUGE_VAL;
+  return until < t - near ? fmin(until, inputs) : fmin(inputs, t);
+}
+
+/* Whether a step of h to time t is made in parts, or ends at a jump. */
+bool ali3_parted(const ali3_instance *in, double t, double h) {
+  double guide;
+  return part_end(in, t, h, &guide) < t || guide < HUGE_VAL;
+}
+
+/* A step to time t by the method of the settings, which may halve it so deep, in parts that end where inputs or guides
+ * jump. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
-  const double until = ali3_inputs_until(in, t);
-  if (until == t) return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);
+  double guide;
+  const double until = part_end(in, t, h, &guide);
+  if (until == t && guide == HUGE_VAL)
+    return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);
   ali3_back_up(in);
-  in->report.divisions++;
-  const ali3_status first = ali3_advance(in, until, until - in->t_now, depth);
+  if (until < t) in->report.divisions++;
+  const double end = fmin(until, guide - ROUND_OFF * fabs(guide)), length = until == t ? h : until - in->t_now;
+  ali3_status status = advance_part(in, end, length, depth, in->report.iterations + in->settings.step_iterations);
+  if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(until, guide)) : ALI3_OK;
   in->iterations_before = in->report.iterations;
-  return first == ALI3_OK ? ali3_advance(in, t, t - until, depth) : first;
+  return status == ALI3_OK && until < t ? ali3_advance(in, t, t - until, depth) : status;
 }

@@ -33,12 +33,17 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
   r->energy = energy;
 }
 
+/* Of in->now, J. */
+double ali3_kinetic_energy(ali3_instance *in) {
+  ali3_bodies_prepare(in, in->now.q);
+  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
+}
+
 /* The energy of in->now, from which the next step counts where the method has a balance. */
 void ali3_balance_open(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;
   if (!balanced) return;
-  ali3_bodies_prepare(in, in->now.q);
-  const double kinetic = 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
+  const double kinetic = ali3_kinetic_energy(in);
   double rest = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];
   for (int32_t i = 0; i < in->system->size.nq; i++)

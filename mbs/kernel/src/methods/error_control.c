@@ -43,18 +43,6 @@ static bool valid(const ali3_control *c) {
          c->longest < 1e300 && c->h < 1e300;
 }
 
-/* First break of a guide of time after t, or `end`. */
-static double next_break(const ali3_instance *in, double t, double end) {
-  const ali3_system *S = in->system;
-  for (int32_t g = 0; g < S->size.ng; g++) {
-    if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
-    const double *real = in->guide_real + S->guide_real_ptr[g];
-    for (int32_t i = 0; i <= (int32_t)real[0]; i++)
-      if (real[1 + i] > t && real[1 + i] < end) end = real[1 + i];
-  }
-  return end;
-}
-
 static void set_time(ali3_instance *in, double t) {
   in->t_base = t;
   in->h_last = 0.0;
@@ -232,7 +220,7 @@ static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_
   ali3_status status = ALI3_OK;
   double t = ali3_time(in);
   for (int64_t n = 0; n < most_steps && t < t_end && status == ALI3_OK; n++) {
-    const double until = next_break(in, t, t_end);
+    const double until = ali3_guides_until(in, t, t_end);
     const double before = fmax(t, until - 4.0 * 2.3e-16 * fabs(until)); /* the guide's piece that ends there */
     double h = 0.0;
     status = controlled_step(in, measure, t, until < t_end ? before : t_end, &h);

@@ -66,13 +66,10 @@ const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
   return NULL;
 }
 
-/* Value and rates at time t; outside the breaks the end values at rest. */
-static void guide_of_time(const double *real, double t, double *s, double *sd, double *sdd) {
-  const int32_t n = (int32_t)real[0];
+/* The piece of a guide of time that a time within its breaks lies in; at a break the one behind it. */
+static int32_t piece_at(const double *real, double time) {
   const double *breaks = real + 1;
-  const bool inside = t >= breaks[0] && t <= breaks[n];
-  int32_t low = 0, high = n;
-  const double time = t < breaks[0] ? breaks[0] : (t > breaks[n] ? breaks[n] : t);
+  int32_t low = 0, high = (int32_t)real[0];
   while (high - low > 1) {
     const int32_t middle = (low + high) / 2;
     if (breaks[middle] <= time)
@@ -80,11 +77,80 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
     else
       high = middle;
   }
-  const double *c = breaks + n + 1 + 6 * low, x = time - breaks[low];
-  *s = ((((c[5] * x + c[4]) * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
-  *sd = inside ? (((5.0 * c[5] * x + 4.0 * c[4]) * x + 3.0 * c[3]) * x + 2.0 * c[2]) * x + c[1] : 0.0;
-  *sdd = inside ? ((20.0 * c[5] * x + 12.0 * c[4]) * x + 6.0 * c[3]) * x + 2.0 * c[2] : 0.0;
+  return low;
 }
+
+/* Value and rates of a piece at x behind its break. */
+static void piece(const double *real, int32_t i, double x, double *s, double *sd, double *sdd) {
+  const double *c = real + 2 + (int32_t)real[0] + 6 * i;
+  *s = ((((c[5] * x + c[4]) * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
+  *sd = (((5.0 * c[5] * x + 4.0 * c[4]) * x + 3.0 * c[3]) * x + 2.0 * c[2]) * x + c[1];
+  *sdd = ((20.0 * c[5] * x + 12.0 * c[4]) * x + 6.0 * c[3]) * x + 2.0 * c[2];
+}
+
+/* Value and rates at time t; outside the breaks the end values at rest. */
+static void guide_of_time(const double *real, double t, double *s, double *sd, double *sdd) {
+  const int32_t n = (int32_t)real[0];
+  const double *breaks = real + 1;
+  const bool inside = t >= breaks[0] && t <= breaks[n];
+  const double time = t < breaks[0] ? breaks[0] : (t > breaks[n] ? breaks[n] : t);
+  const int32_t i = piece_at(real, time);
+  piece(real, i, time - breaks[i], s, sd, sdd);
+  if (!inside) *sd = *sdd = 0.0;
+}
+
+/* Of rate and acceleration of a guide of time: a jump by more than this part of their range is no noise of samples, nor
+ * round-off of their largest value. */
+static const double ABRUPT = 0.05, SAME = 1e-9;
+
+/* Rates and accelerations of guides of time, by which their jumps are judged. */
+void ali3_guides_measure(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  for (int32_t g = 0; g < S->size.ng; g++) {
+    if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
+    const double *real = in->guide_real + S->guide_real_ptr[g];
+    double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (int32_t i = 0; i < (int32_t)real[0]; i++)
+      for (int32_t part = 0; part < 3; part++) {
+        double s, rate[2];
+        piece(real, i, 0.5 * part * (real[2 + i] - real[1 + i]), &s, &rate[0], &rate[1]);
+        for (int32_t k = 0; k < 2; k++) {
+          least[k] = fmin(least[k], rate[k]);
+          most[k] = fmax(most[k], rate[k]);
+        }
+      }
+    for (int32_t k = 0; k < 2; k++)
+      in->guide_jump[2 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
+  }
+}
+
+/* Whether rate or acceleration of a guide of time jump at a break; before the first and behind the last it rests. */
+static bool jumps(const double *real, int32_t i, const double *least) {
+  const int32_t n = (int32_t)real[0];
+  double s, before[2] = {0.0, 0.0}, behind[2] = {0.0, 0.0};
+  if (i > 0) piece(real, i - 1, real[1 + i] - real[i], &s, &before[0], &before[1]);
+  if (i < n) piece(real, i, 0.0, &s, &behind[0], &behind[1]);
+  return fabs(behind[0] - before[0]) > least[0] || fabs(behind[1] - before[1]) > least[1];
+}
+
+static double first_break(const ali3_instance *in, double t, double end, bool all) {
+  const ali3_system *S = in->system;
+  for (int32_t g = 0; g < S->size.ng; g++) {
+    if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
+    const double *real = in->guide_real + S->guide_real_ptr[g], *breaks = real + 1;
+    const int32_t n = (int32_t)real[0];
+    if (end <= breaks[0] || t >= breaks[n]) continue;
+    for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++)
+      if (breaks[i] > t && (all || jumps(real, i, in->guide_jump + 2 * g))) end = breaks[i];
+  }
+  return end;
+}
+
+/* The first break of a guide of time after t and before `end`, else `end`. */
+double ali3_guides_until(const ali3_instance *in, double t, double end) { return first_break(in, t, end, true); }
+
+/* The first one at which its rate or acceleration jumps. */
+double ali3_guides_break(const ali3_instance *in, double t, double end) { return first_break(in, t, end, false); }
 
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
 static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) {

@@ -154,6 +154,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   copy(in->parameter, S->par_value, S->size.np);
   copy(in->el_real, S->el_real, S->n_el_real);
   copy(in->guide_real, S->guide_real, S->n_guide_real);
+  ali3_guides_measure(in);
   copy(in->road_real, S->road_real, S->n_road_real);
   copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
   copy(in->armature_ratio, S->armature_ratio, S->n_armature_ratio);

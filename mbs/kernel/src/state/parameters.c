@@ -3,6 +3,7 @@
 #include "parameters.h"
 #include "../algebra/real.h"
 #include "../instance.h"
+#include "../rows/guides.h"
 #include "../system/loading.h"
 #include "axes.h"
 #include "masses.h"
@@ -63,6 +64,7 @@ void ali3_parameters_switch(ali3_instance *in) {
 /* All of them; refused as a whole when an element, guide or road cannot take its data. */
 ali3_status ali3_parameters_apply(ali3_instance *in) {
   for (int32_t p = 0; p < in->system->size.np; p++) write(in, p);
+  ali3_guides_measure(in);
   ali3_axes_apply(in);
   ali3_masses_apply(in);
   if (!in->initialised) ali3_parameters_switch(in);
@@ -74,6 +76,7 @@ static ali3_status take(ali3_instance *in, int32_t p, double value) {
   const ali3_system *S = in->system;
   in->parameter[p] = value;
   write(in, p);
+  if (writes_to(S, p, ALI3_TARGET_GUIDE)) ali3_guides_measure(in);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
     if (check(in, k) != NULL) return ALI3_BAD_ARGUMENT;
   return ALI3_OK;

@@ -53,6 +53,7 @@ static void place_data(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->el_real = ali3_pool_array(p, (size_t)s->n_el_real);
   in->sen_real = ali3_pool_array(p, (size_t)s->n_sen_real);
   in->guide_real = ali3_pool_array(p, (size_t)s->n_guide_real);
+  in->guide_jump = ali3_pool_array(p, 2 * (size_t)s->size.ng);
   in->switch_on = ali3_pool_array(p, (size_t)s->size.n_switch);
   in->road_real = ali3_pool_array(p, (size_t)s->n_road_real);
   ali3_masses_place(s, in, p);

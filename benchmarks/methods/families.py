@@ -1,0 +1,345 @@
+"""Families of random cases: a drawing by chance and its true motion, a function each."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.interpolate import PPoly
+
+import mbs
+from benchmarks.methods import random_cars, random_machines, random_mechanisms
+from benchmarks.references import boxes, masses_on_a_line, newton_euler
+from benchmarks.references.newton_euler import INSTANTS, Drawing, Joint
+from hosts.fmu.built_fmu import fmu_of_car
+from hosts.fmu.fmu import Fmu, StepRefusedError
+from mbs.elements import ContactPoints, EndStops, SpringDamper
+from mbs.elements.road import PlaneRoad
+from mbs.flexible import Beam, Frame, Interface, Material, ReducedBody, craig_bampton
+from mbs.flexible.section import tube
+
+Array = NDArray[np.float64]
+STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)  # s
+TOLERANCES = (1e-2, 1e-3, 1e-4)
+NEARLY_FLAT = (1e-5, 1e-3)  # by which the arms of a change point differ, of their length
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a run gives of a case."""
+
+    values: Mapping[str, Array]
+    """Of sensors, at the instants."""
+    told: float | None
+    """The error that it tells, of the range or the length."""
+    cost: float | None = None
+    """Of its steps and those of its check, over its steps."""
+    method: str = ""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A System, how it is run, and its true motion."""
+
+    kind: str
+    system: mbs.System
+    truth: Mapping[str, Array]
+    """What is judged, by sensor, at equal instants of the run, (n,) each."""
+    span: float
+    """Duration, s."""
+    run: Callable[..., Found]
+    """By ``h`` and ``every``, or by ``tolerance`` and ``times``; raises `mbs.SimulationError`."""
+    steps: tuple[float, ...] = STEPS
+    tolerances: tuple[float, ...] = TOLERANCES
+
+
+def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory] | None = None) -> dict[str, Any]:
+    """What a case has of `mbs.simulate`, or of another function of ``h`` and the same names."""
+
+    def found(h: float | None = None, **more: Any) -> Found:
+        made = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
+        if made.control is not None:
+            return Found(made, made.control.error, None, made.control.method)
+        known = made.accuracy
+        return Found(made, known.error if known else None, 1.0 + known.repeat_cost if known else None)
+
+    return {"system": system, "span": span, "run": found}
+
+
+def _drawn(kind: str, drawing: Drawing) -> Case:
+    names = [f"tip{i}.{c}" for i in range(len(drawing.links)) for c in "xyz"[: drawing.dimension]]
+    motion = newton_euler.motion(drawing)
+    truth = dict(zip(names, motion.reshape(len(motion), -1).T, strict=True))
+    return Case(kind, truth=truth, **simulated(mbs.compile(random_mechanisms.model_of(drawing)), drawing.span))
+
+
+def planar(rng: np.random.Generator) -> Case:
+    """Closed loops and chains in the plane."""
+    return _drawn(*random_mechanisms.drawing(rng, 2))
+
+
+def spatial(rng: np.random.Generator) -> Case:
+    """The same in space."""
+    return _drawn(*random_mechanisms.drawing(rng, 3))
+
+
+def machines(rng: np.random.Generator) -> Case:
+    """Masses on a line with belts, brakes, plays, cams, impacts and stops."""
+    kind, machine = random_machines.machine(rng)
+    found = masses_on_a_line.motion(machine)
+    truth = {f"x{i}": found[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
+    return Case(kind, truth=truth, **simulated(mbs.compile(random_machines.model_of(machine)), machine.span))
+
+
+def cars(rng: np.random.Generator) -> Case:
+    """Cars over kerbs and drops, with each spring and tyre force."""
+    drive = random_cars.drive(rng)
+    kind = f"{drive.car} {drive.step:g} m, {drive.speed:.1f} m/s"
+
+    def run(h: float | None = None, **more: Any) -> mbs.Trajectory:
+        return drive.run("auto" if h is None else "ali3p", h, **more)
+
+    given = simulated(drive.system, drive.span, run)
+    return Case(kind, truth=drive.truth(), **given, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
+
+
+def box(rng: np.random.Generator) -> Case:
+    """Boxes that fall and tumble on their corners without friction."""
+    mass, half = float(50.0 ** rng.uniform()), rng.uniform(0.1, 0.6, 3)
+    onset, depth = float(10.0 ** rng.uniform(-2.7, -2.0)), float(10.0 ** rng.uniform(-3.0, -2.0))
+    contact = replace(
+        ContactPoints.for_mass(mass / 4.0, depth=depth, onset=onset, loss=float(rng.uniform(0.1, 1.0))),
+        friction_factor=0.0,
+    )
+    drawn = boxes.Box(
+        mass, half, float(np.linalg.norm(half) + rng.uniform(0.01, 0.5)), np.append(rng.normal(0.0, 0.5, 2), -0.5),
+        rng.normal(0.0, 3.0, 3), contact.stiffness, onset, contact.loss, 1.0,
+    )  # fmt: skip
+    truth = boxes.motion(drawn)
+    m = mbs.Model("box", gravity=(0.0, 0.0, -9.81))
+    centre = np.array([0.0, 0.0, drawn.height])
+    body = m.body("box", mass=mass, com=centre, inertia=drawn.inertia)
+    m.contact_points("corners", body, centre + drawn.corners, road=m.road(PlaneRoad()), contact=contact)
+    m.initial_velocity(body, linear=drawn.velocity, angular=drawn.omega)
+    for c in "xyz":
+        m.sense_position(f"centre.{c}", body, None, c)
+        m.sense_position(f"corner.{c}", body, centre + drawn.corners[0], c)
+    return Case("box", truth=truth, **simulated(mbs.compile(m), drawn.span))
+
+
+def _swinging(rng: np.random.Generator) -> tuple[str, Drawing]:
+    """A chain of two or three links, or a four-bar with a pendulum."""
+    while True:
+        kind = str(rng.choice(["chain", "spatial chain", "four-bar with pendulum"]))
+        drawing = random_mechanisms.KINDS[kind](rng)
+        if len(drawing.links) > 1:
+            return kind, drawing
+
+
+def jumps(rng: np.random.Generator) -> Case:
+    """Mechanisms whose first link is driven at a rate, or by an acceleration, that jumps two to four times."""
+    kind, drawing = _swinging(rng)
+    t = np.concatenate([[0.0], np.sort(rng.uniform(0.1, drawing.span, int(rng.integers(2, 5)))), [2.0 * drawing.span]])
+    scale, jumping = np.sqrt(9.81 / drawing.size), rng.random() < 0.7
+    angle, rate, pieces = 0.0, float(rng.normal(0.0, 1.0) * scale), []
+    for length in np.diff(t):
+        bend = 0.0 if jumping else float(rng.normal(0.0, 1.0) * scale**2)
+        pieces.append((bend, rate, angle))
+        angle += (rate + bend * length) * length
+        rate = float(rng.normal(0.0, 1.0) * scale) if jumping else rate + 2.0 * bend * length
+    moved = replace(drawing, drive=PPoly(np.array(pieces).T, t), torque=0.0)
+    return _drawn(f"{kind}, its {'rate' if jumping else 'acceleration'} jumps", moved)
+
+
+def switches(rng: np.random.Generator) -> Case:
+    """Chains whose tips pins hold for a while, switched between the parts of `Simulation.run`."""
+    kind, drawing = _swinging(rng)
+    link = int(rng.integers(1, len(drawing.links)))
+    on, off = (drawing.span / INSTANTS * k for k in np.sort(rng.choice(np.arange(5, INSTANTS - 5), 2, replace=False)))
+    pin = Joint("pin", link, newton_euler.GROUND, drawing.tips[link], drawing.joints[0].axis, (on, off))
+    drawing = replace(drawing, joints=[*drawing.joints, pin])
+    case = _drawn(f"{kind} with a pin", drawing)
+    name = f"j{len(drawing.joints) - 1}"
+
+    def run(h: float, every: int) -> Found:
+        simulation = mbs.Simulation(case.system)
+        parts, errors = [], []
+        for end, held in ((on, False), (off, True), (drawing.span, False)):
+            simulation.set_switch(name, held)
+            parts.append(simulation.run(end, h, every=every, progress=False))
+            errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
+        values = {n: np.concatenate([part[n][int(k > 0) :] for k, part in enumerate(parts)]) for n in case.truth}
+        return Found(values, max((e for e in errors if e is not None), default=None))
+
+    return replace(case, run=run, tolerances=())
+
+
+@cache
+def _beam(length: float, wall: float) -> ReducedBody:
+    nodes = np.column_stack([np.linspace(0.0, length, 5), np.zeros((5, 2))])
+    section, material = tube(outer_diameter=0.03, wall=wall), Material(E=70e9, nu=0.33, rho=2700.0)
+    frame = Frame(nodes, [Beam(i, i + 1, section, material) for i in range(4)])
+    ends = [Interface(4, rotations=True)]
+    return craig_bampton(frame.finite_element_model(), reference=0, interfaces=ends, dynamic_modes=4)
+
+
+def flexible(rng: np.random.Generator) -> Case:
+    """Beams on a hinge that fall on a stop with their free ends."""
+    length = float(rng.choice([1.0, 1.5, 2.0]))
+    reduced = _beam(length, float(rng.choice([0.001, 0.002])))
+    m = mbs.Model("beam", gravity=(0.0, 0.0, -9.81))
+    beam = m.flexible_body("beam", reduced)
+    root, tip = beam.interface(0), beam.interface(4)
+    m.revolute("hinge", m.ground, root, point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0))
+    gap, height = float(rng.uniform(0.01, 0.3)), 1.0
+    stop = EndStops(
+        height - gap, float(10.0 ** rng.uniform(3.0, 5.0)), 0.0, 0.0, bump_loss=float(rng.uniform(0.0, 0.5))
+    )
+    drawn = tip.point((length, 0.0, 0.0)) - m.ground.point((length, 0.0, -height))
+    m.add(SpringDamper(0.0, 0.0, height, stop).record("stop", drawn))
+    m.initial_velocity(beam, angular=(0.0, float(rng.uniform(-2.0, 2.0)), 0.0))
+    for c in "xz":
+        m.sense_position(f"tip.{c}", tip, (length, 0.0, 0.0), c)
+    system, span = mbs.compile(m), float(rng.uniform(0.4, 1.0))
+
+    def simulate(method: str, h: float) -> mbs.Trajectory:
+        n = round(span / INSTANTS / h)
+        return mbs.simulate(
+            system, span, span / INSTANTS / n, every=n, method=method, estimate_error=False, progress=False
+        )
+
+    return Case("beam", truth=random_cars.agreed(system, simulate), **simulated(system, span))
+
+
+def gears(rng: np.random.Generator) -> Case:
+    """Two eccentric wheels that a pair of gears couples, or a four-bar through its flat position."""
+    if rng.random() < 0.5:
+        return _drawn("change point", random_mechanisms.four_bar(rng, NEARLY_FLAT))
+    masses, inertias, arms = (
+        10.0 ** rng.uniform(-0.5, 0.5, 2),
+        10.0 ** rng.uniform(-2.0, 0.0, 2),
+        rng.normal(0.0, 0.3, 2),
+    )
+    ratio = float(rng.choice([-1.0, 1.0]) * rng.uniform(1.0, 4.0))
+    rate, span = float(rng.normal(0.0, 10.0)), float(rng.uniform(1.0, 3.0))
+    gain = np.array([1.0, 1.0 / ratio])  # turns of each wheel for one of the first
+    whole = float((inertias + masses * arms**2) @ gain**2)
+
+    def rates(_: float, y: Array) -> Array:
+        return np.array([y[1], -9.81 * float(masses * arms * gain @ np.cos(gain * y[0])) / whole])
+
+    t = np.linspace(0.0, span, INSTANTS + 1)
+    angle = solve_ivp(rates, (0.0, span), [0.0, rate], t_eval=t, method="DOP853", rtol=1e-11, atol=1e-12).y[0]
+    m = mbs.Model("gears", dimension=2, gravity=(0.0, -9.81))
+    angles, truth = [], dict[str, Array]()
+    for i, (mass, inertia, arm) in enumerate(zip(masses, inertias, arms, strict=True)):
+        wheel = m.body(f"wheel{i}", mass=mass, com=(i + arm, 0.0), inertia=inertia)
+        m.revolute(f"bearing{i}", m.ground, wheel, point=(float(i), 0.0))
+        angles.append(m.relative_angle(f"angle{i}", m.ground, wheel))
+        m.initial_velocity(wheel, linear=(0.0, rate * gain[i] * arm), angular=rate * gain[i])
+        for k, c in enumerate("xy"):
+            m.sense_position(f"rim{i}.{c}", wheel, (i + 0.2, 0.0), c)
+            truth[f"rim{i}.{c}"] = i * (1 - k) + 0.2 * (np.cos, np.sin)[k](gain[i] * angle)
+    m.gear("gear", *angles, ratio=ratio)
+    return Case("gears", truth=truth, **simulated(mbs.compile(m), span))
+
+
+def tumbling(rng: np.random.Generator) -> Case:
+    """Motions of which only rates and the torque of a motor are sensed, beside sensors that rest or are prescribed."""
+    if rng.random() < 0.4:
+        return _tumbling_body(rng)
+    drawing = random_mechanisms.chain(rng, int(rng.choice([2, 3])))
+    while len(drawing.links) < 2:
+        drawing = random_mechanisms.chain(rng, 2)
+    driven = rng.random() < 0.5
+    rate = float(rng.uniform(1.0, 6.0))
+    drive = PPoly(np.array([[0.2], [rate], [0.0]]), [0.0, 2.0 * drawing.span]) if driven else None
+    drawing = replace(drawing, drive=drive, torque=0.0)
+    seen = newton_euler.motion(drawing, rates=True)
+    names = [f"rate{i}.{c}" for i in range(len(drawing.links)) for c in ("z" if drawing.dimension == 2 else "xyz")]
+    truth = dict(zip([*names, "motor.torque"] if driven else names, seen.T, strict=False))
+    kind = f"chain in {'the plane' if drawing.dimension == 2 else 'space'}, {'driven' if driven else 'free'}"
+    system = mbs.compile(random_mechanisms.model_of(drawing, rates=True))
+    return Case(kind, truth=truth, **simulated(system, drawing.span), tolerances=())
+
+
+def _tumbling_body(rng: np.random.Generator) -> Case:
+    """A body about its middle axis, slightly off it; its centre of mass rests."""
+    moments = np.sort(rng.uniform(0.1, 0.3, 3))
+    moments[1:] = np.minimum(moments[1:], [moments[1], 0.95 * (moments[0] + moments[1])])
+    turn = np.array([0.01, float(rng.uniform(2.0, 8.0)), 0.01])
+    span = float(rng.uniform(5.0, 20.0))
+
+    def rates(_: float, w: Array) -> Array:
+        return np.asarray(-np.cross(w, moments * w) / moments)
+
+    t = np.linspace(0.0, span, INSTANTS + 1)
+    found = solve_ivp(rates, (0.0, span), turn, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
+    m = mbs.Model("tumbling body", gravity=(0.0, 0.0, 0.0))
+    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=np.diag(moments))
+    m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=turn)
+    for c in "xyz":
+        m.sense_rotation(f"rate.{c}", body, c, order=1)
+        m.sense_position(f"centre.{c}", body, None, c)
+    truth = {f"rate.{c}": found[k] for k, c in enumerate("xyz")}
+    return Case("body", truth=truth, **simulated(mbs.compile(m), span), tolerances=())
+
+
+def fmus(rng: np.random.Generator) -> Case:
+    """Cars over a kerb down, or that fall, through FMPy, with pedals and steering wheel held."""
+    car, falls, h_record = str(rng.choice(random_cars.CARS)), rng.random() < 0.5, random_cars.INTERVAL
+    pose = {"yaw": float(rng.uniform(-0.6, 0.6)), "speed": float(rng.uniform(3.0, 25.0))}
+    pose["z"] = float(rng.uniform(0.05, 0.5)) if falls else 0.0
+    road = {} if falls else {"road.kerb_x": 3.0, "road.kerb_height": float(rng.uniform(0.02, 0.12))}
+    inputs = {"throttle": 0.3} if rng.random() < 0.5 else {"brake": float(rng.uniform(0.0, 0.6))}
+    inputs["steering"] = float(rng.choice([0.0, rng.uniform(-0.3, 0.3)]))
+    span = float(round(rng.uniform(1.2, 2.2) / h_record) * h_record)
+    system = random_cars.system_of(car, 0.0)
+
+    def simulate(method: str, h: float) -> mbs.Trajectory:
+        return mbs.simulate(
+            system, span, h, inputs, mbs.Settings(method=method), road, every=round(h_record / h),
+            pose=mbs.Pose(**pose), estimate_error=False, progress=False,
+        )  # fmt: skip
+
+    truth = random_cars.agreed(system, simulate)
+
+    def run(h: float, every: int) -> Found:
+        names = list(truth)
+        with Fmu(fmu_of_car(car, lambda _: None)) as fmu:
+            get = fmu.getter(names)
+            start = {f"initial.{name}": value for name, value in pose.items()} | road | inputs
+            fmu.initialise(start | {"step_size": h})
+            rows = [get()]
+            for k in range(round(span / h)):
+                try:
+                    fmu.step(k * h, h)
+                except StepRefusedError as refused:
+                    raise mbs.SimulationError(str(refused)) from refused
+                rows += [get()] if (k + 1) % every == 0 else []
+            for text in fmu.messages:
+                warnings.warn(text, mbs.AccuracyWarning, stacklevel=1)
+        return Found(dict(zip(names, np.array(rows).T, strict=True)), None)
+
+    return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, random_cars.STEPS, ())
+
+
+FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {
+    "planar": planar,
+    "spatial": spatial,
+    "cars": cars,
+    "machines": machines,
+    "boxes": box,
+    "jumps": jumps,
+    "switches": switches,
+    "flexible": flexible,
+    "gears": gears,
+    "tumbling": tumbling,
+    "fmus": fmus,
+}
