@@ -19,7 +19,6 @@ from benchmarks.methods.families import FAMILIES
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.random_honesty import rows_of
 from benchmarks.shared.command import Part, run, watched
-from benchmarks.shared.pages import table
 
 
 def _scenes(options: Namespace) -> list[dict[str, Any]]:

@@ -9,6 +9,7 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_cars
+from mbs.results import accuracy
 from mbs.results.judged import instants, judged_sensors
 from mbs.results.missed_load import WIDTH, missed_load
 from mbs.scenes import prototype_car
