@@ -5,8 +5,6 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
-import sdl2
-
 from hosts.common.errors import HostError
 
 _HINTS = {
@@ -22,6 +20,7 @@ def load() -> Any:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # PySDL2 says which library it takes
+            import sdl2
     except ModuleNotFoundError:
         raise HostError(
             "Wheels, pedals and gamepads of this computer are not read, because PySDL2 is not installed: "
