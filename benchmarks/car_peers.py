@@ -76,7 +76,6 @@ def measure(
             "car": kind,
             "way": way,
             "us_a_step": us,
-            "cars_in_real_time_a_core": h / (1e-6 * us),
             "yaw_rate": float(np.abs(moved[kind][0]).max()),
             "speed": float(moved[kind][1][-1]),
         }

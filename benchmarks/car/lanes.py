@@ -122,7 +122,6 @@ def measure(
             "way": way,
             "us_a_step": us[way],
             "ratio": us["single"] / us[way],
-            "cars_in_real_time_a_core": h / (1e-6 * us[way]),
             "steps_alone": alone[way],
             "kilobytes_a_car": 1e-3 * (loaded.instance_size + (many[0].size / many[0].width if many else 0.0)),
         }

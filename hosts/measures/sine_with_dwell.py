@@ -22,19 +22,17 @@ class SineWithDwell:
     begin: float
     completion: float
     """`begin`, `completion`: begin and completion of steer (BOS, COS), s."""
-    yaw_rate_peak: float
-    """Second peak of the yaw rate, the first after the steering wheel has changed the side, rad/s."""
     ratio_1_00: float
     ratio_1_75: float
-    """`ratio_1_00`, `ratio_1_75`: yaw rate 1.00 and 1.75 s after the completion over the peak; negative: the yaw rate
-    has changed its sign."""
+    """`ratio_1_00`, `ratio_1_75`: yaw rate 1.00 and 1.75 s after the completion over its second peak, the first after
+    the steering wheel has changed the side; negative: the yaw rate has changed its sign."""
     displacement: float
     """Size of the lateral displacement 1.07 s after the beginning, m."""
     sideslip: float
     """Largest size of the sideslip angle until 1.75 s after the completion, rad; NaN without the signal."""
 
 
-NOTHING = SineWithDwell(*7 * (math.nan,))
+NOTHING = SineWithDwell(*6 * (math.nan,))
 
 
 def sine_with_dwell(
@@ -72,7 +70,7 @@ def sine_with_dwell(
         part = (time >= begin) & (time <= completion + 1.75)
         largest = float(np.abs(sideslip[part]).max())
     first = _of(begin, time, acceleration)
-    return SineWithDwell(begin, completion, -side * peak, after(1.0), after(1.75), first.displacement, largest)
+    return SineWithDwell(begin, completion, after(1.0), after(1.75), first.displacement, largest)
 
 
 def _side(steering: NDArray[np.float64]) -> float:
@@ -101,9 +99,9 @@ def _of(begin: float, time: NDArray[np.float64], acceleration: NDArray[np.float6
     """The start of the steering and the displacement alone."""
     at = begin + 1.07
     if time[-1] < at - 1e-9:
-        return SineWithDwell(begin, *6 * (math.nan,))
+        return SineWithDwell(begin, *5 * (math.nan,))
     inner = time[(time > begin) & (time < at)]
     t = np.concatenate([[begin], inner, [at]])
     velocity = np.asarray(cumulative_trapezoid(np.interp(t, time, acceleration), t, initial=0))
     moved = float(trapezoid(velocity, t))
-    return SineWithDwell(begin, *4 * (math.nan,), abs(moved), math.nan)
+    return SineWithDwell(begin, *3 * (math.nan,), abs(moved), math.nan)

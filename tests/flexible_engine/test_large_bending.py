@@ -6,19 +6,8 @@ import warnings
 
 import pytest
 
-from mbs import BendingWarning, Model, Simulation, compile, simulate
-from mbs.flexible.material import Material
-from mbs.flexible.section import round_bar
-from tests.flexible_engine.bodies import chain
-
-
-def soft_pendulum(parts: int):
-    """Error of its end against a geometrically exact beam: 11 mm of 1 m as one body, 4.8 mm as two."""
-    m = Model("pendulum", gravity=(0, -9.81, 0))
-    bar = chain(m, (0, 0, 0), (1, 0, 0), round_bar(0.02), Material(5e8, 0.3, 2000.0), parts=parts, elements=4)
-    m.revolute("pin", m.ground, bar[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
-    m.sense_position("x", bar[-1].interface(4), (1, 0, 0), "x")
-    return compile(m)
+from mbs import BendingWarning, Simulation, simulate
+from tests.flexible_engine.bodies import soft_pendulum
 
 
 def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> None:

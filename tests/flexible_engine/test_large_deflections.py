@@ -19,7 +19,7 @@ from mbs.flexible.section import round_bar
 from mbs.model import Model
 from mbs.scenes import spinning_beam
 from mbs.simulation.stepping import Simulation
-from tests.flexible_engine.bodies import chain
+from tests.flexible_engine.bodies import chain, soft_pendulum
 
 REFERENCE = Path(__file__).parent.parent / "data" / "reference"
 
@@ -61,13 +61,8 @@ def test_spin_up_in_one_part_buckles() -> None:
 @pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.BendingWarning")  # one and two parts bend too far
 @pytest.mark.parametrize(("parts", "most"), [(1, 0.012), (4, 0.003)])
 def test_falling_flexible_pendulum(parts: int, most: float) -> None:
-    """A soft bar of 1 m falls from the horizontal for 2 s; its tip against the reference, m."""
-    m = Model("pendulum", gravity=(0, -9.81, 0))
-    bar = chain(m, (0, 0, 0), (1, 0, 0), round_bar(0.02), Material(5e8, 0.3, 2000.0), parts=parts, elements=4)
-    m.revolute("pin", m.ground, bar[0].interface(0), point=(0, 0, 0), axis=(0, 0, 1))
-    for k in "xy":
-        m.sense_position(k, bar[-1].interface(4), (1, 0, 0), k)
-    run = simulate(compile(m), 2.0, 0.0025, every=4, progress=False)
+    """Its tip against the reference, m."""
+    run = simulate(soft_pendulum(parts), 2.0, 0.0025, every=4, progress=False)
     reference = _stored("falling_flexible_pendulum")
     gap = np.hypot(run["x"] - reference[:, 1], run["y"] - reference[:, 2])
     assert np.max(gap) < most

@@ -1,7 +1,0 @@
-"""The public name of recordings."""
-
-from __future__ import annotations
-
-from ali3.scene.recording import Recording
-
-__all__ = ["Recording"]
