@@ -204,6 +204,7 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p") -
     r = mbs.simulate(
         mbs.compile(wheels.model), steps * STEP, STEP, method=method, every=every, progress=False, estimate_error=False
     )
+    assert r.report is not None
     way = {end: r[end] - r[end][0] for end in {*wheels.angles, *(end for tie in wheels.ties for end in tie[:2])}}
     slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in wheels.ties]
     late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in wheels.angles.items()]
