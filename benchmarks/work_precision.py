@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import peers
-from benchmarks.methods import dissipative, error_control, naive, work_precision
+from benchmarks.methods import bicycle, dissipative, error_control, gears, naive, work_precision
+from benchmarks.methods.kernel_methods import suits
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.command import Part, run, say_missing, watched
@@ -88,6 +89,22 @@ PARTS = {
         options={"quick": (False, f"{' and '.join(dissipative.QUICK)} with the default method and one step")},
         pages=("stability.md",),
         blocks=dissipative.dissipative_blocks,
+    ),
+    "bicycle": Part(
+        "the rigid bicycle against what is published and against rolling outside of the kernel",
+        _bicycle,
+        bicycle.COLUMNS,
+        options={"quick": (False, "one step size")},
+    ),
+    "gears": Part(
+        "free wheels with gears, racks and screws: energy, teeth and angles over many steps",
+        lambda options: gears.rows(watched(list(options.only)), options.quick),
+        gears.COLUMNS,
+        names=tuple(gears.ALL),
+        options={"quick": (False, "a hundredth of the steps")},
+        pages=("stability.md",),
+        blocks=gears.gear_blocks,
+        chart=gears.draw,
     ),
     "motions": Part(
         "write the exact motions that take long, by minimum-norm accelerations under DOP853 or Radau",

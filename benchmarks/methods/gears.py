@@ -142,6 +142,27 @@ def rotor(rate: float) -> Wheels:
     return w
 
 
+def bevel(rate: float, geared: bool = True) -> Wheels:
+    """A planet that turns across the axis of its carrier, and two shafts that it drives."""
+    w, ground = Wheels(3), (0.0, 0.0, 0.0)
+    m, along, across = w.model, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+
+    def turning(name: str, on: mbs.Body, axis: tuple[float, ...], inertia: tuple[float, ...]) -> mbs.Body:
+        body = m.body(f"{name} body", mass=0.5, com=ground, inertia=inertia)
+        m.revolute(f"pin {name}", on, body, point=ground, axis=axis)
+        return body
+
+    carrier = turning("carrier", m.ground, along, (0.05, 0.04, 0.045))
+    planet = turning("planet", carrier, across, (0.002, 0.003, 0.002))
+    w.sensed("carrier", m.relative_angle("carrier", m.ground, carrier, axis=along), 0.6 * rate)
+    w.sensed("planet", m.relative_angle("planet", carrier, planet, axis=across), 0.8 * rate)
+    for name, ratio in (("left", 0.5), ("right", -0.5)) if geared else ():
+        shaft = turning(name, m.ground, along, (0.01, 0.008, 0.008))
+        w.sensed(name, m.relative_angle(name, carrier, shaft, axis=along), 0.8 * ratio * rate)
+        w.gear(name, "planet", ratio)
+    return w
+
+
 MECHANISMS: dict[str, Callable[[float], Wheels]] = {
     "pair, ratio -3": train(-3.0),
     "pair, ratio 10": train(10.0),
@@ -154,6 +175,12 @@ MECHANISMS: dict[str, Callable[[float], Wheels]] = {
     "planetary": planetary,
     "armature": rotor,
 }
+TWO_AXES: dict[str, Callable[[float], Wheels]] = {
+    "bevel differential": bevel,
+    "its carrier and planet without gears": lambda rate: bevel(rate, False),
+}
+"""Of which the rule loses energy with and without gears."""
+ALL = MECHANISMS | TWO_AXES
 
 
 def alone_late(turn: float) -> float:
@@ -172,11 +199,12 @@ def growth(ratio: float, inertia: float, other: float, turn: float, second_turn:
 
 def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p") -> dict[str, Any]:
     """Largest change of the energy, slip of the teeth and lateness of angles, in parts of what there is of each."""
-    wheels = MECHANISMS[name](turn / STEP)
+    wheels = ALL[name](turn / STEP)
     every = min(EVERY, steps)
     r = mbs.simulate(
         mbs.compile(wheels.model), steps * STEP, STEP, method=method, every=every, progress=False, estimate_error=False
     )
+    assert r.report is not None
     way = {end: r[end] - r[end][0] for end in {*wheels.angles, *(end for tie in wheels.ties for end in tie[:2])}}
     slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in wheels.ties]
     late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in wheels.angles.items()]
@@ -199,13 +227,14 @@ def rows(names: Sequence[str], quick: bool) -> list[dict[str, Any]]:
 
 def gear_blocks(found: Sequence[Row]) -> dict[str, str]:
     """The table of the page."""
-    heads = {"energy": "energy", "slip": "slip of teeth", "late": "late", "alone_late": "wheel alone late"}
-    shown = [
-        {"mechanism": row["mechanism"], "rate x step": row["turn"]} | {head: row[key] for key, head in heads.items()}
-        for row in found
-        if row["turn"] in (TURNS[0], TURNS[2], TURNS[-1])
-    ]
-    return {"gears": table(shown, {"rate x step": "g"} | dict.fromkeys(heads.values(), ".1e"))}
+    lines: dict[str, dict[str, Any]] = {}
+    for row in found:
+        line = lines.setdefault(row["mechanism"], {"mechanism": row["mechanism"]})
+        line[f"energy at {row['turn']:g}"] = row["energy"]
+        line |= {"slip": max(row["slip"], line.get("slip", 0.0)), f"late at {row['turn']:g}": row["late"]}
+    energies = [f"energy at {turn:g}" for turn in TURNS]
+    heads = ("slip", f"late at {TURNS[0]:g}", f"late at {TURNS[-1]:g}")
+    return {"gears": table(list(lines.values()), {"mechanism": ""} | dict.fromkeys((*energies, *heads), ".1e"))}
 
 
 def draw(found: Sequence[Row], folder: Path) -> None:
@@ -214,9 +243,10 @@ def draw(found: Sequence[Row], folder: Path) -> None:
     figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
     for name in dict.fromkeys(row["mechanism"] for row in found):
         own = [row for row in found if row["mechanism"] == name]
-        axes.loglog([row["turn"] for row in own], [row["energy"] for row in own], "o-", markersize=3.5, label=name)
+        form = "^:" if name in TWO_AXES else "o-"
+        axes.loglog([row["turn"] for row in own], [row["energy"] for row in own], form, markersize=3.5, label=name)
     turns = np.geomspace(TURNS[0], TURNS[-1], 60)
-    gained = np.array([STEPS * growth(-3.0, 1.0, 9.0, x, x / 3.0) for x in turns])
+    gained = np.expm1(np.minimum(300.0, [STEPS * growth(-3.0, 1.0, 9.0, x, x / 3.0) for x in turns]))
     axes.loglog(turns, gained, "k--", label="pair, ratio -3, by the paper's rule")
     axes.axhline(1e-3, color="0.6", linewidth=0.8)
     axes.set(xlabel="rate of the fastest wheel x step, rad", ylabel="part of the energy", ylim=(1e-12, 1e2))

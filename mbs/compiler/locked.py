@@ -49,9 +49,9 @@ def locked_gears(model: Mechanism) -> str:
                 elif not ring and abs(asked - turns[other]) > DEPENDENT * abs(turns[other]):
                     names = ", ".join(f"'{gear}'" for gear in sorted((path[wheel] ^ path[other]) | {name}))
                     ring = (
-                        f"The gears {names} form a ring that is locked: '{model.coordinates[other].name}' would have to "
-                        f"turn {asked / turns[other]:g} times as far as by the other way round, so none of their wheels "
-                        "turns; check the ratios and their signs."
+                        f"The gears {names} form a ring that is locked: '{model.coordinates[other].name}' would have "
+                        f"to turn {asked / turns[other]:g} times as far as by the other way round, so none of their "
+                        "wheels turns; check the ratios and their signs."
                     )
         if ring and any(wheel in model.coordinate_rates for wheel in tied):
             raise ModelError(ring)

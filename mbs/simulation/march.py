@@ -112,8 +112,8 @@ def march(
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """What a run tells beside its numbers: that nothing can move or that gears are locked, and what sensors with a notice say of their columns,
-    `values` (n, ns) at `t` (n,).
+    """What a run tells beside its numbers: that nothing can move or that gears are locked, and what sensors with a
+    notice say of their columns, `values` (n, ns) at `t` (n,).
     """
     meta, found = prepared(system)[1], []
     sensors = meta["sensors"]

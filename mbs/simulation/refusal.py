@@ -78,9 +78,7 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
         return _farthest_changed(simulation)
     if status == Status.TURNS_TOO_FAR:
         rate = simulation.instance.report()["fastest_rate"]
-        return (
-            f" Its rate is {rate:.3g} rad/s; a step of {0.49 / rate:.2g} s follows it, and so do more `max_halvings`."
-        )
+        return f" Its rate is {rate:.3g} rad/s; a step of {0.49 / rate:.2g} s follows it, so do more `max_halvings`."
     rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
     if rate > 0.0:
         h = simulation.step_tried

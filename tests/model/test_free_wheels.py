@@ -64,7 +64,7 @@ def test_lanes_make_the_steps_of_one_run():
 
 
 class Pair:
-    """Two wheels with vectors u, angles theta and a gear, coordinates u1, u2, theta1, theta2, as the oracle takes it."""
+    """Two wheels and a gear as the oracle takes them: coordinates are the vectors and the angles of both."""
 
     nq, nc = 6, 5
 

@@ -43,7 +43,8 @@ const char *ali3_status_text(ali3_status s) {
       [ALI3_BAD_NORMAL] = "the normal of a road at a port must be a unit vector that points up",
       [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
       [ALI3_BEYOND_TABLE] = "a coordinate has left the table of what it moves",
-      [ALI3_TURNS_TOO_FAR] = "an angle with a gear, rack, screw or armature turns by more than 0.52 rad in the step, also in smaller steps",
+      [ALI3_TURNS_TOO_FAR] =
+          "what has a gear or an armature turns by more than 0.52 rad in the step, also in its parts",
       [ALI3_BAD_INERTIA] =
           "the parameters give a body moments of inertia that are not positive, or one above the other two",
   };
