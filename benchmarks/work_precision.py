@@ -11,7 +11,6 @@ from typing import Any
 
 from benchmarks import peers
 from benchmarks.methods import bicycle, dissipative, error_control, gears, naive, work_precision
-from benchmarks.methods.kernel_methods import suits
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.command import Part, run, say_missing, watched
