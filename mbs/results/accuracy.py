@@ -245,5 +245,3 @@ def _percent(share: float) -> str:
 
 def _of(unit: str) -> str:
     return f" of the range in {unit}" if unit != COORDINATES else " of the range of coordinates"
-
-

@@ -10,8 +10,8 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_machines
-from mbs.results.judged import COORDINATES
 from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
+from mbs.results.judged import COORDINATES
 from mbs.results.smooth_laws import LOOPS, OPEN
 from mbs.simulation.repeat import Repeats, TooFarError
 from tests.simulation.drawn import drawn

@@ -76,7 +76,5 @@ def test_rates_are_judged_where_no_place_moves_by_itself(place: Judged, rates: b
 
 def test_errors_are_held_against_the_range_of_the_sensor_down_to_a_floor() -> None:
     values = {"large": 1000.0 + 10.0 * np.sin(9.0 * T), "small": 1e-3 * T, "load": 5.0 + T, "rest": 0.0 * T}
-    found = sizes_of(
-        values, {"large": PLACE, "small": PLACE, "load": Judged("N", load=True), "rest": RATE}, length=1.0
-    )
+    found = sizes_of(values, {"large": PLACE, "small": PLACE, "load": Judged("N", load=True), "rest": RATE}, length=1.0)
     assert found == pytest.approx({"large": 20.0, "small": 20.0 * FLOOR, "load": 6.0}, rel=1e-3)
