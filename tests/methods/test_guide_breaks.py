@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -33,10 +35,10 @@ def carried(motion: PPoly | tuple[Array, Array], name: str = "carried") -> mbs.S
 
 
 def exact(motion: PPoly, t: Array) -> Array:
-    """Of the mass at the times t: x'' = W^2 (s - x), by pieces of s of degree two, from the start to each next break."""
+    """Of the mass at the times t: x'' = W^2 (s - x), by pieces of s of degree two up to the next break."""
     found, x, v = np.zeros(len(t)), 0.0, 0.0
     ends = [*motion.x[motion.x < SPAN], 2.0 * SPAN]
-    for k, (begin, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+    for k, (begin, end) in enumerate(itertools.pairwise(ends)):
         c = motion.c[:, k] if k < motion.c.shape[1] else np.array([float(motion(motion.x[-1]))])
         a2, a1, a0 = np.concatenate([np.zeros(3 - len(c)), c])
         z, zd = x - a0 + 2.0 * a2 / W**2, v - a1  # about the motion of a mass that only follows
