@@ -24,6 +24,8 @@ FACTOR = 10.0  # by which an estimate may be off
 BEYOND = 10.0  # tolerances: wrong
 NEAR = (0.9, 1.1)  # times what is wrong: between them a run counts neither way
 VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong", "near")
+ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
+"""What tells of an error; other warnings are of models, such as one that bends too much for its modes."""
 TOLD = ("false alarm", "refused", "silently wrong")
 """Verdicts that are shown case by case."""
 COLUMNS = {
@@ -106,7 +108,7 @@ def _verdict(
         return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
     row["cpu_s"] = time.process_time() - begin
     error = error_of(found.values)
-    wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught]
+    wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
     verdict = VERDICTS[(3 if said else 4) if wrong else (1 if said else 0)]
     if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
         verdict = "near"

@@ -70,7 +70,7 @@ def march(
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
     left_out = left_out_of_run(simulation, given, h, every)
-    compared = instants(len(values)) if look else []
+    compared = [int(k) for k in instants(len(values))] if look else []
     looks = [int(k) * every for k in instants(len(values))] if simulation.bending.watches else []
     if watch is not None:
         looks = sorted({*looks, *(len(values) * k // WATCHED * every for k in range(1, WATCHED))})

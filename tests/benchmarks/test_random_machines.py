@@ -64,7 +64,7 @@ def _with_reference(draw, number):
 
 @pytest.mark.slow
 def test_machines_are_judged():
-    rows = list(random_honesty.rows_of(101, [0, 1], "machines"))
+    rows = list(random_honesty.rows_of("machines", 101, [0, 1]))
     assert len(rows) == 4  # each in steps and under a tolerance
-    assert {r["class"] for r in rows} <= set(random_machines.KINDS)
+    assert {r["kind"] for r in rows} <= set(random_machines.KINDS)
     assert {r["verdict"] for r in rows} <= {"right", "wrong, told"}

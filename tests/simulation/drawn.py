@@ -1,4 +1,4 @@
-"""Mechanisms that `benchmarks.honesty random` draws."""
+"""Random mechanisms by number, behind a random number that is not used."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from benchmarks.methods import random_mechanisms
 
 
 def drawn(kind: str, seed: int, number: int) -> tuple[mbs.System, float]:
-    """A case of that command, and its duration, s. `kind`: what its kind must have in its name."""
+    """A mechanism, and its duration, s. `kind`: what its kind must have in its name."""
     rng = np.random.default_rng([seed, number])
-    rng.random()  # which decides between mechanism and car
+    rng.random()
     found, drawing = random_mechanisms.drawing(rng)
     assert kind in found
     return mbs.compile(random_mechanisms.model_of(drawing)), drawing.span

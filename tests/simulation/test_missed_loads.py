@@ -9,7 +9,7 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_cars
-from mbs.results import accuracy
+from mbs.results import judged
 from mbs.results.judged import instants, judged_sensors
 from mbs.results.missed_load import WIDTH, missed_load
 from mbs.scenes import prototype_car
@@ -44,6 +44,7 @@ def test_a_landing_that_comes_late_is_not() -> None:
     assert missed_load(landing(970.0)[: 2 * WIDTH - 1], landing(0.0)[: 2 * WIDTH - 1]) == 0.0
 
 
+@pytest.mark.usefixtures("largest_range")
 def test_a_short_record_is_compared_at_all_its_samples() -> None:
     """What a record has beside the 51 instants was not looked at: 5.8 % were told as 2.6 %."""
     assert instants(111).tolist() == list(range(111))
@@ -63,6 +64,7 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert run.accuracy.error == pytest.approx(gaps.max(), rel=0.1)
 
 
+@pytest.mark.usefixtures("largest_range")
 def test_a_fourth_repeat_tells_what_three_leave_open() -> None:
     """By a third one, with an eighth of the step, this car is 4.8 % off, and it is 5.1 %."""
     with pytest.warns(mbs.AccuracyWarning):
@@ -102,5 +104,5 @@ def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
     error, said = run(0.1)
     assert error < 0.05
     assert said == []
-    monkeypatch.setattr(accuracy, "missed_load", lambda one, other: 0.0)
+    monkeypatch.setattr(judged, "missed_load", lambda one, other: 0.0)
     assert run(0.3)[1] == []

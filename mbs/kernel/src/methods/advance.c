@@ -105,7 +105,11 @@ ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   ali3_back_up(in);
   if (until < t) in->report.divisions++;
   const double end = fmin(until, guide - ROUND_OFF * fabs(guide)), length = until == t ? h : until - in->t_now;
+  const bool unobserved = in->unobserved, sampled = in->sampled;
+  if (guide < HUGE_VAL) in->unobserved = in->sampled = false; /* the jump reads the state before it */
   ali3_status status = advance_part(in, end, length, depth, in->report.iterations + in->settings.step_iterations);
+  in->unobserved = unobserved;
+  in->sampled = sampled;
   if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(until, guide)) : ALI3_OK;
   in->iterations_before = in->report.iterations;
   return status == ALI3_OK && until < t ? ali3_advance(in, t, t - until, depth) : status;

@@ -1,0 +1,105 @@
+"""Steps end where the rate or the acceleration of a prescribed motion jumps, and keep their order there."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline, PPoly
+
+import mbs
+
+Array = NDArray[np.float64]
+W, SPAN = 12.0, 1.2  # rad/s, s
+STEPS = (0.01, 0.005, 0.0025, 0.00125)  # s
+JUMPS = {
+    "rate, within a step": PPoly([[0.0, 0.8, -0.5], [0.0, 0.0, 0.32032]], [0.0, 0.3003, 0.7007, 2.0]),
+    "rate, at the end of a step": PPoly([[0.0, 0.8, -0.5], [0.0, 0.0, 0.32]], [0.0, 0.3, 0.7, 2.0]),
+    "acceleration": PPoly([[0.0, 4.0], [0.0, 0.0], [0.0, 0.0]], [0.0, 0.3003, 2.0]),
+    "rate, behind the last piece": PPoly([[0.9], [0.0]], [0.0, 0.5004]),
+}
+
+
+def carried(motion: PPoly | tuple[Array, Array], name: str = "carried") -> mbs.System:
+    """A mass of 1 kg on a spring whose other end is moved."""
+    m = mbs.Model(name, dimension=2, gravity=(0.0, 0.0))
+    base, mass = (m.point_mass(n, mass=1.0, position=(x, 0.0)) for n, x in (("base", 0.0), ("mass", 1.0)))
+    for body, x in ((base, 0.0), (mass, 1.0)):
+        m.point_on_line(f"line of {body.name}", (body, (x, 0.0)), (m.ground, (x, 0.0)), axis=(1.0, 0.0))
+    m.drive("drive", base.point(None)[0], m.guide_time("way", motion, unit="m"))
+    m.spring_damper("spring", base, mass, stiffness=W**2, free_length=1.0)
+    m.sense_position("x", mass, component="x")
+    return mbs.compile(m)
+
+
+def exact(motion: PPoly, t: Array) -> Array:
+    """Of the mass at the times t: x'' = W^2 (s - x), by pieces of s of degree two up to the next break."""
+    found, x, v = np.zeros(len(t)), 0.0, 0.0
+    ends = [*motion.x[motion.x < SPAN], 2.0 * SPAN]
+    for k, (begin, end) in enumerate(itertools.pairwise(ends)):
+        c = motion.c[:, k] if k < motion.c.shape[1] else np.array([float(motion(motion.x[-1]))])
+        a2, a1, a0 = np.concatenate([np.zeros(3 - len(c)), c])
+        z, zd = x - a0 + 2.0 * a2 / W**2, v - a1  # about the motion of a mass that only follows
+
+        def at(s: Array, a=(a2, a1, a0), z=z, zd=zd) -> tuple[Array, Array]:
+            swing = z * np.cos(W * s) + zd / W * np.sin(W * s)
+            rate = -z * W * np.sin(W * s) + zd * np.cos(W * s)
+            return swing + a[0] * s**2 + a[1] * s + a[2] - 2.0 * a[0] / W**2, rate + 2.0 * a[0] * s + a[1]
+
+        here = (t >= begin) & (t < end)
+        found[here] = at(t[here] - begin)[0]
+        x, v = (float(value) for value in at(np.array(end - begin)))
+    return 1.0 + found
+
+
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "ali3p_generalised_alpha"])
+@pytest.mark.parametrize("jump", JUMPS)
+def test_order_two_is_kept_through_a_jump(jump: str, method: str) -> None:
+    system, errors = carried(JUMPS[jump]), []
+    for h in STEPS:
+        run = mbs.simulate(
+            system, SPAN, h, method=method, every=round(STEPS[0] / h), estimate_error=False, progress=False
+        )
+        errors.append(np.abs(run["x"] - exact(JUMPS[jump], run.t)).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders.min() > 1.8
+
+
+@pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
+def test_methods_of_higher_order_do_not_see_the_jump(method: str) -> None:
+    motion = JUMPS["rate, within a step"]
+    run = mbs.simulate(carried(motion), SPAN, 0.02, method=method, estimate_error=False, progress=False)
+    assert np.abs(run["x"] - exact(motion, run.t)).max() < 1e-5
+
+
+def test_a_jump_within_a_step_parts_it_and_one_at_its_end_does_not() -> None:
+    parts = []
+    for jump in JUMPS:
+        report = mbs.simulate(carried(JUMPS[jump]), SPAN, 0.01, estimate_error=False, progress=False).report
+        assert report is not None
+        parts.append(report.divisions)
+    assert parts == [2, 0, 1, 1]
+
+
+def test_a_spline_through_samples_is_no_jump_at_each() -> None:
+    """Its acceleration is continuous, also through noise; with straight lines between the samples each is a jump."""
+    t = np.linspace(0.0, 2.0, 401)
+    samples = 0.1 * np.sin(3.0 * t) ** 2 + 1e-4 * np.random.default_rng(1).normal(size=len(t))
+    straight = PPoly(np.array([np.diff(samples) / np.diff(t), samples[:-1]]), t)
+    for motion, jumps in ((CubicSpline(t, samples, bc_type="clamped"), False), (straight, True)):
+        run = mbs.simulate(carried(motion), 1.0, 0.01, estimate_error=False, progress=False)
+        assert run.report is not None
+        assert (run.report.divisions > 30) == jumps
+        assert (run.report.divisions > 0) == jumps
+
+
+def test_lanes_and_steps_by_hand_end_there_too() -> None:
+    system, (n, h) = carried(JUMPS["rate, within a step"]), (120, 0.01)
+    run = mbs.simulate(system, n * h, h, estimate_error=False, progress=False)
+    many = mbs.simulate_many(system, [mbs.Variant(), mbs.Variant()], n * h, h, estimate_error=False, progress=False)
+    by_hand = mbs.Simulation(system)
+    by_hand.step(h, n)
+    assert [part["x"][-1] for part in many.trajectories if part is not None] == [run["x"][-1]] * 2
+    assert by_hand.sensors["x"] == run["x"][-1]
