@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.common.errors import ModelError
 from mbs.model.mechanism import Mechanism
 
 Array = NDArray[np.float64]
@@ -77,22 +76,20 @@ def given_velocities(model: Mechanism, position: Array, mass: float) -> Iterator
         yield GivenVelocity(name, "1/s", slice(i, i + 1), weight, np.array([rate]), np.zeros((0, 1)))
 
 
-def check_given(
+def contradiction(
     model: Mechanism, given: list[GivenVelocity], reached: Array, alone: Callable[[GivenVelocity], Array]
-) -> None:
-    """Refuse velocities each of which the joints would allow alone, but not together.
+) -> str:
+    """A sentence on velocities each of which the joints allow alone, but not together; empty where there are none.
 
     `reached`: rates of the full coordinates; `alone`: gives those with one of the velocities only.
     """
     least = MISSED**2 * max((g.energy(g.rates) for g in given), default=0.0)
     missed = sorted((g for g in given if g.missed(reached) > least), key=lambda g: -g.missed(reached))
-    if len(given) < 2 or not missed:
-        return
-    lost = [g for g in missed if g.missed(alone(g)) <= least]
+    lost = [g for g in missed if g.missed(alone(g)) <= least] if len(given) > 1 else []
     if not lost:
-        return
-    told = "; ".join(f"{g.name} is given as {g.text(g.rates)} and would be {g.text(reached[g.part])}" for g in lost[:2])
-    raise ModelError(
-        f"The initial velocities of the model '{model.name}' contradict each other through its joints: {told}. Each "
-        "alone could hold; give one of them, or values that fit."
+        return ""
+    told = "; ".join(f"{g.name} is given as {g.text(g.rates)} and is {g.text(reached[g.part])}" for g in lost[:2])
+    return (
+        f"The initial velocities of '{model.name}' contradict each other through its joints: {told}. Each alone could "
+        "hold: give one of them, or values that fit."
     )

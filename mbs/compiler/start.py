@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 from mbs.common.affine import Affine
 from mbs.compiler.consistent import start_velocity
 from mbs.compiler.full_coordinates import full_mass, symmetric
-from mbs.compiler.given_velocities import GivenVelocity, check_given, given_velocities
+from mbs.compiler.given_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
@@ -71,8 +71,10 @@ def velocity(
     guides: Array,
     guide_rates: Array,
     length: float,
-) -> Array:
-    """Start velocity in elimination order, from the velocities of bodies and coordinates; `length`: of the model, m."""
+) -> tuple[Array, str]:
+    """Start velocity in elimination order, from the velocities of bodies and coordinates, and a sentence where they
+    contradict each other; `length`: of the model, m.
+    """
     position = full_values(full, z)
     rates = np.zeros(len(full))
     weights, partly = {}, False
@@ -108,5 +110,4 @@ def velocity(
         return full_rates(solved(g.matrix(len(full)), only, False))
 
     found = solved(M_given + sparse.diags(own), rates, partly)
-    check_given(model, list(given_velocities(model, position, mean)), full_rates(found), alone)
-    return found
+    return found, contradiction(model, list(given_velocities(model, position, mean)), full_rates(found), alone)

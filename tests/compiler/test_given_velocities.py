@@ -1,4 +1,4 @@
-"""Initial velocities that contradict each other are refused with what was given and what it would be."""
+"""Initial velocities that contradict each other are told with what was given and what is."""
 
 from __future__ import annotations
 
@@ -30,14 +30,15 @@ def spin(w, dimension=2):
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_both_numbers_of_a_contradiction_are_told(dimension: int) -> None:
-    given, told = ("1 rad/s", "3 rad/s") if dimension == 2 else ("0, 0, 1 rad/s", "0, 0, 3 rad/s"), []
-    with pytest.raises(mbs.ModelError) as refused:
-        mbs.compile(arm(spin(1.0, dimension), spin(3.0, dimension), dimension))
+    given, reached = ("1 rad/s", "3 rad/s") if dimension == 2 else ("0, 0, 1 rad/s", "0, 0, 3 rad/s"), []
+    system = mbs.compile(arm(spin(1.0, dimension), spin(3.0, dimension), dimension))
+    (told,) = mbs.simulate(system, 0.01, 0.01, progress=False).notices
+    assert told in str(system)
     for name, number in zip("ab", given, strict=True):
-        assert f"the angular velocity of '{name}' is given as {number} and would be " in str(refused.value)
-        told.append(str(refused.value).split(f"given as {number} and would be ")[1].split(" rad/s")[0])
-    assert told[0] == told[1]  # the weld
-    assert 1.0 < float(told[0].split()[-1]) < 3.0
+        assert f"the angular velocity of '{name}' is given as {number} and is " in told
+        reached.append(told.split(f"given as {number} and is ")[1].split(" rad/s")[0])
+    assert reached[0] == reached[1]  # the weld
+    assert 1.0 < float(reached[0].split()[-1]) < 3.0
 
 
 @pytest.mark.parametrize(
@@ -52,6 +53,7 @@ def test_both_numbers_of_a_contradiction_are_told(dimension: int) -> None:
 )
 def test_velocities_that_fit_are_kept(first: dict, second: dict | None) -> None:
     system = mbs.compile(arm(first, second))
+    assert "contradict" not in str(system)
     w = first.get("angular")
     assert mbs.Simulation(system).state.qd == pytest.approx(mbs.Simulation(mbs.compile(arm(spin(w)))).state.qd, abs=1e-6)
 
@@ -65,8 +67,7 @@ def test_velocities_that_fit_are_kept(first: dict, second: dict | None) -> None:
     ],
 )
 def test_parts_of_a_velocity_contradict_each_other_too(first: dict, second: dict | None, words: str) -> None:
-    with pytest.raises(mbs.ModelError, match=words):
-        mbs.compile(arm(first, second))
+    assert words in str(mbs.compile(arm(first, second)))
 
 
 def test_a_rate_and_a_velocity_contradict_each_other() -> None:
@@ -78,6 +79,5 @@ def test_a_rate_and_a_velocity_contradict_each_other() -> None:
         m.initial_velocity(rod, angular=w)
         return m
 
-    with pytest.raises(mbs.ModelError, match="the rate of 'angle' is given as 5 1/s"):
-        mbs.compile(pendulum(5.0, 1.0))
+    assert "the rate of 'angle' is given as 5 1/s" in str(mbs.compile(pendulum(5.0, 1.0)))
     assert np.abs(mbs.compile(pendulum(5.0, 5.0)).arrays["qd0"]).max() == pytest.approx(5.0)
