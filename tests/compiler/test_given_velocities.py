@@ -55,7 +55,9 @@ def test_velocities_that_fit_are_kept(first: dict, second: dict | None) -> None:
     system = mbs.compile(arm(first, second))
     assert "contradict" not in str(system)
     w = first.get("angular")
-    assert mbs.Simulation(system).state.qd == pytest.approx(mbs.Simulation(mbs.compile(arm(spin(w)))).state.qd, abs=1e-6)
+    assert mbs.Simulation(system).state.qd == pytest.approx(
+        mbs.Simulation(mbs.compile(arm(spin(w)))).state.qd, abs=1e-6
+    )
 
 
 @pytest.mark.parametrize(
