@@ -33,7 +33,7 @@ def start_arrays(
         "static_start": [1],
         "static_par": [names.index(name) for name in parameters],
         "static_value": list(parameters.values()),
-        "static_q": q0 if np.array_equal(y0, y) else np.r_[q0, y0],
+        "static_q": q0 if y is None or np.array_equal(y0, y) else np.r_[q0, y0],
     }
 
 

@@ -96,7 +96,7 @@ def compiled(
     ordered = _ordered(model, reduced)
     start = _start(model, reduced, ordered)
     tables, no_tree, modes = _tables(model, reduced, ordered, start, watch, trees)
-    meta = _metadata(model, reduced, ordered, start.rank, closed or {}, no_tree)
+    meta = _metadata(model, reduced, ordered, start, closed or {}, no_tree)
     frames = frames_of(model, ordered.T[:, ordered.fronts.order], ordered.z0)
     if flag(model.start_in_equilibrium, f"The start_in_equilibrium of model '{model.name}'"):
         parameters = mapping(model.equilibrium_parameters, "the equilibrium_parameters of a model", "names to values")
@@ -193,6 +193,8 @@ class _Start:
     """Rows that are on."""
     rank: int | None
     """Of these rows; None: it could not be computed."""
+    told: str
+    """What contradicts itself in the velocities that were given."""
 
 
 def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
@@ -209,10 +211,10 @@ def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
     q = close_position(
         placing, shape, mass, stiffness, drawn, guides, lambda q: joint_gaps(model, T @ q[new] + z0), fine
     )
-    qd = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size)
+    qd, told = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size)
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
-    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()))
+    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()), told)
 
 
 def _tables(
@@ -284,10 +286,10 @@ def _pose(model: Mechanism, reduced: _Reduced, ordered: _Ordered, q: Array) -> M
 
 
 def _metadata(
-    model: Mechanism, reduced: _Reduced, ordered: _Ordered, rank: int | None, closed: Corrections, no_tree: str
+    model: Mechanism, reduced: _Reduced, ordered: _Ordered, start: _Start, closed: Corrections, no_tree: str
 ) -> Tables:
     report = {
-        **structure_report(model, ordered.fronts, rank, len(reduced.rows)),
+        **structure_report(model, ordered.fronts, start.rank, len(reduced.rows)),
         **reduced.counts,
         "tangent_nonzeros": ordered.tangent_nonzeros,
         "no_tree": no_tree,
@@ -295,6 +297,7 @@ def _metadata(
         "closed": closed,
         "length": reduced.length,
         "length_stated": model.length is not None,
+        **({"contradiction": start.told} if start.told and not model.start_in_equilibrium else {}),
     }
     if locked := locked_gears(model):
         report["locked"] = locked

@@ -10,6 +10,7 @@ from scipy.sparse.linalg import spsolve
 from mbs.common.affine import Affine
 from mbs.compiler.consistent import start_velocity
 from mbs.compiler.full_coordinates import full_mass, symmetric
+from mbs.compiler.given_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
@@ -70,8 +71,10 @@ def velocity(
     guides: Array,
     guide_rates: Array,
     length: float,
-) -> Array:
-    """Start velocity in elimination order, from the velocities of bodies and coordinates; `length`: of the model, m."""
+) -> tuple[Array, str]:
+    """Start velocity in elimination order, from the velocities of bodies and coordinates, and a sentence where they
+    contradict each other; `length`: of the model, m.
+    """
     position = full_values(full, z)
     rates = np.zeros(len(full))
     weights, partly = {}, False
@@ -89,8 +92,22 @@ def velocity(
     for i, rate in model.coordinate_rates.items():
         own[i] = max(mean, model.inertias.get(i, 0.0))
         rates[i] = rate
-    M_given = M_given + sparse.diags(own)
-    given = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
-    aim = (T.T @ (M_given @ rates))[order]
-    near = (T.T @ (full_mass(model) @ rates))[order] if partly else None
-    return start_velocity(arrays, mass, stiffness, given, aim, z[order], guides, guide_rates, near)
+
+    def solved(M_given: sparse.csr_matrix, rates: Array, partly: bool) -> Array:
+        given = symmetric(T.T @ M_given @ T)[order][:, order].tocsr()
+        aim = (T.T @ (M_given @ rates))[order]
+        near = (T.T @ (full_mass(model) @ rates))[order] if partly else None
+        return start_velocity(arrays, mass, stiffness, given, aim, z[order], guides, guide_rates, near)
+
+    def full_rates(v: Array) -> Array:
+        of_z = np.empty_like(v)
+        of_z[order] = v
+        return np.asarray(T @ of_z)
+
+    def alone(g: GivenVelocity) -> Array:
+        only = np.zeros(len(full))
+        only[g.part] = g.rates
+        return full_rates(solved(g.matrix(len(full)), only, False))
+
+    found = solved(M_given + sparse.diags(own), rates, partly)
+    return found, contradiction(model, list(given_velocities(model, position, mean)), full_rates(found), alone)

@@ -114,8 +114,8 @@ class ContactPoints:
         places = array(points, (None, 3), f"the points of {what}")
         if len(axes) != 3 or not len(places):
             raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        order = ("radius", "stiffness", "onset", "loss", "restitution")
-        order += ("stick_stiffness", "stick_damping", "friction_factor")
+        normal, friction = ("stiffness", "onset", "loss", "restitution"), ("stick_stiffness", "stick_damping")
+        order = ("radius", *normal, *friction, "friction_factor")
         box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
         return ElementRecord(
             name,

@@ -37,6 +37,12 @@ class SteppedSystem(SystemInstance):
         """A sentence about the first change of the assembly mode of a closed loop since the start; empty: none."""
         return self.instance.branch_text()
 
+    @property
+    def rim_text(self) -> str:
+        """A sentence about the wheel that was pressed deepest into a road; empty where none was."""
+        element, text = self.instance.rim_text()
+        return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'." if text else ""
+
     def change_settings(self, settings: Settings) -> None:
         """Solve the steps from now on in another way."""
         instance_of(Settings, settings, "The settings", "Settings(...)")

@@ -485,12 +485,6 @@ class Simulation(SteppedSystem):
             text = f"{accuracy.balance_text(self.report)} The result is wrong from before t = {self.time:g} s."
             warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
 
-    @property
-    def rim_text(self) -> str:
-        """A sentence about the wheel whose rim was pressed deepest into a road; empty where none was."""
-        element, text = self.instance.rim_text()
-        return f"{text} It is the wheel of '{self._meta['elements'][element]['name']}'." if text else ""
-
     def save(self) -> bytes:
         """All that continues bit for bit, in this or another process.
 

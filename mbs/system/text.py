@@ -30,6 +30,8 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     ]
     if r.get("closed"):
         lines.append(f"  closed by least squares        {_correction_text(r['closed'])}")
+    if told := r.get("contradiction"):
+        lines.append(f"  {told}")
     return "\n".join(lines)
 
 

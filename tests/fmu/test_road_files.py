@@ -108,6 +108,22 @@ def test_a_path_gives_the_same_bits_as_in_python(car: Path, host: Any, roads: Pa
     assert heights(driven) == expected
 
 
+@pytest.mark.parametrize("degrees", [25.0, 30.0])
+def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(
+    car: Path, host: Any, tmp_path: Path, degrees: float
+) -> None:
+    road = tmp_path / "steep.road"
+    write_road(PlaneRoad(0.0, np.tan(np.radians(degrees)), 0.0, 1.0), road)
+    driven = host(car)
+    assert text(driven, str(road)) == OK
+    driven.start()
+    assert 0.0 < driven.get("chassis.ground_force") < 1e-9  # it is put down until a point of it touches
+    assert not [m for m in driven.messages if "rests on its body" in m]
+    simulation = mbs.Simulation(mbs.compile(prototype_car.build()), parameters={"road.file": road})
+    assert simulation.sensors["chassis.ground_force"] == driven.get("chassis.ground_force")
+    assert simulation.run(0.02, 0.002, progress=False).notices == ()
+
+
 @pytest.mark.parametrize("name", sorted(path.name for path in FOLDER.glob("*.road")))
 def test_the_roads_in_the_resources_are_found_by_name(car: Path, host: Any, name: str) -> None:
     driven = host(car)

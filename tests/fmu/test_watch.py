@@ -208,6 +208,17 @@ def test_a_vehicle_that_rests_on_its_body_at_the_start_is_told(
         assert f"chassis.ground_force is {driven.get('chassis.ground_force'):.4g} N" in lines[0]
 
 
+def test_a_wheel_that_falls_deep_into_the_road_is_told_with_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+    driven = host(prototype_fmu).start({"initial.z": 30.0, "step_size": 0.002})
+    deepest = 0.0
+    for k in range(1400):
+        assert driven.step(0.002 * k, 0.002) in (OK, WARNING)
+        deepest = max(deepest, *(driven.get(f"wheel_{w}.deflection") for w in ("FL", "FR", "RL", "RR")))
+    (told,) = [m for m in driven.messages if "deep in the road" in m]
+    assert "It is the wheel of 'tyre " in told
+    assert deepest > 0.9 * load("prototype").front.tyre.radius
+
+
 def test_an_inertia_that_no_body_has_is_refused_by_its_name(prototype_fmu: Path, host: HostMaker) -> None:
     """Not by that of the payload, which is farther from its start value in parts of its range."""
     driven = host(prototype_fmu)

@@ -1,0 +1,95 @@
+"""Start velocities that were asked for and contradict each other through the joints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from mbs.model.mechanism import Mechanism
+
+Array = NDArray[np.float64]
+
+MISSED = 1e-6  # of the largest velocity, in the metric of the masses: what is taken as reached
+
+
+@dataclass(frozen=True)
+class GivenVelocity:
+    """Velocity of a centre of mass, angular velocity of a body, or rate of a coordinate."""
+
+    name: str
+    unit: str
+    part: slice
+    """Of the full coordinates."""
+    weight: Array
+    """Of the rates of these, shape (n, n), kg."""
+    rates: Array
+    """That were asked for, shape (n,)."""
+    axes: Array
+    """Of the body, shape (m, dimension), where it is an angular velocity; else of shape (0, n): the first n rates."""
+
+    def energy(self, rates: Array) -> float:
+        """Twice the kinetic energy of such rates, J."""
+        return float(rates @ self.weight @ rates)
+
+    def missed(self, full: Array) -> float:
+        """The same of what rates of the full coordinates miss."""
+        return self.energy(full[self.part] - self.rates)
+
+    def text(self, rates: Array) -> str:
+        """The velocity of such rates as it was asked for."""
+        m, n = self.axes.shape
+        moved = rates[n : n + m * n].reshape(m, n) if m else rates[:n]
+        if n == 3 and m:
+            moved = 0.5 * np.cross(self.axes, moved).sum(axis=0)
+        elif m:
+            moved = self.axes[:, 0] * moved[:, 1] - self.axes[:, 1] * moved[:, 0]
+        return f"{', '.join(f'{v + 0.0:.4g}' for v in moved)} {self.unit}"
+
+    def matrix(self, n: int) -> sparse.csr_matrix:
+        """Its weight over all n full coordinates."""
+        rows, columns = np.mgrid[self.part, self.part]
+        return sparse.csr_matrix((self.weight.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
+
+
+def given_velocities(model: Mechanism, position: Array, mass: float) -> Iterator[GivenVelocity]:
+    """All that were asked for, at full coordinates; `mass`: of a coordinate that has none, kg."""
+    d, turns = model.dimension, 1 if model.dimension == 2 else 3
+    for k, (linear, angular) in model.body_velocities.items():
+        body = model.bodies[k]
+        part, none = slice(body.start, body.start + body.size), np.zeros((0, d))
+        v, w = (np.zeros(n) if x is None else x for x, n in ((linear, d), (angular, turns)))
+        rates = body.velocity(v, w, position[part])
+        if linear is not None:
+            weight = body.velocity_weight(True, False)
+            yield GivenVelocity(f"the velocity of '{body.name}'", "m/s", part, weight, rates, none)
+        if angular is not None and not body.is_point:
+            axes = position[part][d : 4 if d == 2 else 12].reshape(-1, d)
+            weight = body.velocity_weight(False, True)
+            yield GivenVelocity(f"the angular velocity of '{body.name}'", "rad/s", part, weight, rates, axes)
+    for i, rate in model.coordinate_rates.items():
+        weight = np.array([[max(mass, model.inertias.get(i, 0.0))]])
+        name = f"the rate of '{model.coordinates[i].name}'"
+        yield GivenVelocity(name, "1/s", slice(i, i + 1), weight, np.array([rate]), np.zeros((0, 1)))
+
+
+def contradiction(
+    model: Mechanism, given: list[GivenVelocity], reached: Array, alone: Callable[[GivenVelocity], Array]
+) -> str:
+    """A sentence on velocities each of which the joints allow alone, but not together; empty where there are none.
+
+    `reached`: rates of the full coordinates; `alone`: gives those with one of the velocities only.
+    """
+    least = MISSED**2 * max((g.energy(g.rates) for g in given), default=0.0)
+    missed = sorted((g for g in given if g.missed(reached) > least), key=lambda g: -g.missed(reached))
+    lost = [g for g in missed if g.missed(alone(g)) <= least] if len(given) > 1 else []
+    if not lost:
+        return ""
+    told = "; ".join(f"{g.name} is given as {g.text(g.rates)} and is {g.text(reached[g.part])}" for g in lost[:2])
+    return (
+        f"The initial velocities of '{model.name}' contradict each other through its joints: {told}. Each alone could "
+        "hold: give one of them, or values that fit."
+    )

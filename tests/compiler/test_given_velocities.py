@@ -1,0 +1,85 @@
+"""Initial velocities that contradict each other are told with what was given and what is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import mbs
+from mbs.model.mechanism import Mechanism
+
+
+def arm(first=None, second=None, dimension=2) -> mbs.Model:
+    """Two rods that are welded together and turn about z."""
+    m = mbs.Model("arm", dimension=dimension)
+    flat = dimension == 2
+    places = [(x, 0.0) if flat else (x, 0.0, 0.0) for x in (0.0, 0.5, 1.0, 1.5)]
+    inertia = 0.1 if flat else (0.01, 0.1, 0.1)
+    a, b = (m.body(n, mass=1.0, com=places[k], inertia=inertia) for n, k in (("a", 1), ("b", 3)))
+    m.revolute("pin", m.ground, a, point=places[0], **({} if flat else {"axis": (0.0, 0.0, 1.0)}))
+    m.weld("weld", a, b)
+    for body, given in ((a, first), (b, second)):
+        if given is not None:
+            m.initial_velocity(body, **given)
+    return m
+
+
+def spin(w, dimension=2):
+    return {"angular": w if dimension == 2 else (0.0, 0.0, w)}
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_both_numbers_of_a_contradiction_are_told(dimension: int) -> None:
+    given, reached = ("1 rad/s", "3 rad/s") if dimension == 2 else ("0, 0, 1 rad/s", "0, 0, 3 rad/s"), []
+    system = mbs.compile(arm(spin(1.0, dimension), spin(3.0, dimension), dimension))
+    (told,) = mbs.simulate(system, 0.01, 0.01, progress=False).notices
+    assert told in str(system)
+    for name, number in zip("ab", given, strict=True):
+        assert f"the angular velocity of '{name}' is given as {number} and is " in told
+        reached.append(told.split(f"given as {number} and is ")[1].split(" rad/s")[0])
+    assert reached[0] == reached[1]  # the weld
+    assert 1.0 < float(reached[0].split()[-1]) < 3.0
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (spin(1.0), spin(1.0)),
+        (spin(2.0), {"linear": (0.0, 3.0)}),
+        ({"linear": (0.0, 1.0), "angular": 2.0}, None),
+        (spin(2.0), {"linear": (5.0, 3.0)}),  # along the rod the pin takes it away, with the other and without
+        (spin(0.0), spin(0.0)),
+    ],
+)
+def test_velocities_that_fit_are_kept(first: dict, second: dict | None) -> None:
+    system = mbs.compile(arm(first, second))
+    assert "contradict" not in str(system)
+    w = first.get("angular")
+    assert mbs.Simulation(system).state.qd == pytest.approx(
+        mbs.Simulation(mbs.compile(arm(spin(w)))).state.qd, abs=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "words"),
+    [
+        ({"linear": (0.0, 1.0), "angular": 3.0}, None, "velocity of 'a' is given as 0, 1 m/s"),
+        (spin(2.0), {"linear": (0.0, 4.0)}, "velocity of 'b' is given as 0, 4 m/s"),
+        (spin(2.0), spin(0.0), "velocity of 'b' is given as 0 rad/s"),
+    ],
+)
+def test_parts_of_a_velocity_contradict_each_other_too(first: dict, second: dict | None, words: str) -> None:
+    assert words in str(mbs.compile(arm(first, second)))
+
+
+def test_a_rate_and_a_velocity_contradict_each_other() -> None:
+    def pendulum(rate: float, w: float) -> Mechanism:
+        m = mbs.Model("pendulum", dimension=2)
+        rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+        m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+        m.initial_rate(m.relative_angle("angle", m.ground, rod), rate)
+        m.initial_velocity(rod, angular=w)
+        return m
+
+    assert "the rate of 'angle' is given as 5 1/s" in str(mbs.compile(pendulum(5.0, 1.0)))
+    assert np.abs(mbs.compile(pendulum(5.0, 5.0)).arrays["qd0"]).max() == pytest.approx(5.0)
