@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 _COUNT = int(os.environ.get("ALI3_ATTACKS", "0"))
-"""Attacks of each kind; 0: as many as 0.3 s allow."""
+"""Attacks of each kind; 0: as many as 0.2 s allow."""
 _MEMORY = 2 * 10**9  # bytes beyond what is held before
 
 
@@ -24,7 +24,7 @@ def seeds(kind: str) -> Iterator[int]:
     while count < (_COUNT or 2000) and (not count or time.monotonic() < end):
         yield first + count
         if not count:  # with what is imported by the first
-            end = time.monotonic() + (900.0 if _COUNT else 0.3)
+            end = time.monotonic() + (900.0 if _COUNT else 0.2)
         count += 1
     print(f"{kind}: {count}")
     assert count
