@@ -29,6 +29,7 @@ _END, _END_64 = b"PK\5\6", b"PK\6\6"
 _END_SIZE, _END_64_SIZE, _MOST_COMMENT = 22, 56 + 20, 65535  # bytes
 _ENTRY = 46 + 200
 """Bytes of an entry in the directory of an archive, with a long name."""
+_LONGEST_NAME = 255  # bytes, on all usual file systems
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, KeyError, RuntimeError, NotImplementedError)
 
@@ -170,7 +171,7 @@ def _faults(archive: zipfile.ZipFile, unpacked: int) -> list[Fault]:
     counts = Counter(info.filename.rstrip("/").casefold() for info in entries)
     if twice := next((name for name, count in counts.items() if count > 1), None):
         found.append(Fault(f"has the entry {brief(twice)} twice"))
-    files = {info.filename.casefold() for info in entries if not info.is_dir()}
+    files = {info.filename.casefold() for info in entries if not info.filename.endswith("/")}
     if inside := next((name for name in counts for n in _folders(name) if n in files), None):
         found.append(Fault(f"has the entry {brief(inside)} in a folder that is a file too"))
     if len(entries) > raised(MOST_ENTRIES):
@@ -196,7 +197,7 @@ def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
     parts = raw.removesuffix("/").split("/")
     if ".." in parts:
         return Fault(f"has {what}, which leads out of its folder")
-    if not raw.isprintable() or "" in parts or "." in parts:
+    if not raw.isprintable() or "" in parts or "." in parts or any(len(p.encode()) > _LONGEST_NAME for p in parts):
         return Fault(f"has {what}, which is no name of a file")
     if info.flag_bits & 1:
         return Fault(f"has {what}, which is encrypted", "ISO/IEC 21320-1")

@@ -31,12 +31,14 @@ def temporary_folder(parent: str | os.PathLike[str] | None = None) -> Iterator[P
         _cleared.add(place)
         _clear(place)
     folder, lock = _locked_folder(place)
+    owner = os.getpid()
     try:
         yield folder
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
-        if lock >= 0:
-            os.close(lock)
+        if os.getpid() == owner:  # a process that was forked from it may end with the block open
+            shutil.rmtree(folder, ignore_errors=True)
+            if lock >= 0:
+                os.close(lock)
 
 
 def _locked_folder(parent: Path) -> tuple[Path, int]:

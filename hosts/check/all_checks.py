@@ -9,7 +9,6 @@ from pathlib import Path
 
 from ali3.errors import UserError
 from ali3.isolated import Lost
-from ali3.processes import cause_words
 from hosts.check.behaviour import BEHAVIOUR_CHECKS
 from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS
 from hosts.check.instance import Check, Finding, Subject, open_subject
@@ -45,12 +44,12 @@ def done(check: Check, subject: Subject) -> Finding:
     """What a check finds; an error in it is bad."""
     try:
         return check.find(subject)
-    except ModuleNotFoundError:
+    except (ModuleNotFoundError, MemoryError):
         raise
     except UserError as error:
         return Finding(check.name, "bad", str(error).rstrip("."))
     except Exception as error:
-        return Finding(check.name, "bad", f"ended with {type(error).__name__}: {error}{cause_words(error)}")
+        return Finding(check.name, "bad", f"ended with {type(error).__name__}: {error}")
 
 
 def lost(check: Check, loss: Lost, limit: float) -> Finding:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import sys
 import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -88,9 +87,9 @@ class Fmu(Closing, NamedScalars):
         if self._loaded is not None:
             return self._loaded
         path = self.path
-        held, own = ExitStack(), os.getpid()  # which it goes with, not with forked ones
+        held = ExitStack()
         folder = held.enter_context(temporary_folder())
-        self._remove = weakref.finalize(self, lambda: None if os.getpid() != own else held.close())
+        self._remove = weakref.finalize(self, held.close)
         self._folder = folder
         try:
             unpack(path, folder)

@@ -110,7 +110,7 @@ class RecordedDrive:
             for k in np.flatnonzero(~(np.abs(found - self.step) <= _NEAR * np.abs(found))):
                 raise HostError(
                     f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; after step {counts[within[k]]} it is "
-                    f"{found[k]:g} s in the rows. It must be that of its table."
+                    f"{found[k]:g} s in the rows of {file.name}. It must be that of its table."
                 )
             last = float(times[-1]), int(counts[-1]), int(epochs[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))

@@ -110,7 +110,8 @@ class Ring:
 
     def take(self) -> NDArray[np.float64]:
         """Copies of all rows that wait, shape (k, n), in their order."""
-        read, written = int(self._counters[1]), int(self._counters[0])
+        written = int(self._counters[0])
+        read = max(int(self._counters[1]), written - self._capacity)  # an FMU may have damaged both
         _fence()
         rows: NDArray[np.float64] = self._rows[np.arange(read, written) % self._capacity]
         _fence()
@@ -145,7 +146,8 @@ class ByteRing:
 
     def take(self) -> list[bytes]:
         """All messages that wait."""
-        read, written = int(self._counters[1]), int(self._counters[0])
+        written = int(self._counters[0])
+        read = max(int(self._counters[1]), written - len(self._data))
         _fence()
         data = self._data[np.arange(read, written) % len(self._data)].tobytes()
         _fence()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import json
 import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -13,7 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ali3.files import whole_file
+from ali3.json_reading import json_of
 from ali3.reading import read_bytes
+from ali3.words import one_line
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
 from mbs.common.later import Later
@@ -176,7 +177,7 @@ class System(CompiledModel):
         except KernelError as error:
             raise SystemFileError(f"Not a valid System file: {error}") from None
         try:
-            meta = json.loads(found.pop("meta"))
+            meta = json_of(found.pop("meta"), SystemFileError, "The array 'meta' of the System file", finite=False)
             problem = problem_of(meta, {name: len(values) for name, values in found.items()})
             if problem:
                 raise SystemFileError(f"The names in the System file were altered: {problem}.")
@@ -186,7 +187,7 @@ class System(CompiledModel):
         except SystemFileError:
             raise
         except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
-            raise SystemFileError(f"The names in the System file are damaged: {error}") from None
+            raise SystemFileError(f"The names in the System file are damaged: {one_line(str(error))}.") from None
         return system
 
     def save(self, path: str | Path) -> None:
@@ -253,7 +254,7 @@ def _parse(data: bytes) -> dict[str, Any]:
         raw, kind, _, offset, items = ENTRY.unpack_from(data, HEADER.size + k * ENTRY.size)
         name = raw.rstrip(b"\0").decode("ascii", "replace")
         expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name in TEXTS else 0
-        if kind != expected or name in found:
+        if not expected or kind != expected or name in found:
             raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array '{name}'.")
         dtype = types[kind]
         if offset % 8 or offset + items * dtype.itemsize > len(data):

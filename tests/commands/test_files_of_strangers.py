@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 import importlib
 import io
-import json
 import os
 import pickle
 import random
-import shutil
 import signal
 import socket
-import time
 import tomllib
 import warnings
 import zipfile
@@ -21,11 +17,8 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-import scipy.sparse as sp
 import tomli_w
-from scipy.io import mmwrite
 
 import mbs.roads
 import mbs.vehicle
@@ -67,9 +60,7 @@ from mbs.vehicle.kinematics.curve_files import read_curve
 from mbs.vehicle.table import read_table as read_car_table
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
-from tests.altered_files import altered
 from tests.in_process import run
-from tests.quick import quick
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="pipes, devices and alarms are those of POSIX")
 
@@ -306,7 +297,7 @@ def _soon() -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def _fault(read: Callable[[Path], Any], path: Path, may_be_read: bool, many: bool = False) -> str:
+def fault_of(read: Callable[[Path], Any], path: Path, may_be_read: bool, many: bool = False) -> str:
     """What is wrong with how a reader refuses a file; empty where nothing is."""
     try:
         with _soon(), warnings.catch_warnings():
@@ -316,6 +307,9 @@ def _fault(read: Callable[[Path], Any], path: Path, may_be_read: bool, many: boo
         return str(error)
     except RecursionError:
         return "RecursionError"
+    except Warning as told:  # of what is read all the same
+        if path.name not in str(told):
+            return f"{type(told).__name__}: {str(told)[:150]!r}"
     except Exception as error:
         text, where = str(error), type(error).__module__.split(".")[0]
         if where not in ("ali3", "hosts", "mbs", "viewer"):
@@ -342,7 +336,7 @@ def test_what_a_stranger_gives_is_refused_in_one_sentence(tmp_path: Path) -> Non
             folder.mkdir()
             count += 1
             put(folder / name, content)
-            fault = _fault(read, folder / name, case in READ.get(kind, ()), kind in MANY)
+            fault = fault_of(read, folder / name, case in READ.get(kind, ()), kind in MANY)
             faults += [f"{kind}, {case}: {fault}"] if fault else []
     assert not faults, f"{len(faults)} of {count}:\n" + "\n".join(faults)
 
@@ -353,120 +347,16 @@ def test_a_drawing_in_an_fmu_is_refused_in_one_sentence(tmp_path: Path) -> None:
         file = tmp_path / f"{case.replace(' ', '_')}.fmu"
         with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr(RESOURCE, '{"format": "ALi3 scene", "version": 1, "frames": @}'.replace("@", text))
-        fault = _fault(scene_of, file, may_be_read=False)
+        fault = fault_of(scene_of, file, may_be_read=False)
         faults += [f"{case}: {fault}"] if fault else []
     assert not faults, "\n".join(faults)
 
 
-CAR = Path(mbs.vehicle.__file__).with_name("cars") / "saloon"
-GOOD = {
-    "car": (CAR / "car.toml").read_bytes(),
-    "record of a result": b'{"fmu": "a.fmu", "set": [], "outputs_from": "y", "start": {"m": 1.5}, "held": ["u"], '
-    b'"jumps": {"0": [0.0, 1.0]}, "state": {"file": "r.state", "time": 0.1}, "step_s": 0.01, '
-    b'"interval_s": 0.01, "lost": []}',
-    "events of a recording": b'{"kind": "note", "time": 0.1, "text": "a"}\n{"kind": "reset", "time": 0.2, "text": "b", '
-    b'"epoch": 1, "start": {"m": 1.5}}\n',
-    "manoeuvre": b'"time","steering","brake"\n# held: brake\n# step: 0.01\n0,0,0\n0.5,1,0\n0.5,2,1\n1,0,0\n',
-    "rows of a recording": b"time,count,epoch,u\n0,0,0,1.5\n0.01,1,0,2.5\n0.02,2,0,-1\n",
-    "log": b"time;u\n" + b"".join(b"%d;%d,5\n" % (k, k * k) for k in range(40)),
-    "alias file of a log": b'[time]\nname = "t"\nunit = "ms"\n[signals]\n"u" = { name = "c", factor = 2.0 }\n',
-}
-
-
-def _bytes_of(write: Callable[[io.BytesIO], object]) -> bytes:
-    made = io.BytesIO()
-    write(made)
-    return made.getvalue()
-
-
-def _output4() -> bytes:
-    """A matrix of 3 x 3 as text."""
-    lines = ["       3       3       2       2KGG     1P,3E23.16"]
-    for column in (1, 2, 3):
-        lines += [f"{column:8d}       1       3", "".join(f"{row * column + 1.0:23.16E}" for row in (1, 2, 3))]
-    return "\n".join([*lines, "       4       1       1", f"{1.0:23.16E}", ""]).encode()
-
-
-def _gltf() -> bytes:
-    points = base64.b64encode(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()).decode()
-    return json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "scene": 0,
-            "scenes": [{"nodes": [0]}],
-            "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-            "buffers": [{"uri": f"data:application/octet-stream;base64,{points}", "byteLength": 36}],
-            "bufferViews": [{"buffer": 0, "byteLength": 36}],
-            "accessors": [{"bufferView": 0, "count": 3, "componentType": 5126, "type": "VEC3"}],
-        }
-    ).encode()
-
-
-_SPARSE = sp.csc_array(np.eye(9) + np.eye(9)[::-1])
 CALCULIX = {
     ".sti": b"".join(b"%d %d %e\n" % (k, k, 1e6) for k in range(1, 7)),
     ".mas": b"".join(b"%d %d %e\n" % (k, k, 2.0) for k in range(1, 7)),
     ".dof": b"1.1\n1.2\n1.3\n2.1\n2.2\n2.3\n",
 }
-GOOD |= {
-    "matrix": _bytes_of(lambda out: mmwrite(out, _SPARSE)),
-    "matrix of SciPy": _bytes_of(lambda out: sp.save_npz(out, _SPARSE, compressed=False)),
-    "grid of NumPy": _bytes_of(lambda out: np.save(out, np.ones((4, 5)))),
-    "bulk data": b"CORD2R,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,5,0.,1.,0.\n=,*(1),=,*(0.5),==\n=(3),\n",
-    "OUTPUT4": _output4(),
-    "deck of CalculiX": b"*HEADING\nx\n*NODE, NSET=N\n1,0.,0.,0.\n2,1.,0.,0.5\n*NSET,NSET=A,GENERATE\n1,2,1\n",
-    "mesh of glTF": _gltf(),
-}
-
-
-@pytest.mark.parametrize("kind", quick(set(GOOD) - {"car"}, GOOD))
-def test_an_altered_file_is_read_or_refused_in_one_sentence(kind: str, tmp_path: Path) -> None:
-    """Cut files, changed bytes and values of other types; forty by their seeds."""
-    if kind == "deck of CalculiX":
-        pytest.importorskip("meshio")
-    refused = _altered(kind, range(40), tmp_path)
-    assert 5 < refused < 40
-
-
-@pytest.mark.proof
-@pytest.mark.attack
-@pytest.mark.parametrize("kind", GOOD)
-def test_two_thousand_altered_files_are_read_or_refused(kind: str, tmp_path: Path) -> None:
-    """Seeds by chance, which are printed; within 2 GB of memory beyond what is held now, and 15 minutes."""
-    resource = pytest.importorskip("resource")
-    first, end, done = random.SystemRandom().randrange(2**40), time.monotonic() + 900, 0
-    print(f"{kind}: seeds from {first} on")
-    limits = resource.getrlimit(resource.RLIMIT_AS)
-    held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (held + 2 * 10**9, limits[1]))
-    try:
-        while done < 2000 and time.monotonic() < end:
-            _altered(kind, range(first + done, first + done + 50), tmp_path / f"{done}")
-            shutil.rmtree(tmp_path / f"{done}")
-            done += 50
-    finally:
-        resource.setrlimit(resource.RLIMIT_AS, limits)
-    print(f"{kind}: {done} files")
-    assert done
-
-
-def _altered(kind: str, seeds: range, folder: Path) -> int:
-    """How many altered files are refused; all of them are read or refused in one sentence."""
-    name, _, _, read = KINDS[kind]
-    faults, refused = [], 0
-    folder.mkdir(exist_ok=True)
-    for seed in seeds:
-        file = folder / f"{seed}" / name
-        if kind == "car":  # a car has tables beside its file
-            shutil.copytree(CAR, file.parent)
-        file.parent.mkdir(exist_ok=True)
-        file.write_bytes(altered(GOOD[kind], seed))
-        fault = _fault(read, file, may_be_read=False, many=kind in MANY)
-        refused += fault != "it is read"
-        faults += [f"{seed}: {fault}"] if fault not in ("", "it is read") else []
-    assert not faults, "\n".join(faults)
-    return refused
 
 
 WHOLE = {  # every key that its kind has, or an example
@@ -531,7 +421,7 @@ def test_each_value_may_be_of_another_kind(kind: str, tmp_path: Path) -> None:
     documents = [made for made in _with_others(tomllib.loads(WHOLE[kind])) if isinstance(made, dict)]
     for made in documents:
         file.write_text(tomli_w.dumps(made))
-        fault = _fault(read, file, may_be_read=True)
+        fault = fault_of(read, file, may_be_read=True)
         faults += [f"{fault}: {made}"] if fault else []
     assert len(documents) > 60
     assert not faults, f"{len(faults)} of {len(documents)}:\n" + "\n".join(faults[:10])

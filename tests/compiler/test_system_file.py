@@ -78,6 +78,13 @@ def directory(data):
     }
 
 
+def test_an_unknown_array_is_refused_whatever_its_type(data):
+    for kind in range(5):
+        entry = b"unknown".ljust(40, b"\0") + kind.to_bytes(4, "little")
+        with pytest.raises(SystemFileError, match="an unknown, repeated or mistyped array 'unknown'"):
+            System.from_bytes(forged(data, HEADER.size, entry))
+
+
 @pytest.mark.parametrize("name", ["row_ptr", "row_col", "front_idx", "el_sig", "mass_col", "sig_ptr", "front_parent"])
 def test_an_index_out_of_range_is_refused_even_with_a_fitting_checksum(data, name):
     _, (_, _, _, offset, count) = directory(data)[name]

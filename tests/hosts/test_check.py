@@ -121,7 +121,7 @@ def test_it_checks_with_what_is_set(
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of memory")
 def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path) -> None:
-    """What an FMU says is told as lack of memory; a failure without a reason is told with the limit."""
+    """What an FMU says is told as lack of memory, and an error that has another cause is not."""
     program = (
         "import resource, sys\n"
         "from pathlib import Path\n"
@@ -141,5 +141,5 @@ def test_an_fmu_without_memory_is_not_bad(fmus: dict[str, Path], tmp_path: Path)
         pytest.skip("no size of a process")
     command = [sys.executable, "-c", program, str(fmus["native"]), str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-    assert "ZeroDivisionError: division by zero; this process gets no more memory" in done.stdout, done.stderr
+    assert "ZeroDivisionError: division by zero\n" in done.stdout, done.stderr
     assert done.stdout.endswith("MemoryError\n"), done.stdout

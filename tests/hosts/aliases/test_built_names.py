@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.task import Task, do
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.task import Task, do, write_runs
 from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
@@ -120,7 +121,7 @@ def test_run_drives_a_car_under_other_names(
         bound = 1e-7 * float(np.max(np.abs(one[name])))
         assert two[name] == pytest.approx(one[name], abs=bound), name
         assert three[name] == pytest.approx(one[name], abs=bound), name
-    (shown,), _ = recordings_of([again], None, RunWishes(None, None, None, Wishes([], [])))
+    (shown,), _, _ = recordings_of([again], None, RunWishes(None, None, None, Wishes([], [])))
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
     capsys.readouterr()
     assert run([theirs, *drive, "--out", str(tmp_path / "none")]) != 0
@@ -135,9 +136,12 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
     theirs = renamed_fmu("carsim")
     aliases = find_aliases("carsim", Variables(described(theirs)))
     car = TestedCar("a car", theirs, aliases, start={"initial.speed": 0.0, "steering": 0.5})
-    do(Task("drop", car, {}, tmp_path), lambda part: None)
+    task = Task("drop", car, {}, tmp_path)
+    record = do(task, lambda part: None)
+    assert isinstance(record, TestRecord)
+    write_runs(task, record)
     (table,) = tmp_path.rglob("*.csv")
-    (shown,), _ = recordings_of([table], None, RunWishes(None, None, None, Wishes([], [])))
+    (shown,), _, _ = recordings_of([table], None, RunWishes(None, None, None, Wishes([], [])))
     assert shown.scene is not None
     assert shown.scene["shapes"]
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"

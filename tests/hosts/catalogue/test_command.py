@@ -52,7 +52,7 @@ def test_cars_stand_side_by_side_and_jobs_change_nothing(
         assert (first / table).read_bytes() == (second / table).read_bytes()
         record = json.loads((first / table).with_suffix(".json").read_text(encoding="utf-8"))
         assert Path(record["fmu"]) == prototype_fmu
-        (seen,), _ = recordings_of([first / table], None, RunWishes(None, None, None, Wishes([], [])))
+        (seen,), _, _ = recordings_of([first / table], None, RunWishes(None, None, None, Wishes([], [])))
         assert seen.scene is not None
         assert seen.scene["shapes"]
     peak = {r["car"]: float(r["value"]) for r in rows(first) if (r["test"], r["measure"]) == ("drop", "load.peak_FL")}

@@ -14,7 +14,7 @@ from hosts.catalogue.output import measures_csv
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
-from hosts.catalogue.task import Task, do
+from hosts.catalogue.task import Task, do, write_runs
 
 SETTINGS = {"height": 0.05, "duration": 4.0}
 
@@ -28,6 +28,7 @@ def test_what_is_kept_is_what_was_done(
     assert kept(task, tmp_path) is None
     record = do(task, lambda part: None)
     assert isinstance(record, TestRecord)
+    write_runs(task, record)
     keep(task, record, tmp_path)
     again = kept(task, tmp_path)
     assert again is not None

@@ -14,7 +14,7 @@ from ali3.isolated import Lost
 from ali3.shared_tasks import as_completed
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.task import Task, do
+from hosts.catalogue.task import Task, do, write_runs
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 from tests.hosts.catalogue.crashing_car import CrashingCar, FaultyCar
 
@@ -33,7 +33,9 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
     assert outcomes[0].how.startswith("was killed (SIGKILL)")
     assert "KeyError('nothing')" in str(outcomes[2])
     for place in (1, 3):
-        assert isinstance(outcomes[place], TestRecord)
+        outcome = outcomes[place]
+        assert isinstance(outcome, TestRecord)
+        write_runs(tasks[place], outcome)
         assert place in {k for k, _ in heard}
     assert sorted(p.name for p in (tmp_path / "runs" / "steady_circle").iterdir()) == [
         *("b_left.csv", "b_left.json", "b_right.csv", "b_right.json"),

@@ -91,3 +91,10 @@ def test_messages_wrap_around(size: int) -> None:
         assert ring.take() == sent
     assert not ring.put(b"y" * size)
     assert ring.take() == []
+
+
+@pytest.mark.parametrize("counters", [[2**62, 0], [-(2**62), 5], [3, 2**62]])
+def test_counters_that_an_fmu_has_damaged_give_no_more_than_there_is(counters: list[int]) -> None:
+    rows = Ring(np.array(counters), np.zeros((4, 2)))
+    assert len(rows.take()) <= 4
+    assert len(b"".join(ByteRing(np.array(counters), np.full(50, 255, np.uint8)).take())) <= 50

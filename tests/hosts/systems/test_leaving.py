@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from ali3.temporary import PREFIX
+
 ROOT = Path(__file__).parents[3]
 PROGRAM = """
 import sys
@@ -53,7 +55,7 @@ def test_what_was_unpacked_goes_with_a_process_that_does_not_close(
         text=True,
         check=True,
     )
-    assert "fmu_" in told.stdout
+    assert PREFIX in told.stdout
     assert list(tmp_path.iterdir()) == []
 
 
