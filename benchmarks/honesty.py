@@ -43,7 +43,6 @@ PARTS = {
     "random": Part(
         f"cases by chance of families ({', '.join(FAMILIES)}), in equal steps and under a tolerance",
         _random,
-        random_honesty.COLUMNS,
         options={
             "family": ([*FAMILIES], "which"),
             "random": (40, "how many are drawn of each"),

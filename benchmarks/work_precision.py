@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import peers
-from benchmarks.methods import bicycle, dissipative, error_control, gears, naive, work_precision
+from benchmarks.methods import dissipative, error_control, gears, naive, work_precision
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.command import Part, run, say_missing, watched
@@ -89,16 +89,9 @@ PARTS = {
         pages=("stability.md",),
         blocks=dissipative.dissipative_blocks,
     ),
-    "bicycle": Part(
-        "the rigid bicycle against what is published and against rolling outside of the kernel",
-        _bicycle,
-        bicycle.COLUMNS,
-        options={"quick": (False, "one step size")},
-    ),
     "gears": Part(
         "free wheels with gears, racks and screws: energy, teeth and angles over many steps",
         lambda options: gears.rows(watched(list(options.only)), options.quick),
-        gears.COLUMNS,
         names=tuple(gears.ALL),
         options={"quick": (False, "a hundredth of the steps")},
         pages=("stability.md",),

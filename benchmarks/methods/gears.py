@@ -19,7 +19,6 @@ from benchmarks.shared.pages import Row, table
 STEP, STEPS, EVERY = 0.01, 100_000, 10
 TURNS = (0.01, 0.05, 0.1, 0.2, 0.5)
 """Rate of the fastest wheel times the step, rad."""
-COLUMNS = {"mechanism": "", "turn": "g", "energy": ".1e", "slip": ".1e", "late": ".1e", "alone_late": ".1e"}
 INERTIA = 0.02  # kg m2
 
 
