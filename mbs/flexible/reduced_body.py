@@ -9,6 +9,7 @@ import numpy as np
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
+from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import InterfaceModes, ModalBody
 
 
@@ -51,6 +52,23 @@ class ReducedBody(ModalBody):
             The node is no interface; the message lists what there is.
         """
         return np.asarray(self.node_translations[self.interface(name).node])
+
+    def carrying(self, points: MassPoints) -> ReducedBody:
+        """The body with more mass, in the same modes and with the same damping.
+
+        Parameters
+        ----------
+        points : MassPoints
+            Of the finite-element model, in its axes.
+        """
+        shapes = np.asarray(points.interpolation @ self.modes).reshape(-1, 3, self.n_modes)
+        return replace(
+            self,
+            mass_positions=np.vstack([self.mass_positions, points.positions - self.origin]),
+            masses=np.concatenate([self.masses, points.masses]),
+            mass_shapes=np.concatenate([self.mass_shapes, shapes]),
+            M=self.M + np.einsum("k,kij,kil->jl", points.masses, shapes, shapes),
+        )
 
     def transformed(self, V: np.ndarray, names: tuple[str, ...], frequencies: np.ndarray) -> ReducedBody:
         """The body in the amplitudes zeta of eta = V zeta, all counted as dynamic modes.

@@ -67,8 +67,9 @@ def choose(
     wall = sum(run.wall for run in runs.values())
     if not best:
         raise SimulationError(
-            f"None of {', '.join(runs)} reaches the end of the run from t = {task.t0:g} to {task.t_end:g} s at a "
-            f"tolerance of {coarse:g}; name a method to see where and why it fails.",
+            f"None of {', '.join(runs)} reaches the end of the run from t = {task.t0:g} to {task.t_end:g} s, not even "
+            f"at {coarse:g} in place of the tolerance of {tolerance:g} that was asked for; name a method to see where "
+            "and why it fails.",
             task.t0,
             Status.NOT_CONVERGED,
         )

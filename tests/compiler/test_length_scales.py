@@ -69,6 +69,71 @@ def test_a_body_without_joints_precesses(size):
     assert np.max(run["x"]) / size == pytest.approx(np.sin(2.0 * np.arctan2(0.5, 6.0)), rel=1e-3)
 
 
+def double_pendulum(size, joint):
+    """Two rods in space that swing little about their rest."""
+    m = Model(f"double pendulum, {joint}")
+    inertia = size**2 * np.array([0.1, 0.1, 0.02])
+    upper, lower = size * np.array([0.06, 0.03, -1.0]), size * np.array([0.1, -0.05, -1.0])
+    a = m.body("a", mass=1.0, com=0.5 * upper, inertia=inertia)
+    b = m.body("b", mass=1.0, com=upper + 0.5 * lower, inertia=inertia)
+    for name, first, second, point in (("top", a, m.ground, np.zeros(3)), ("middle", a, b, upper)):
+        if joint == "spherical":
+            m.spherical(name, first, second, point=point)
+        else:
+            m.universal(name, first, second, point=point, axis_1=(1.0, 0.0, 0.0), axis_2=(0.0, 1.0, 0.0))
+    m.sense_position("p", b, upper + lower, "x")
+    return m
+
+
+def four_bar(size):
+    """Hangs from two pins and swings."""
+    m = Model("four-bar", dimension=2, gravity=(0.0, -9.81))
+    A, B, C, D = (size * np.array(p) for p in ((0.0, 0.0), (0.2, -1.0), (1.6, -1.2), (1.5, 0.0)))
+    bodies = [
+        m.body(name, mass=1.0, com=0.5 * (p + q), inertia=float((q - p) @ (q - p)) / 12.0)
+        for name, p, q in (("AB", A, B), ("BC", B, C), ("CD", C, D))
+    ]
+    ends = ((m.ground, bodies[0], A), (*bodies[:2], B), (*bodies[1:], C), (bodies[2], m.ground, D))
+    for k, (first, second, point) in enumerate(ends):
+        m.revolute(f"pin {k}", first, second, point=point)
+    m.sense_position("p", bodies[1], B, "x")
+    return m
+
+
+def sprung(size):
+    """A mass on a slide and a second one on a bar hang on springs."""
+    m = Model("sprung")
+    box = m.body("box", mass=1.0, com=(0.0, 0.0, -1.2 * size), inertia=3 * (0.1 * size**2,))
+    bob = m.body("bob", mass=0.5, com=(0.1 * size, 0.0, -2.2 * size), inertia=3 * (0.1 * size**2,))
+    m.prismatic("slide", box, m.ground, axis=(0.0, 0.0, 1.0))
+    m.distance("rod", (box, (0.0, 0.0, -1.2 * size)), (bob, (0.1 * size, 0.0, -2.0 * size)))
+    top = m.ground, (0.3 * size, 0.0, 0.0)
+    m.spring_damper("spring", top, (box, (0.0, 0.0, -size)), stiffness=60.0 / size, free_length=0.9 * size)
+    m.sense_position("p", bob, (0.1 * size, 0.0, -2.2 * size), "z")
+    return m
+
+
+MECHANISMS = {
+    "spherical": lambda size: double_pendulum(size, "spherical"),
+    "universal": lambda size: double_pendulum(size, "universal"),
+    "four-bar": four_bar,
+    "sprung": sprung,
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_similar_mechanisms_move_alike(name):
+    """Ten periods at every size, times by the root of the length: to 1e-6 of the motion."""
+    found = {}
+    for size in (1.0, 1e-6, 1e-4, 1e-2, 1e2, 1e4, 1e5, 1e6, 1e7):
+        time = 2.0 * np.sqrt(size)
+        run = Simulation(compile(MECHANISMS[name](size))).run(10.0 * time, time / 200.0)
+        found[size] = run["p"] / size
+    for size, motion in found.items():
+        np.testing.assert_allclose(motion, found[1.0], rtol=0, atol=1e-6 * np.ptp(found[1.0]), err_msg=f"{size:g} m")
+
+
 def rods(size, ratio):
     """Two rods between the same points, the second `ratio` times as long."""
     m = Model("rods", dimension=2)

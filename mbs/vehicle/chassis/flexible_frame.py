@@ -52,8 +52,8 @@ class FlexibleFrame:
         self.interfaces, self.stiff_pairs, self.reference = tuple(joints.interfaces), joints.held, joints.reference
         self.damping = RayleighDamping.fitted(section.damping.ratio, *section.damping.frequencies)
         self.carrying = tuple(joint for pair in joints.ground for joint in pair)
-        self.model = _at_hard_points(structure.model, joints)
-        self.model = self._with_riding()
+        self._bare = self.model = _at_hard_points(structure.model, joints)
+        self.model = replace(self._bare, mass=self._bare.mass.merged(self._riding()))
         self._reduced: dict[Fidelity, ReducedBody] = {}
 
     @cached_property
@@ -71,27 +71,28 @@ class FlexibleFrame:
         rigid = np.vstack([np.transpose([self.place(joint) for joint in self.carrying]), np.ones(len(self.carrying))])
         return np.linalg.lstsq(rigid, sums, rcond=None)[0]
 
-    def _with_riding(self) -> FiniteElementModel:
-        """The model with the masses that ride on it and bend it as payloads do."""
-        riding, model = self.structure.riding, self.model
-        if not riding:
-            return model
+    def _riding(self) -> MassPoints:
+        """The masses that ride on the frame: like payloads they load it at the carrying joints."""
+        riding, model = self.structure.riding, self._bare
         freedoms = np.array([model.freedoms(joint) for joint in self.carrying])
-        places, rows = np.array([self.place(joint) for joint in riding]), np.zeros((len(riding), 3, model.n_dof))
+        places, rows = [self.place(joint) for joint in riding], np.zeros((len(riding), 3, model.n_dof))
         for row, place in zip(rows, places, strict=True):
             row[np.arange(3), freedoms] = self.shares(np.append(place, 1.0))[:, None]
-        points = MassPoints(places, np.array([*riding.values()]), sp.csr_array(rows.reshape(-1, model.n_dof)))
-        return replace(model, mass=model.mass.merged(points))
+        masses = np.array([*riding.values()], dtype=float)
+        return MassPoints(np.reshape(places, (-1, 3)), masses, sp.csr_array(rows.reshape(-1, model.n_dof)))
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:
         """The frame with the modes of a flexible fidelity. `fidelity`: from LOAD_PATHS on."""
         which = Fidelity.of(fidelity)
         if which not in self._reduced:
-            self._reduced[which] = self._reduce(which)
+            self._reduced[which] = self._reduce(which).carrying(self._riding())
         return self._reduced[which]
 
     def _reduce(self, fidelity: Fidelity) -> ReducedBody:
-        s, model = self.section, self.model
+        from mbs.flexible.component_modes import craig_bampton
+        from mbs.flexible.load_paths import load_path_deformations, load_path_modes
+
+        s, model = self.section, self._bare
         if fidelity is Fidelity.PAPER:
             return craig_bampton(model, self.reference, self.interfaces, s.dynamic_modes, damping=self.damping)
         count = {Fidelity.LOAD_PATHS: 0, Fidelity.DYNAMIC: s.dynamic_modes, Fidelity.MANY_MODES: MANY_MODES}[fidelity]
@@ -100,20 +101,15 @@ class FlexibleFrame:
             return body
         # without the stretch between the pivots of a wishbone the frame could not follow its fixed length, and without
         # all directions at the origin a guide, which pushes a pitched car upwards too, would bend it wrongly
-        loads, pairs, alone = self.recorded_loads(), self._relief_with_stretch[1], self._alone(body)
+        loads, pairs = self.recorded_loads(), self._relief_with_stretch[1]
         every = np.hstack([loads, pairs, np.zeros((len(loads), 3))])
         guided = np.zeros((6, every.shape[1]))
         guided[:3, -3:] = np.eye(3)
-        deformation = load_path_deformations(alone, every, guided)
+        deformation = load_path_deformations(body, every, guided)
         size = np.sqrt(np.einsum("ik,ij,jk->k", deformation, body.K, deformation))
         scale = np.ones(every.shape[1])
         scale[loads.shape[1] :] = size[: loads.shape[1]].max() / size[loads.shape[1] :]
-        modes = load_path_modes(alone, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
-        return replace(modes, masses=body.masses)
-
-    def _alone(self, body: ReducedBody) -> ReducedBody:
-        """A reduction without the masses that ride on the frame: these load it at interfaces, as payloads do."""
-        return replace(body, masses=body.masses * (np.arange(len(body.masses)) < len(self.structure.model.mass.masses)))
+        return load_path_modes(body, every * scale, LOAD_PATH_TOLERANCE, guided * scale)
 
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
@@ -155,8 +151,11 @@ class FlexibleFrame:
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
-        body = craig_bampton(self.model, self.reference, self.interfaces, 0, inertia_modes=True)
-        deformation = load_path_deformations(self._alone(body), forces)
+        from mbs.flexible.component_modes import craig_bampton
+        from mbs.flexible.load_paths import load_path_deformations
+
+        body = craig_bampton(self._bare, self.reference, self.interfaces, 0, inertia_modes=True)
+        deformation = load_path_deformations(body, forces)
         return np.asarray(deformation.T @ body.K @ deformation)
 
     @cached_property

@@ -68,8 +68,8 @@ class TubularFrame:
         from the first joint of each tube to the second.
 
         `theory`: "euler_bernoulli" or "timoshenko"; `refinement`: multiplies the number of elements of every tube;
-        `carried_masses`: without them the frame is bare tubes; those that ride on it are `riding`. Raises `ModelError`:
-        a table is missing or does not describe a frame.
+        `carried_masses`: without them the frame is bare tubes; those that ride on it are `riding`.
+        Raises `ModelError`: a table is missing or does not describe a frame.
         """
         material, sections = self.material, self.tube_sections
         joints = self.joint_places()

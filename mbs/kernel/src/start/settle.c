@@ -72,6 +72,12 @@ static void shift(const ali3_system *S, const double *q, double x, double y, dou
   for (int32_t i = 0; i < S->size.nq; i++) out[i] = q[i] + (x * S->pose_x[i] + y * S->pose_y[i]);
 }
 
+double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *start) {
+  ali3_held_motion now = *start;
+  look(in, &now);
+  return start->direction[0] * now.direction[1] - start->direction[1] * now.direction[0];
+}
+
 void ali3_put_back(ali3_instance *in, const ali3_held_motion *start) {
   const ali3_system *S = in->system;
   double *q = in->now.q, *qd = in->now.qd;

@@ -10,6 +10,7 @@ typedef struct {
 } ali3_held_motion;
 
 bool ali3_hold(ali3_instance *in, ali3_held_motion *held); /* false: no body has a point and a direction of its own */
+double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *held); /* sine of the angle to the left */
 void ali3_put_back(ali3_instance *in, const ali3_held_motion *held);
 double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *held); /* m/s beside the held motion */
 #endif

@@ -18,6 +18,7 @@
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "initialise.h"
+#include "settle.h"
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
 static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */
@@ -27,6 +28,8 @@ static const double OPEN = 1e-2; /* m: c does not grow beyond it */
 enum { SLOW = 20 }; /* iterations after which rows that close slowly, c K being large beside PENALTY, make c smaller */
 static const double LONG = 1e6; /* s */
 static const double ROUND_OFF = 1e-12; /* of the forces in balance */
+/* rad: between these iterations have turned a scene that floats, as nothing holds it; it is put back to the drawing */
+static const double TURNED = 1e-12, HELD = 1e-6;
 
 /* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is
  * returned. `h`: of the step from the drawing, or 0. */
@@ -145,6 +148,8 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
   ali3_status status = ali3_solve_initial(in, t);
   if (status != ALI3_OK) return status;
+  ali3_held_motion drawn;
+  const bool floats = S->size.has_pose && ali3_hold(in, &drawn);
   status = search(in, tolerance, max_iterations, 0.0);
   if (status != ALI3_OK && S->size.ny > 0) {
     status = search(in, tolerance, max_iterations, LONG);
@@ -153,5 +158,7 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   if (status != ALI3_OK) return status;
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
+  const double turned = floats ? fabs(ali3_heading_change(in, &drawn)) : 0.0;
+  if (turned > TURNED && turned < HELD) ali3_put_back(in, &drawn);
   return ali3_solve_rates(in, true);
 }

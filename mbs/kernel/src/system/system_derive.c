@@ -169,14 +169,28 @@ static void derive_turning(ali3_system *s) {
     if (turns_more(s, s->angle_row[i], s->angle_theta_col[i])) s->turning[s->n_turning++] = i;
 }
 
-/* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away. */
+static const double DECIDES = 1e-12; /* m: a smaller round-off is none beside the tolerances of rows */
+
+/* The largest coordinate of row k: where the scene has moved, any component of a vector may be as large. */
+static double largest_of_row(const ali3_system *s, int32_t k) {
+  double largest = 0.0;
+  for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) largest = fmax(largest, fabs(s->q0[s->row_col[i]]));
+  return largest;
+}
+
+/* What the sum of a row's terms cannot resolve, however well a step converges: squares of coordinates far away, or of a
+ * large scene. */
 static void derive_round(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
-    double sum = fabs(s->row_const[k]);
+    const double largest = largest_of_row(s, k);
+    double sum = fabs(s->row_const[k]), most = sum;
     for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) sum += fabs(s->row_lin[i] * s->q0[s->row_col[i]]);
     for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
       sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
-    s->row_round[k] = 4.0 * DBL_EPSILON * sum * s->row_measure[k];
+    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) most += fabs(s->row_lin[i]) * largest;
+    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++) most += fabs(s->quad[t].h) * largest * largest;
+    const double unit = 4.0 * DBL_EPSILON * s->row_measure[k];
+    s->row_round[k] = unit * most > DECIDES ? unit * most : unit * sum;
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
   s->largest_round = 0.0;

@@ -1,0 +1,39 @@
+"""Cars that are their own image in the middle plane, at every fidelity that they offer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mbs import Pose, compile, simulate
+from mbs.vehicle import load
+from tests.vehicle.hatchback import EVEN, ODD
+
+TIMES = (0.0, 0.5, 1.5, 3.0, 4.5, 6.0, 10.0)
+STEERING = np.array([0.0, 0.0, 0.25, -0.25, 0.15, -0.1, 0.0])
+BENT = 1e-5
+"""Of accelerations of a frame that vibrates in its joints; those of positions and rates are 1e-7 at every fidelity."""
+
+
+def run(system, t_end, speed, **inputs):
+    pose = Pose(speed=speed)
+    return simulate(system, t_end, 0.005, inputs, pose=pose, progress=False, estimate_error=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["hatchback", "prototype"])
+def test_left_is_the_image_of_right(name):
+    """Hands off for 60 s, then steered to the left and to the right."""
+    car = load(name)
+    for fidelity in car.offered:
+        system = compile(car.model(fidelity=fidelity))
+        alone = run(system, 60.0, 30.0)
+        assert np.abs(alone["chassis.y"]).max() < 1e-4, fidelity
+        left, right = (run(system, 10.0, 15.0, steering=(TIMES, k * STEERING), throttle=0.2) for k in (1, -1))
+        assert np.ptp(left["chassis.y"]) > 10.0
+        for signals, sign in ((ODD, -1.0), (EVEN, 1.0)):
+            for signal in signals:
+                size = max(1.0, np.abs(left[signal]).max())
+                off = np.abs(left[signal] - sign * right[signal]).max()
+                bound = BENT if signal == "chassis.ay" and not fidelity.rigid else 1e-7
+                assert off < bound * size, (fidelity, signal, off, size)
