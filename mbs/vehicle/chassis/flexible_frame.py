@@ -69,7 +69,7 @@ class FlexibleFrame:
     def shares(self, sums: np.ndarray) -> np.ndarray:
         """Smallest weights of the carrying joints whose places and number have these sums: x, y, z, 1 of a point."""
         rigid = np.vstack([np.transpose([self.place(joint) for joint in self.carrying]), np.ones(len(self.carrying))])
-        return np.linalg.lstsq(rigid, sums, rcond=None)[0]
+        return np.asarray(np.linalg.lstsq(rigid, sums, rcond=None)[0])
 
     def _riding(self) -> MassPoints:
         """The masses that ride on the frame: like payloads they load it at the carrying joints."""
@@ -89,9 +89,6 @@ class FlexibleFrame:
         return self._reduced[which]
 
     def _reduce(self, fidelity: Fidelity) -> ReducedBody:
-        from mbs.flexible.component_modes import craig_bampton
-        from mbs.flexible.load_paths import load_path_deformations, load_path_modes
-
         s, model = self.section, self._bare
         if fidelity is Fidelity.PAPER:
             return craig_bampton(model, self.reference, self.interfaces, s.dynamic_modes, damping=self.damping)
@@ -151,9 +148,6 @@ class FlexibleFrame:
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
-        from mbs.flexible.component_modes import craig_bampton
-        from mbs.flexible.load_paths import load_path_deformations
-
         body = craig_bampton(self._bare, self.reference, self.interfaces, 0, inertia_modes=True)
         deformation = load_path_deformations(body, forces)
         return np.asarray(deformation.T @ body.K @ deformation)
