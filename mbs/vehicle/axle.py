@@ -125,7 +125,7 @@ class Axle(Section):
         upright, leaned = (self.tyre.rolling_radius(self.wheel.centre[2] * (1.0 + grown)) for grown in (0.0, by_lean))
         written = b.m.written_axis(spin, leaning=(leaned - upright) / by_lean)
         for name, real in (("toe", "azimuth"), ("camber", "elevation")):
-            b.tie(self.alignment, f"{name}_{corner.side.name}", written, real, -corner.side.sign, late=True)
+            b.tie(self.alignment, f"{name}_{corner.side.name}", written, real, -corner.side.sign)
         if b.ports.tyre is not None:
             hub_port(b, w, spin, self.tyre, self.wheel.spin_inertia)
             return spin

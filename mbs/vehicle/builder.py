@@ -28,7 +28,6 @@ class _Tied:
     quantity: Quantity
     value: float
     part: str = ""
-    late: bool = False
     targets: list[Target] = field(default_factory=list)
 
 
@@ -77,7 +76,6 @@ class CarBuilder:
         value: float | None = None,
         part: str = "",
         inverse: bool = False,
-        late: bool = False,
     ) -> None:
         """Let a number of the file be a parameter of the model that writes a real of an element, guide or road.
 
@@ -98,15 +96,13 @@ class CarBuilder:
             Of a field with several numbers, as "x": the parameter has it behind its name.
         inverse : bool
             Whether `scale` over the value is written, in place of their product.
-        late : bool
-            Whether it is listed behind the parameters of the road, so that the older ones keep their places.
         """
         quantity = section.quantity(name)
         assert quantity is not None, f"{section.key(name)} is no quantity"
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         path = section.key(name) + (f".{part}" if part else "")
-        tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part, late))
+        tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part))
         tied.targets.append((owner, real, scale, offset, inverse))
 
     def tie_numbers(self, section: Section, made: object, owner: Owner) -> None:
@@ -119,16 +115,12 @@ class CarBuilder:
             if quantity is not None and quantity.change is not None:
                 self.tie(section, name, owner, name, value=getattr(made, name))
 
-    def parameters(
-        self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]], *, late: bool = False
-    ) -> None:
+    def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
         """Write what was tied into the model.
 
-        `order`: place of a key path in the file's type; `works`: by key path, between which values the car works;
-        `late`: whether those of `tie` with ``late`` are written, or all others.
+        `order`: place of a key path in the file's type; `works`: by key path, between which values the car works.
         """
-        written = [(path, tied) for path, tied in self._tied.items() if tied.late == late]
-        for path, tied in sorted(written, key=lambda item: order(item[1].section.key(item[1].name))):
+        for path, tied in sorted(self._tied.items(), key=lambda item: order(item[1].section.key(item[1].name))):
             q, text = tied.quantity, type(tied.section).model_fields[tied.name].description or ""
             self.m.parameter(
                 path,

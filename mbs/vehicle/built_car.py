@@ -165,16 +165,15 @@ class BuiltCar(CarContent):
         if self.ports.forces is not None:
             force_ports(b, self, self.ports.forces)
         self.aerodynamics.build(b, self.vehicle.reference_point, self.axles, wind_port(b))
-        works = working_ranges(self)
-        b.parameters(self.order, works)
-        frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
-        if self.ports.road is None:
-            self.road.parameters(m, road, b.road, ", ".join(frictions), works)
         if self.chassis.ground_contact is not None:
             mass = self.vehicle.mass
             ground_contact(b, self.chassis.ground_contact, mass, lambda: self.flexible_frame.structure.joints)
         outputs(b, steered, spins)
-        b.parameters(self.order, works, late=True)
+        works = working_ranges(self)
+        b.parameters(self.order, works)
+        if self.ports.road is None:
+            frictions = (f"{axle.tyre.reference_friction:.4g} ({name})" for name, axle in self.axles.items())
+            self.road.parameters(m, road, b.road, ", ".join(frictions), works)
         if drive is not None:
             drive(b.chassis.frame.point(b.chassis.origin)[0])
         m.put_off(partial(self._draw, b, spins, fidelity))

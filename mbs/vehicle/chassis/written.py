@@ -19,7 +19,7 @@ def write_inertia(b: CarBuilder, data: Chassis) -> None:
     chassis = b.m.written_inertia(
         "chassis", b.chassis.place(data.com), axes, mass=data.mass, com=data.com, inertia=data.tensor
     )
-    b.tie(data, "mass", chassis, "mass", late=True)
+    b.tie(data, "mass", chassis, "mass")
     for field, reals in REALS.items():
         for (path, value), real in zip(data.numbers(field).items(), reals, strict=True):
-            b.tie(data, field, chassis, real, value=value, part=path.rpartition(".")[2], late=True)
+            b.tie(data, field, chassis, real, value=value, part=path.rpartition(".")[2])

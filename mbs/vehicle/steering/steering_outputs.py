@@ -88,12 +88,12 @@ def tie_ratio(b: CarBuilder, data: SteeringSection, name: str, held: Guide, turn
     """
     value = getattr(data, name)
     if b.ports.steering is None:
-        b.tie(data, name, held, "gain_2", 1.0 / turn, inverse=inverse, late=True)
+        b.tie(data, name, held, "gain_2", 1.0 / turn, inverse=inverse)
     for sensor in b.m.sensors:
         if sensor.name in OVER:
-            b.tie(data, name, ("sensor", sensor.name), 0, turn, inverse=not inverse, late=True)
+            b.tie(data, name, ("sensor", sensor.name), 0, turn, inverse=not inverse)
         elif sensor.name == TORQUE:
             weights = [t.weight for t in sensor.terms] or sensor.reals
             for k, weight in enumerate(weights):
                 scale = weight * value if inverse else weight / value
-                b.tie(data, name, ("sensor", TORQUE), k, scale, inverse=inverse, late=True)
+                b.tie(data, name, ("sensor", TORQUE), k, scale, inverse=inverse)
