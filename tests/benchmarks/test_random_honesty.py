@@ -119,9 +119,9 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
 
 @pytest.mark.parametrize(("seed", "number", "h"), [(2, 54, 0.02), (7, 968, 0.01)])
 def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, number, h, monkeypatch):
-    """By the largest range in a unit. The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
+    """The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
 
-    There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.1 %: a 16th, of which the larger counts,
+    By the largest range in a unit. There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.1 %: a 16th, of which the larger counts,
     would have told 4.8 %.
     """
     monkeypatch.setattr("mbs.results.judged.FLOOR", 1.0)
