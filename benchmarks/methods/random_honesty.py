@@ -171,4 +171,4 @@ def random_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Verdicts on the cases of all families."""
     seeds = ", ".join(map(str, dict.fromkeys(r["seed"] for r in rows)))
     most = max(r["number"] for r in rows) + 1
-    return {"honesty random": f"Seed {seeds}, {most} cases of a family.\n\n{table(summary(rows), SUMMARY)}"}
+    return {"honesty random": f"Seed {seeds}, up to {most} cases of a family.\n\n{table(summary(rows), SUMMARY)}"}

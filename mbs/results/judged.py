@@ -75,19 +75,21 @@ def _rows(kind: SensorType, integers: list[int]) -> list[int]:
 
 
 def _guided(system: System) -> Array:
-    """The coordinates' weights in each linear row of a guide, (n, nq)."""
-    a, found = system.arrays, [np.zeros(system.nq)]
+    """Weights of coordinates, and of what depends on them, in each linear row of a guide, (n, columns)."""
+    a = system.arrays
+    columns = 1 + max(int(np.max(a[name], initial=system.nq - 1)) for name in ("row_col", "sig_col"))
+    found = [np.zeros(columns)]
     for row in dict.fromkeys(np.asarray(a["gterm_row"]).tolist()):
         at = slice(*np.asarray(a["row_ptr"][row : row + 2]).tolist())
         if np.count_nonzero(a["row_lin"][at]) == at.stop - at.start:  # else there are products in it
-            found.append(np.zeros(system.nq))
+            found.append(np.zeros(columns))
             found[-1][np.asarray(a["row_col"])[at]] = np.asarray(a["row_lin"])[at]
     return np.array(found)
 
 
 def _follows(system: System, signal: int, guided: Array) -> bool:
     """Whether a signal is a sum of what the rows of guides hold."""
-    a, weights = system.arrays, np.zeros(system.nq)
+    a, weights = system.arrays, np.zeros(guided.shape[1])
     at = slice(*np.asarray(a["sig_ptr"][signal : signal + 2]).tolist())
     np.add.at(weights, np.asarray(a["sig_col"])[at], np.asarray(a["sig_val"])[at])
     left = weights - guided.T @ np.linalg.lstsq(guided.T, weights, rcond=None)[0]
