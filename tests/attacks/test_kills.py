@@ -60,9 +60,13 @@ def attack(what: str, longest: float, folder: Path, command: Callable[[int], tup
             found.append(number)
         again = started(folder, *command(number))
         assert again.wait(timeout=300.0) == 0, f"{what} {number} after its kill"
-    left = [place for place in folder.rglob(f"{PREFIX}*") if place.is_dir()]
-    assert left == []
+    assert left(folder / "temporary") == left(folder / "cache") == []
     return found
+
+
+def left(folder: Path) -> list[Path]:
+    """What a command that was killed has left where the same command has been again."""
+    return [place for place in folder.rglob(f"{PREFIX}*") if place.is_dir()]
 
 
 def test_studies(tmp_path: Path) -> None:
@@ -76,6 +80,7 @@ def test_studies(tmp_path: Path) -> None:
     out = {k: tmp_path / f"out_{k}" for k in range(kills())}
     attack("study", 8.0, tmp_path, lambda k: ("study", file, "--out", out[k], "--no-report", "--jobs", 1))
     for folder in out.values():
+        assert left(folder) == []
         table = read_study(folder)
         assert sorted(table.index) == list(range(60))
         assert (table["status"] == "done").all()
@@ -86,6 +91,7 @@ def test_builds(tmp_path: Path) -> None:
     out = tmp_path / "dist"
     options = ("--scene", "slider_crank", "--kind", "native", "--platforms", "this")
     attack("build", 6.0, tmp_path, lambda k: ("build", *options, "--out", out))
+    assert left(out) == []
     (fmu,) = out.glob("*.fmu")
     assert described(fmu).modelVariables
 
