@@ -67,7 +67,7 @@ class FlexibleFrame:
     def shares(self, sums: np.ndarray) -> np.ndarray:
         """Smallest weights of the carrying joints whose places and number have these sums: x, y, z, 1 of a point."""
         rigid = np.vstack([np.transpose([self.place(joint) for joint in self.carrying]), np.ones(len(self.carrying))])
-        return np.linalg.lstsq(rigid, sums, rcond=None)[0]
+        return np.asarray(np.linalg.lstsq(rigid, sums, rcond=None)[0])
 
     def _riding(self) -> MassPoints:
         """The masses that ride on the frame: like payloads they load it at the carrying joints."""

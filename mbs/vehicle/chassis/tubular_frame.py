@@ -85,7 +85,9 @@ class TubularFrame:
             chain = [names.index(start), *range(first, first + len(inner)), names.index(end)]
             tubes.append(FrameTube(start, end, section, range(len(beams), len(beams) + divisions)))
             beams += [Beam(i, j, sections[section], material) for i, j in pairwise(chain)]
-        masses: dict[str | int, float] = {**self._masses(joints, "yes")} if carried_masses else {}
+        masses: dict[str | int, float] = {}
+        if carried_masses:
+            masses.update(self._masses(joints, "yes").items())
         return Frame(np.array(positions), beams, masses, names, theory), tuple(tubes)
 
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
