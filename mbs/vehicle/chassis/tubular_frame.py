@@ -87,7 +87,7 @@ class TubularFrame:
             beams += [Beam(i, j, sections[section], material) for i, j in pairwise(chain)]
         masses: dict[str | int, float] = {}
         if carried_masses:
-            masses.update(self._masses(joints, "yes"))
+            masses.update(self._masses(joints, "yes").items())
         return Frame(np.array(positions), beams, masses, names, theory), tuple(tubes)
 
     def strain_gauges(self, tubes: tuple[FrameTube, ...]) -> tuple[StrainGauge, ...]:
