@@ -17,7 +17,6 @@ Array = NDArray[np.float64]
 INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
 WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
 STILL = 1e-4  # of the largest value in the unit, or of `_size_in`: a smaller range is rest
-FLOOR = 0.2  # of the largest range in the unit: a sensor that moves less is held against that, so 1 % of it is right
 STANDS = 0.01  # the same of coordinates: rates and forces of what moves less are those of rest
 ROUND_OFF = 1e-12
 COORDINATES = "1"
@@ -139,8 +138,9 @@ def rows_judged(what: Judged, samples: int) -> NDArray[np.int_]:
 def sizes_of(
     values: Mapping[str, Array], judged: Mapping[str, Judged], length: float, before: Mapping[str, Array] | None = None
 ) -> dict[str, float]:
-    """What errors are held against, by name: the range, of a force the largest value, at least `FLOOR` of the largest
-    in its unit. Without those of a unit in which nothing moves in a model with this length, m, wherever it lies.
+    """What errors are held against, by name: the largest range in the unit, of forces the largest value.
+
+    Without those of a unit in which nothing moves in a model with this length, m, wherever it lies.
 
     `before`: ends of what moved in the runs before these.
     """
@@ -152,8 +152,7 @@ def sizes_of(
         largest, moved = [float(np.abs(v).max()) for v in seen], [float(np.ptp(v)) for v in seen]
         if max(moved) <= (STANDS if unit == COORDINATES else STILL) * min(max(largest), _size_in(unit, length)):
             continue
-        own = largest if load else moved
-        found |= {name: max(size, FLOOR * max(own)) for name, size in zip(names, own, strict=True)}
+        found |= dict.fromkeys(names, max(largest if load else moved))
     return found
 
 

@@ -124,7 +124,6 @@ def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, nu
     By the largest range in a unit. There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.1 %: a
     16th, of which the larger counts, would have told 4.8 %.
     """
-    monkeypatch.setattr("mbs.results.judged.FLOOR", 1.0)
     run, error = told_and_true(seed, number, h)
     assert run.accuracy.repeated_with == pytest.approx(h / 8.0)
     assert run.accuracy.error == pytest.approx(error, rel=0.14)

@@ -118,7 +118,6 @@ class TestRepeats:
         # So long steps err by less than order two says: the estimate is 0.69 of that by half the step (decision 105).
         assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
 
-    @pytest.mark.usefixtures("largest_range")
     def test_near_the_limit_a_third_run_decides(self, starts):
         case = CASES["pendulum"]
         run = simulate(system_of("pendulum"), case.end, 0.2 / 6, every=6, **QUIET)
@@ -130,7 +129,6 @@ class TestRepeats:
     @pytest.mark.parametrize(
         ("scene", "h"), [("pendulum", 0.02), ("double_four_bar", 0.01), ("spatial_chain", 0.01), ("bricard", 0.1)]
     )
-    @pytest.mark.usefixtures("largest_range")
     def test_the_estimate_is_within_a_factor_of_two_of_the_error(self, scene, h):
         case = CASES[scene]
         every = round(case.end / 50 / h)
@@ -187,7 +185,6 @@ class TestRepeats:
             simulate(system_of("cart_pole"), 0.6, 1e-3, every=100, **QUIET)
         assert caught.value.trajectory.t == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.4])
 
-    @pytest.mark.usefixtures("largest_range")
     def test_a_pose_goes_along(self, starts):
         system = compile(prototype_car.build())
         run = simulate(
@@ -271,7 +268,6 @@ def test_a_run_that_blew_up_is_reported_in_a_number_that_can_be_read():
         simulate(compile(m), 1.0, 0.01, method="runge_kutta_8", **QUIET)
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_a_run_of_one_step_is_not_refused_by_its_own_twin():
     """A twin of twice the step would be longer than the run; shorter ones judge it instead."""
     car = compile(prototype_car.build())
@@ -317,7 +313,6 @@ class TestByHand:
 
 
 @pytest.mark.parametrize(("force", "h"), [(4.0, 0.05), (12.0, 0.06)])
-@pytest.mark.usefixtures("largest_range")
 def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them(force, h):
     """A pendulum on a cart that is pulled: within each third it goes about half as far as in all, and is 3 % off."""
     m = Model("cart", dimension=2)

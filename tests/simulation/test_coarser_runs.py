@@ -34,7 +34,6 @@ SPAN = (0.0, 1.0)  # s
         pytest.param(0.005, 2.0, 0.5, {"settings": mbs.Settings(step_iterations=4)}, id="they are limited already"),
     ],
 )
-@pytest.mark.usefixtures("largest_range")
 def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost: float, more: dict[str, Any]) -> None:
     run = mbs.simulate(system_of("pendulum"), 10.0, h, progress=False, **more)
     assert run.accuracy is not None
@@ -43,7 +42,6 @@ def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost:
     assert not run.accuracy.message
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_long_steps_that_are_solved_to_the_end_would_hide_it() -> None:
     """A spatial slider-crank, a third off: steps eight times as long are halved, and then differ by 8 %."""
     system, span = drawn("spatial slider-crank", 5, 244)
@@ -51,7 +49,6 @@ def test_long_steps_that_are_solved_to_the_end_would_hide_it() -> None:
         mbs.simulate(system, span, span / 300, every=6, progress=False)
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     """Of five steps between two samples twice the step makes two: a chain 6.9 % off, 3.5 % apart, passed with 2.0 %."""
     system, span = drawn("chain", 31, 6)
@@ -61,7 +58,6 @@ def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     assert difference_from(known, "ali3p", 0.1) == pytest.approx(0.0066 * (2.5**2 - 1.0))
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_an_error_that_falls_slowly_is_told() -> None:
     """A four-bar with a pendulum, 5.9 % off: half and a quarter of the step differ from it by 2.7 and 4.1 %."""
     system, span = drawn("four-bar", 3, 29)
@@ -253,7 +249,6 @@ def test_a_chain_in_long_steps_of_high_order_is_checked_by_half_at_most() -> Non
     assert off == pytest.approx(max(run.accuracy.sensors[n] for n in names), rel=0.2)
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_a_loop_that_half_the_step_does_not_resolve_is_judged_by_a_quarter() -> None:
     """A six-bar is 6.6 % off, of which half the step tells 3.2 %."""
     drawing = random_mechanisms.six_bar(np.random.default_rng([77, 45]))
@@ -270,7 +265,6 @@ def test_a_loop_that_half_the_step_does_not_resolve_is_judged_by_a_quarter() -> 
         pytest.param(25, "runge_kutta_8", "10", id="slider-crank, an eighth of the step tells 4.1 %"),
     ],
 )
-@pytest.mark.usefixtures("largest_range")
 def test_a_repeat_with_an_order_whose_share_has_not_fallen_as_its_step_decides_nothing(number, method, error) -> None:
     """Shorter steps see quicker changes near a dead centre; at the limit what an order leaves counts."""
     system, span = drawn("", 63, number)
@@ -278,7 +272,6 @@ def test_a_repeat_with_an_order_whose_share_has_not_fallen_as_its_step_decides_n
         mbs.simulate(system, span, span / 50, method=method, progress=False)
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_a_repeat_with_an_order_whose_share_falls_as_its_step_decides() -> None:
     """A six-bar 2.6 % off, through a dead centre: half the step is enough, where a quarter was made."""
     system, span = drawn("", 63, 29)

@@ -164,7 +164,6 @@ def test_a_coarser_run_that_missed_what_moves_does_not_agree() -> None:
     assert run.accuracy.error is not None
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_a_run_by_hand_is_judged_as_by_simulate() -> None:
     """A four-bar with a pendulum, 5.9 % off, of which half the step shows 2.7 %."""
     system, span = drawn("four-bar", 3, 29)

@@ -69,7 +69,6 @@ def test_trajectories_are_those_of_single_runs() -> None:
 @pytest.mark.filterwarnings(
     "ignore:Variant 0. At .* rebound stop:mbs.results.accuracy.AccuracyWarning"
 )  # at 40 ms it is so
-@pytest.mark.usefixtures("largest_range")
 def test_a_failed_run_tells_why_and_leaves_the_others() -> None:
     """A start below the road and a step that is refused, beside a slalom that goes on to its end."""
     high = CARS["stiff tyre at a kerb"]

@@ -44,7 +44,6 @@ def test_a_landing_that_comes_late_is_not() -> None:
     assert missed_load(landing(970.0)[: 2 * WIDTH - 1], landing(0.0)[: 2 * WIDTH - 1]) == 0.0
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_a_short_record_is_compared_at_all_its_samples() -> None:
     """What a record has beside the 51 instants was not looked at: 5.8 % were told as 2.6 %."""
     assert instants(111).tolist() == list(range(111))
@@ -64,7 +63,6 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert run.accuracy.error == pytest.approx(gaps.max(), rel=0.1)
 
 
-@pytest.mark.usefixtures("largest_range")
 def test_a_fourth_repeat_tells_what_three_leave_open() -> None:
     """By a third one, with an eighth of the step, this car is 4.8 % off, and it is 5.1 %."""
     with pytest.warns(mbs.AccuracyWarning):
