@@ -50,6 +50,13 @@ typedef enum {
   ALI3_STATUS_COUNT
 } ali3_status;
 
+/* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its flags,
+ * FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0 where that
+ * was the same or where there is no such register. ali3_float_control_restore: nothing for 0. Flags of exceptions stay. */
+typedef uint64_t ali3_float_control;
+ali3_float_control ali3_float_control_set(void);
+void ali3_float_control_restore(ali3_float_control before);
+
 typedef struct ali3_system ali3_system;
 typedef struct ali3_instance ali3_instance;
 
