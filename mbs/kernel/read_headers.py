@@ -187,28 +187,36 @@ def entries() -> str:
     rows = []
     for result, name, parameters in declared:
         given = ", ".join(re.findall(r"(\w+)(?:\[\d+\])?\s*(?:,|$)", "" if parameters == "void" else parameters))
+        kept = "in" if parameters.startswith("ali3_instance *in") else "NULL"
         head = "PROCEDURE(" if result.strip() == "void" else f"ENTRY({result.strip()}, "
-        rows.append(f"{head}{name}, ({' '.join(parameters.split())}), ({given}))\n")
+        rows.append(f"{head}{name}, ({' '.join(parameters.split())}), ({given}), {kept})\n")
     return _ENTRIES + "".join(rows)
 
 
 _ENTRIES = """/* The functions of the kernel for callers whose processor may round in another way: entry_NAME for each ali3_NAME.
  * Written by `python mbs/kernel/read_headers.py`. */
-#include "../../include/ali3.h"
+#include "../instance.h"
+
+/* An instance keeps what its caller has, for the function that it is asked for inputs. */
+static ali3_float_control set_for(ali3_instance *in) {
+  const ali3_float_control before = ali3_float_control_set();
+  if (in != NULL) in->host_control = before;
+  return before;
+}
 
 /* clang-format off */
-#define ENTRY(type, name, parameters, arguments) \\
+#define ENTRY(type, name, parameters, arguments, instance) \\
   ALI3_API type entry_##name parameters; \\
   ALI3_API type entry_##name parameters { \\
-    const ali3_float_control before = ali3_float_control_set(); \\
+    const ali3_float_control before = set_for(instance); \\
     type result = name arguments; \\
     ali3_float_control_restore(before); \\
     return result; \\
   }
-#define PROCEDURE(name, parameters, arguments) \\
+#define PROCEDURE(name, parameters, arguments, instance) \\
   ALI3_API void entry_##name parameters; \\
   ALI3_API void entry_##name parameters { \\
-    const ali3_float_control before = ali3_float_control_set(); \\
+    const ali3_float_control before = set_for(instance); \\
     name arguments; \\
     ali3_float_control_restore(before); \\
   }

@@ -11,7 +11,7 @@ ali3_float_control slave_call_begins(void *instance) {
 
 void slave_call_ends(void *instance, ali3_float_control host) {
   ali3_float_control *kept = instance;
-  *kept = 0;
+  if (kept != NULL) *kept = 0;
   ali3_float_control_restore(host);
 }
 

@@ -211,8 +211,8 @@ void slave_call_returns(void *instance, ali3_float_control host);
 #define SLAVE_ENTRY(function, type, name, instance, parameters, arguments)                                             \
   static __attribute__((noinline)) type name##_inside parameters;                                                      \
   function parameters {                                                                                                \
+    if (ali3_float_control_is_usual()) return name##_inside arguments;                                                 \
     const ali3_float_control host = slave_call_begins(instance);                                                       \
-    if (host == 0) return name##_inside arguments;                                                                     \
     const type status = name##_inside arguments;                                                                       \
     slave_call_ends(instance, host);                                                                                   \
     return status;                                                                                                     \

@@ -4,12 +4,12 @@
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 
-enum { FLAGS = 0x3f, DEFAULT = 0x1f80, THERE = 1 << 16 }; /* THERE: of a result, that it is not 0 */
+enum { FLAGS = 0x3f, USUAL = 0x1f80, THERE = 1 << 16 }; /* THERE: of a result, that it is not 0 */
 
 ali3_float_control ali3_float_control_set(void) {
   const unsigned now = _mm_getcsr();
-  if ((now & ~(unsigned)FLAGS) == DEFAULT) return 0;
-  _mm_setcsr((now & FLAGS) | DEFAULT);
+  if (ali3_float_control_is_usual()) return 0;
+  _mm_setcsr((now & FLAGS) | USUAL);
   return (now & ~(unsigned)FLAGS) | THERE;
 }
 
@@ -19,8 +19,9 @@ void ali3_float_control_restore(ali3_float_control before) {
 #elif defined(__aarch64__)
 ali3_float_control ali3_float_control_set(void) {
   ali3_float_control now;
+  if (ali3_float_control_is_usual()) return 0;
   __asm__ volatile("mrs %0, fpcr" : "=r"(now)::"memory");
-  if (now != 0) __asm__ volatile("msr fpcr, %0" ::"r"((ali3_float_control)0) : "memory");
+  __asm__ volatile("msr fpcr, %0" ::"r"((ali3_float_control)0) : "memory");
   return now;
 }
 
