@@ -193,7 +193,7 @@ def entries() -> str:
     return _ENTRIES + "".join(rows)
 
 
-_ENTRIES = """/* The functions of the kernel for callers whose processor may round in another way: entry_NAME for ali3_NAME.
+_ENTRIES = """/* The functions of the kernel for callers that may round in another way: entry_NAME for ali3_NAME.
  * Written by `python mbs/kernel/read_headers.py`. */
 #include "../instance.h"
 

@@ -1,4 +1,4 @@
-/* The functions of the kernel for callers whose processor may round in another way: entry_NAME for ali3_NAME.
+/* The functions of the kernel for callers that may round in another way: entry_NAME for ali3_NAME.
  * Written by `python mbs/kernel/read_headers.py`. */
 #include "../instance.h"
 
