@@ -66,7 +66,7 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
 def exports(files: Sequence[Path]) -> list[str]:
     """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
     shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]
-    found = re.findall(r"^FMI2_EXPORT .*\bFMI2_NAME\((\w+)\)", "\n".join(shell), re.MULTILINE)
+    found = re.findall(r"^FMI2_(?:ENTRY|EXPORT .*\bFMI2_NAME)\((\w+)", "\n".join(shell), re.MULTILINE)
     return [*found, *build.WASM_HELPERS]
 
 

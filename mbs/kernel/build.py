@@ -48,8 +48,8 @@ WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
 """What the host of a WebAssembly module calls beside the functions it is for: memory, and files in it."""
 
 
-LANES = ("lanes", "run_many.c")
-"""The room and the file of `src/` by which many instances advance together, which an FMU has none of."""
+LANES = ("lanes", "run_many.c", "entries.c")
+"""Of `src/` what an FMU has none of: by which many instances advance together, and the functions that Python calls."""
 
 
 def sources(lanes: bool = True) -> list[Path]:

@@ -1,5 +1,5 @@
 """Writes what the C headers say into Python: the folder `header` with the numbers and structures that
-the kernel and Python share.
+the kernel and Python share; and into C: the functions that Python calls.
 
 The headers are the source. After a change of theirs:
 
@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header"
+ENTRIES = KERNEL / "src" / "api" / "entries.c"
 PUBLIC, SYSTEM, SENSORS = "include/ali3.h", "src/system.h", "src/system/sensor_types.h"
 ELEMENTS = "src/elements/element_types.h"
 MAGIC = "src/elements/magic_formula.h"
@@ -180,6 +181,49 @@ def _defined(file: str, limits: dict[str, str]) -> list[str]:
     return found
 
 
+def entries() -> str:
+    """The C file of the functions that Python calls: each sets the processor's control around one of the kernel."""
+    declared = re.findall(r"^ALI3_API ([^;(]*?)(ali3_\w+)\(([^)]*)\);", text_of(PUBLIC), re.MULTILINE)
+    rows = []
+    for result, name, parameters in declared:
+        given = ", ".join(re.findall(r"(\w+)(?:\[\d+\])?\s*(?:,|$)", "" if parameters == "void" else parameters))
+        kept = "in" if parameters.startswith("ali3_instance *in") else "NULL"
+        head = "PROCEDURE(" if result.strip() == "void" else f"ENTRY({result.strip()}, "
+        rows.append(f"{head}{name}, ({' '.join(parameters.split())}), ({given}), {kept})\n")
+    return _ENTRIES + "".join(rows)
+
+
+_ENTRIES = """/* The functions of the kernel for callers that may round in another way: entry_NAME for ali3_NAME.
+ * Written by `python mbs/kernel/read_headers.py`. */
+#include "../instance.h"
+
+/* An instance keeps what its caller has, for the function that it is asked for inputs. */
+static ali3_float_control set_for(ali3_instance *in) {
+  const ali3_float_control before = ali3_float_control_set();
+  if (in != NULL) in->host_control = before;
+  return before;
+}
+
+/* clang-format off */
+#define ENTRY(type, name, parameters, arguments, instance) \\
+  ALI3_API type entry_##name parameters; \\
+  ALI3_API type entry_##name parameters { \\
+    const ali3_float_control before = set_for(instance); \\
+    type result = name arguments; \\
+    ali3_float_control_restore(before); \\
+    return result; \\
+  }
+#define PROCEDURE(name, parameters, arguments, instance) \\
+  ALI3_API void entry_##name parameters; \\
+  ALI3_API void entry_##name parameters { \\
+    const ali3_float_control before = set_for(instance); \\
+    name arguments; \\
+    ali3_float_control_restore(before); \\
+  }
+
+"""
+
+
 def header() -> dict[str, str]:
     """Texts of the files of the folder `header`, by name."""
     return {
@@ -270,7 +314,8 @@ def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:
 
 
 def main() -> None:
-    """Write the folder `header`."""
+    """Write the folder `header` and the functions that Python calls."""
+    ENTRIES.write_text(entries(), encoding="utf-8", newline="\n")
     for name, text in header().items():
         (HEADER / name).write_text(text, encoding="utf-8", newline="\n")
 

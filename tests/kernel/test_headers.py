@@ -23,6 +23,7 @@ from mbs.settings.settings import METHODS, Settings
 def test_the_python_side_is_what_the_headers_say():
     there = {f.name: f.read_text(encoding="utf-8") for f in read_headers.HEADER.glob("*.py") if f.stem != "__init__"}
     assert read_headers.header() == there, "run: python mbs/kernel/read_headers.py"
+    assert read_headers.entries() == read_headers.ENTRIES.read_text(encoding="utf-8")
 
 
 def test_the_table_of_sensors_has_a_row_for_each_type():

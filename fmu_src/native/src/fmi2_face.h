@@ -5,6 +5,7 @@
 #include "slave.h"
 
 typedef struct {
+  ali3_float_control control; /* first, see float_control.c */
   fmi2CallbackFunctions host;
   slave *s;
   void *detour; /* of the Python FMU */
@@ -25,6 +26,10 @@ slave_status fmi2_get(slave *s, const uint32_t *reference, size_t n, double *val
 slave_status fmi2_set(slave *s, const uint32_t *reference, size_t n, const double *value);
 slave_status fmi2_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
 slave_status fmi2_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
+
+/* A function of an instance that computes: with the control of the processor that arithmetic here needs. */
+#define FMI2_ENTRY(name, parameters, arguments)                                                                        \
+  SLAVE_ENTRY(FMI2_EXPORT fmi2Status FMI2_NAME(name), fmi2Status, name, c, parameters, arguments)
 
 /* Calls allowed in the states of the standard's table for co-simulation. */
 enum {

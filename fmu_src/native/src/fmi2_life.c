@@ -16,7 +16,7 @@ bool fmi2_given(slave *s, const char *function, bool given) {
 
 /* The text goes out as the format itself, with % and # doubled: hosts that do not format show it all the same. */
 static void log_to_host(slave *s, slave_status status, const char *category, const char *text) {
-  const fmi2_face *face = s->host;
+  fmi2_face *face = s->host;
   char format[2 * SLAVE_TEXT];
   size_t n = 0;
   if (face->host.logger == NULL) return;
@@ -25,8 +25,10 @@ static void log_to_host(slave *s, slave_status status, const char *category, con
     format[n++] = *text;
   }
   format[n] = 0;
+  const ali3_float_control host = slave_call_leaves(face);
   face->host.logger(face->host.componentEnvironment, s->name != NULL ? s->name : "", (fmi2Status)status, category,
                     format);
+  slave_call_returns(face, host);
 }
 
 FMI2_EXPORT const char *FMI2_NAME(fmi2GetTypesPlatform)(void) { return "default"; }
@@ -57,7 +59,9 @@ FMI2_EXPORT fmi2Component FMI2_NAME(fmi2Instantiate)(fmi2String name, fmi2Type t
   fmi2_face *face = memory.allocate(1, sizeof *face);
   if (face == NULL) return refuse(functions, name, "There is not enough memory for an instance.");
   face->host = *functions;
+  const ali3_float_control host = slave_call_begins(face);
   face->s = fmi2_new(face, &memory, log_to_host, logging != 0, name, guid, resources != NULL ? path : NULL);
+  slave_call_ends(face, host);
   if (face->s != NULL) return face;
   memory.release(face);
   return NULL;
@@ -71,36 +75,37 @@ FMI2_EXPORT void FMI2_NAME(fmi2FreeInstance)(fmi2Component c) {
   release(face);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetDebugLogging)(fmi2Component c, fmi2Boolean on, size_t n,
-                                                      const fmi2String categories[]) {
+FMI2_ENTRY(fmi2SetDebugLogging, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]),
+           (c, on, n, categories)) {
   slave *s = fmi2_slave(c, "fmi2SetDebugLogging", FMI2_ANY);
   return s != NULL ? (fmi2Status)slave_set_logging(s, on != 0, n, categories) : fmi2Error;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetupExperiment)(fmi2Component c, fmi2Boolean tolerance_defined,
-                                                      fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_defined,
-                                                      fmi2Real stop) {
+FMI2_ENTRY(fmi2SetupExperiment,
+           (fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance, fmi2Real start,
+            fmi2Boolean stop_defined, fmi2Real stop),
+           (c, tolerance_defined, tolerance, start, stop_defined, stop)) {
   slave *s = fmi2_slave(c, "fmi2SetupExperiment", SLAVE_INSTANTIATED);
   (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
   return s != NULL ? (fmi2Status)fmi2_setup(s, start, stop_defined != 0, stop) : fmi2Error;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2EnterInitializationMode)(fmi2Component c) {
+FMI2_ENTRY(fmi2EnterInitializationMode, (fmi2Component c), (c)) {
   slave *s = fmi2_slave(c, "fmi2EnterInitializationMode", SLAVE_INSTANTIATED);
   return s != NULL ? (fmi2Status)fmi2_enter(s) : fmi2Error;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2ExitInitializationMode)(fmi2Component c) {
+FMI2_ENTRY(fmi2ExitInitializationMode, (fmi2Component c), (c)) {
   slave *s = fmi2_slave(c, "fmi2ExitInitializationMode", SLAVE_INITIALISING);
   return s != NULL ? (fmi2Status)fmi2_exit(s) : fmi2Error;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Terminate)(fmi2Component c) {
+FMI2_ENTRY(fmi2Terminate, (fmi2Component c), (c)) {
   slave *s = fmi2_slave(c, "fmi2Terminate", FMI2_RUN);
   return s != NULL ? (fmi2Status)fmi2_terminate(s) : fmi2Error;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2Reset)(fmi2Component c) {
+FMI2_ENTRY(fmi2Reset, (fmi2Component c), (c)) {
   slave *s = fmi2_slave(c, "fmi2Reset", FMI2_ANY);
   return s != NULL ? (fmi2Status)fmi2_reset(s) : fmi2Error;
 }

@@ -1,14 +1,14 @@
 /* FMI 2.0: steps, what became of them, and derivatives. */
 #include "fmi2_face.h"
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2DoStep)(fmi2Component c, fmi2Real time, fmi2Real step,
-                                             fmi2Boolean no_set_state_prior) {
+FMI2_ENTRY(fmi2DoStep, (fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_set_state_prior),
+           (c, time, step, no_set_state_prior)) {
   slave *s = fmi2_slave(c, "fmi2DoStep", FMI2_RUN);
   (void)no_set_state_prior;
   return s != NULL ? (fmi2Status)fmi2_step(s, time, step) : fmi2Error;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2CancelStep)(fmi2Component c) {
+FMI2_ENTRY(fmi2CancelStep, (fmi2Component c), (c)) {
   slave *s = fmi2_slave(c, "fmi2CancelStep", FMI2_ANY);
   if (s == NULL) return fmi2Error;
   return (fmi2Status)slave_say(s, SLAVE_ERROR, "No step is under way: steps of this FMU end before fmi2DoStep does.");
@@ -21,7 +21,7 @@ static fmi2Status no_status(fmi2Component c, const char *function) {
   return (fmi2Status)slave_say(s, SLAVE_DISCARD, "%s: this FMU has no such status.", function);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetStatus)(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value) {
+FMI2_ENTRY(fmi2GetStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Status *value), (c, kind, value)) {
   slave *s = fmi2_slave(c, "fmi2GetStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2DoStepStatus) return no_status(c, "fmi2GetStatus");
@@ -29,7 +29,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetStatus)(fmi2Component c, const fmi2Statu
   return fmi2OK;
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealStatus)(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value) {
+FMI2_ENTRY(fmi2GetRealStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Real *value), (c, kind, value)) {
   slave *s = fmi2_slave(c, "fmi2GetRealStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetRealStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2LastSuccessfulTime) return no_status(c, "fmi2GetRealStatus");
@@ -42,7 +42,7 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetIntegerStatus)(fmi2Component c, const fm
   return no_status(c, "fmi2GetIntegerStatus");
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBooleanStatus)(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
+FMI2_ENTRY(fmi2GetBooleanStatus, (fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value), (c, kind, value)) {
   slave *s = fmi2_slave(c, "fmi2GetBooleanStatus", FMI2_DONE);
   if (s == NULL || !fmi2_given(s, "fmi2GetBooleanStatus", value != NULL)) return fmi2Error;
   if (kind != fmi2Terminated) return no_status(c, "fmi2GetBooleanStatus");
@@ -55,26 +55,29 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetStringStatus)(fmi2Component c, const fmi
   return no_status(c, "fmi2GetStringStatus");
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetRealInputDerivatives)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                              const fmi2Integer order[], const fmi2Real value[]) {
+FMI2_ENTRY(fmi2SetRealInputDerivatives,
+           (fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[],
+            const fmi2Real value[]),
+           (c, vr, n, order, value)) {
   slave *s = fmi2_slave(c, "fmi2SetRealInputDerivatives", FMI2_SET);
   const bool given = n == 0 || (vr != NULL && order != NULL && value != NULL);
   if (s == NULL || !fmi2_given(s, "fmi2SetRealInputDerivatives", given)) return fmi2Error;
   return (fmi2Status)slave_set_slopes(s, vr, n, order, value);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetRealOutputDerivatives)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                               const fmi2Integer order[], fmi2Real value[]) {
+FMI2_ENTRY(fmi2GetRealOutputDerivatives,
+           (fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], fmi2Real value[]),
+           (c, vr, n, order, value)) {
   slave *s = fmi2_slave(c, "fmi2GetRealOutputDerivatives", FMI2_GET);
   const bool given = n == 0 || (vr != NULL && order != NULL && value != NULL);
   if (s == NULL || !fmi2_given(s, "fmi2GetRealOutputDerivatives", given)) return fmi2Error;
   return (fmi2Status)slave_output_rates(s, vr, n, order, value);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetDirectionalDerivative)(fmi2Component c, const fmi2ValueReference unknown[],
-                                                               size_t n_unknown, const fmi2ValueReference known[],
-                                                               size_t n_known, const fmi2Real seed[],
-                                                               fmi2Real value[]) {
+FMI2_ENTRY(fmi2GetDirectionalDerivative,
+           (fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
+            size_t n_known, const fmi2Real seed[], fmi2Real value[]),
+           (c, unknown, n_unknown, known, n_known, seed, value)) {
   slave *s = fmi2_slave(c, "fmi2GetDirectionalDerivative", FMI2_GET);
   const bool given =
       (n_unknown == 0 || (unknown != NULL && value != NULL)) && (n_known == 0 || (known != NULL && seed != NULL));

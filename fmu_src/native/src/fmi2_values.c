@@ -1,29 +1,29 @@
 /* FMI 2.0: getting and setting. Whole numbers can be read and set as real ones too, as they were before 0.2. */
 #include "fmi2_face.h"
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetReal)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                              fmi2Real value[]) {
+FMI2_ENTRY(fmi2GetReal, (fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[]),
+           (c, vr, n, value)) {
   slave *s = fmi2_slave(c, "fmi2GetReal", FMI2_GET);
   if (s == NULL || !fmi2_given(s, "fmi2GetReal", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
   return (fmi2Status)fmi2_get(s, vr, n, value);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetReal)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                              const fmi2Real value[]) {
+FMI2_ENTRY(fmi2SetReal, (fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[]),
+           (c, vr, n, value)) {
   slave *s = fmi2_slave(c, "fmi2SetReal", FMI2_SET);
   if (s == NULL || !fmi2_given(s, "fmi2SetReal", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
   return (fmi2Status)fmi2_set(s, vr, n, value);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                 fmi2Integer value[]) {
+FMI2_ENTRY(fmi2GetInteger, (fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Integer value[]),
+           (c, vr, n, value)) {
   slave *s = fmi2_slave(c, "fmi2GetInteger", FMI2_GET);
   if (s == NULL || !fmi2_given(s, "fmi2GetInteger", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
   return (fmi2Status)fmi2_get_whole(s, vr, n, value);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetInteger)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                 const fmi2Integer value[]) {
+FMI2_ENTRY(fmi2SetInteger, (fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer value[]),
+           (c, vr, n, value)) {
   slave *s = fmi2_slave(c, "fmi2SetInteger", FMI2_SET);
   if (s == NULL || !fmi2_given(s, "fmi2SetInteger", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
   return (fmi2Status)fmi2_set_whole(s, vr, n, value);
@@ -44,8 +44,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetBoolean)(fmi2Component c, const fmi2Valu
 }
 
 /* Text variables come after all others. */
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2GetString)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                fmi2String value[]) {
+FMI2_ENTRY(fmi2GetString, (fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2String value[]),
+           (c, vr, n, value)) {
   slave *s = fmi2_slave(c, "fmi2GetString", FMI2_GET);
   if (s == NULL || !fmi2_given(s, "fmi2GetString", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
   return (fmi2Status)slave_get_text(s, (uint32_t)slave_the_table.n_variables, vr, n, value);
@@ -57,8 +57,8 @@ FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetBoolean)(fmi2Component c, const fmi2Valu
   return other_type(c, "fmi2SetBoolean", FMI2_SET, n);
 }
 
-FMI2_EXPORT fmi2Status FMI2_NAME(fmi2SetString)(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                                                const fmi2String value[]) {
+FMI2_ENTRY(fmi2SetString, (fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2String value[]),
+           (c, vr, n, value)) {
   slave *s = fmi2_slave(c, "fmi2SetString", FMI2_SET);
   if (s == NULL || !fmi2_given(s, "fmi2SetString", n == 0 || (vr != NULL && value != NULL))) return fmi2Error;
   return (fmi2Status)slave_set_text(s, (uint32_t)slave_the_table.n_variables, vr, n, value);

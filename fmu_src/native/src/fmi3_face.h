@@ -16,6 +16,7 @@ typedef struct {
 extern const fmi3_table fmi3_the_table;
 
 typedef struct {
+  ali3_float_control control; /* first, see float_control.c */
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
   slave *s;
@@ -23,6 +24,10 @@ typedef struct {
   double *one, *all;  /* work: a value per variable */
   size_t room;
 } fmi3_face;
+
+/* A function of an instance that computes: with the control of the processor that arithmetic here needs. */
+#define FMI3_ENTRY(name, parameters, arguments)                                                                        \
+  SLAVE_ENTRY(FMI3_EXPORT fmi3Status FMI3_NAME(name), fmi3Status, name, instance, parameters, arguments)
 
 enum {
   FMI3_ANY = SLAVE_INSTANTIATED | SLAVE_INITIALISING | SLAVE_STEPPING | SLAVE_STEP_FAILED | SLAVE_TERMINATED,

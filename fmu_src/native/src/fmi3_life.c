@@ -57,14 +57,17 @@ bool fmi3_expand(fmi3_face *face, int which, const fmi3ValueReference *reference
 }
 
 static void log_to_host(slave *s, slave_status status, const char *category, const char *text) {
-  const fmi3_face *face = s->host;
-  if (face->log != NULL) face->log(face->environment, (fmi3Status)status, category, text);
+  fmi3_face *face = s->host;
+  if (face->log == NULL) return;
+  const ali3_float_control host = slave_call_leaves(face);
+  face->log(face->environment, (fmi3Status)status, category, text);
+  slave_call_returns(face, host);
 }
 
 FMI3_EXPORT const char *FMI3_NAME(fmi3GetVersion)(void) { return "3.0"; }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetDebugLogging)(fmi3Instance instance, fmi3Boolean on, size_t n,
-                                                      const fmi3String categories[]) {
+FMI3_ENTRY(fmi3SetDebugLogging, (fmi3Instance instance, fmi3Boolean on, size_t n, const fmi3String categories[]),
+           (instance, on, n, categories)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetDebugLogging", FMI3_ANY);
   return face != NULL ? (fmi3Status)slave_set_logging(face->s, on, n, categories) : fmi3Error;
 }
@@ -116,8 +119,10 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
   face->room = room;
   face->items[0] = calloc(2 * room, sizeof(uint32_t));
   face->one = calloc(2 * room, sizeof(double));
+  const ali3_float_control host = slave_call_begins(face);
   if (face->items[0] != NULL && face->one != NULL)
     face->s = slave_new(&memory, face, log_to_host, logging, name, token, resources);
+  slave_call_ends(face, host);
   if (face->s == NULL) {
     free_face(face);
     return NULL;
@@ -131,26 +136,27 @@ FMI3_EXPORT void FMI3_NAME(fmi3FreeInstance)(fmi3Instance instance) {
   if (instance != NULL) free_face(instance);
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3EnterInitializationMode)(fmi3Instance instance, fmi3Boolean tolerance_defined,
-                                                              fmi3Float64 tolerance, fmi3Float64 start,
-                                                              fmi3Boolean stop_defined, fmi3Float64 stop) {
+FMI3_ENTRY(fmi3EnterInitializationMode,
+           (fmi3Instance instance, fmi3Boolean tolerance_defined, fmi3Float64 tolerance, fmi3Float64 start,
+            fmi3Boolean stop_defined, fmi3Float64 stop),
+           (instance, tolerance_defined, tolerance, start, stop_defined, stop)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3EnterInitializationMode", SLAVE_INSTANTIATED);
   (void)tolerance_defined, (void)tolerance; /* the inner step is fixed */
   if (face == NULL || slave_setup(face->s, start, stop_defined, stop) != SLAVE_OK) return fmi3Error;
   return (fmi3Status)slave_enter(face->s);
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3ExitInitializationMode)(fmi3Instance instance) {
+FMI3_ENTRY(fmi3ExitInitializationMode, (fmi3Instance instance), (instance)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3ExitInitializationMode", SLAVE_INITIALISING);
   return face != NULL ? (fmi3Status)slave_exit(face->s) : fmi3Error;
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Terminate)(fmi3Instance instance) {
+FMI3_ENTRY(fmi3Terminate, (fmi3Instance instance), (instance)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3Terminate", FMI3_RUN);
   return face != NULL ? (fmi3Status)slave_terminate(face->s) : fmi3Error;
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3Reset)(fmi3Instance instance) {
+FMI3_ENTRY(fmi3Reset, (fmi3Instance instance), (instance)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3Reset", FMI3_ANY);
   return face != NULL ? (fmi3Status)slave_reset(face->s) : fmi3Error;
 }

@@ -3,10 +3,11 @@
 
 #include "fmi3_face.h"
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
-                                             fmi3Boolean no_set_state_prior, fmi3Boolean *event_needed,
-                                             fmi3Boolean *terminate, fmi3Boolean *early_return,
-                                             fmi3Float64 *last_successful_time) {
+FMI3_ENTRY(fmi3DoStep,
+           (fmi3Instance instance, fmi3Float64 time, fmi3Float64 step, fmi3Boolean no_set_state_prior,
+            fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early_return,
+            fmi3Float64 *last_successful_time),
+           (instance, time, step, no_set_state_prior, event_needed, terminate, early_return, last_successful_time)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3DoStep", FMI3_RUN);
   (void)no_set_state_prior;
   if (face == NULL) return fmi3Error;
@@ -18,9 +19,10 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3DoStep)(fmi3Instance instance, fmi3Float64 
   return (fmi3Status)status;
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetOutputDerivatives)(fmi3Instance instance, const fmi3ValueReference vr[],
-                                                           size_t n, const fmi3Int32 order[], fmi3Float64 value[],
-                                                           size_t n_values) {
+FMI3_ENTRY(fmi3GetOutputDerivatives,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Int32 order[],
+            fmi3Float64 value[], size_t n_values),
+           (instance, vr, n, order, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetOutputDerivatives", FMI3_DERIVE);
   const bool given = n == 0 || (vr != NULL && order != NULL && value != NULL);
   if (face == NULL || !fmi3_given(face, "fmi3GetOutputDerivatives", given)) return fmi3Error;
@@ -40,11 +42,11 @@ static bool fits(fmi3_face *face, const char *function, const fmi3ValueReference
          fmi3_expand(face, 1, known, n_known, n_known_values);
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetDirectionalDerivative)(fmi3Instance instance,
-                                                               const fmi3ValueReference unknown[], size_t n_unknown,
-                                                               const fmi3ValueReference known[], size_t n_known,
-                                                               const fmi3Float64 seed[], size_t n_seed,
-                                                               fmi3Float64 sensitivity[], size_t n_sensitivity) {
+FMI3_ENTRY(fmi3GetDirectionalDerivative,
+           (fmi3Instance instance, const fmi3ValueReference unknown[], size_t n_unknown,
+            const fmi3ValueReference known[], size_t n_known, const fmi3Float64 seed[], size_t n_seed,
+            fmi3Float64 sensitivity[], size_t n_sensitivity),
+           (instance, unknown, n_unknown, known, n_known, seed, n_seed, sensitivity, n_sensitivity)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetDirectionalDerivative", FMI3_DERIVE);
   const bool given = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
   if (face == NULL ||
@@ -55,10 +57,11 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetDirectionalDerivative)(fmi3Instance inst
 }
 
 /* One directional derivative per known: there are few inputs. */
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetAdjointDerivative)(fmi3Instance instance, const fmi3ValueReference unknown[],
-                                                           size_t n_unknown, const fmi3ValueReference known[],
-                                                           size_t n_known, const fmi3Float64 seed[], size_t n_seed,
-                                                           fmi3Float64 sensitivity[], size_t n_sensitivity) {
+FMI3_ENTRY(fmi3GetAdjointDerivative,
+           (fmi3Instance instance, const fmi3ValueReference unknown[], size_t n_unknown,
+            const fmi3ValueReference known[], size_t n_known, const fmi3Float64 seed[], size_t n_seed,
+            fmi3Float64 sensitivity[], size_t n_sensitivity),
+           (instance, unknown, n_unknown, known, n_known, seed, n_seed, sensitivity, n_sensitivity)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetAdjointDerivative", FMI3_DERIVE);
   const bool given = (n_seed == 0 || seed != NULL) && (n_sensitivity == 0 || sensitivity != NULL);
   if (face == NULL ||

@@ -7,8 +7,9 @@ static double time_of(const slave *s) {
 }
 
 /* Time stands anywhere in a call and as often as the host likes; the variables between are read in one piece. */
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
-                                                 fmi3Float64 value[], size_t n_values) {
+FMI3_ENTRY(fmi3GetFloat64,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3Float64 value[], size_t n_values),
+           (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetFloat64", FMI3_ANY);
   if (face == NULL || !fmi3_given(face, "fmi3GetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   const fmi3ValueReference time = fmi3_the_table.time;
@@ -34,24 +35,27 @@ FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetFloat64)(fmi3Instance instance, const fm
   return fmi3OK;
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetInt32)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
-                                               fmi3Int32 value[], size_t n_values) {
+FMI3_ENTRY(fmi3GetInt32,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3Int32 value[], size_t n_values),
+           (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetInt32", FMI3_ANY);
   if (face == NULL || !fmi3_given(face, "fmi3GetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_get_whole(face->s, face->items[0], n_values, value);
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetInt32)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
-                                               const fmi3Int32 value[], size_t n_values) {
+FMI3_ENTRY(fmi3SetInt32,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Int32 value[], size_t n_values),
+           (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetInt32", FMI3_SET);
   if (face == NULL || !fmi3_given(face, "fmi3SetInt32", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_set_whole(face->s, face->items[0], n_values, value);
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetFloat64)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
-                                                 const fmi3Float64 value[], size_t n_values) {
+FMI3_ENTRY(fmi3SetFloat64,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3Float64 value[], size_t n_values),
+           (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetFloat64", FMI3_SET);
   if (face == NULL || !fmi3_given(face, "fmi3SetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
@@ -95,16 +99,18 @@ OTHER_TYPE(UInt64)
 OTHER_TYPE(Boolean)
 
 /* Text variables come after all others. */
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3GetString)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
-                                                fmi3String value[], size_t n_values) {
+FMI3_ENTRY(fmi3GetString,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, fmi3String value[], size_t n_values),
+           (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3GetString", FMI3_ANY);
   if (face == NULL || !fmi3_given(face, "fmi3GetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!as_many(face, n, n_values)) return fmi3Error;
   return (fmi3Status)slave_get_text(face->s, (uint32_t)fmi3_the_table.n_arrays, vr, n, value);
 }
 
-FMI3_EXPORT fmi3Status FMI3_NAME(fmi3SetString)(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
-                                                const fmi3String value[], size_t n_values) {
+FMI3_ENTRY(fmi3SetString,
+           (fmi3Instance instance, const fmi3ValueReference vr[], size_t n, const fmi3String value[], size_t n_values),
+           (instance, vr, n, value, n_values)) {
   fmi3_face *face = fmi3_slave(instance, "fmi3SetString", FMI3_SET);
   if (face == NULL || !fmi3_given(face, "fmi3SetString", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!as_many(face, n, n_values)) return fmi3Error;

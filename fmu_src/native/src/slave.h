@@ -201,6 +201,24 @@ struct slave {
   int64_t work_left; /* of the present call, see work.c */
 };
 
+/* float_control.c: the face of an instance begins with the control of its host */
+ali3_float_control slave_call_begins(void *instance); /* result: that of the host; 0: the same, and nothing was done */
+void slave_call_ends(void *instance, ali3_float_control host);
+ali3_float_control slave_call_leaves(void *instance); /* into a function of the host */
+void slave_call_returns(void *instance, ali3_float_control host);
+
+/* A function of a face around what it does, whose body follows; compiled apart, so that no arithmetic leaves it. */
+#define SLAVE_ENTRY(function, type, name, instance, parameters, arguments)                                             \
+  static __attribute__((noinline)) type name##_inside parameters;                                                      \
+  function parameters {                                                                                                \
+    if (ali3_float_control_is_usual()) return name##_inside arguments;                                                 \
+    const ali3_float_control host = slave_call_begins(instance);                                                       \
+    const type status = name##_inside arguments;                                                                       \
+    slave_call_ends(instance, host);                                                                                   \
+    return status;                                                                                                     \
+  }                                                                                                                    \
+  static type name##_inside parameters
+
 /* log.c */
 slave_status slave_say(slave *s, slave_status status, const char *format, ...);
 void slave_say_uncomputed(slave *s, const slave_variable *v);

@@ -119,11 +119,12 @@ def load_library(path: str | os.PathLike[str] | None = None) -> ctypes.CDLL:
         raise OSError(f"There is no kernel {key}. Compile it: python -m ali3 build --kernel")
     library = ctypes.CDLL(key)
     for name, (result, arguments) in _SIGNATURES.items():
-        function = getattr(library, name, None)
+        function = getattr(library, f"entry_{name}", None)  # the same whatever this process has the processor do
         if function is None:
             raise OSError(f"The kernel {key} has no function {name}{_OTHER_SOURCES}")
         function.restype = result
         function.argtypes = arguments
+        setattr(library, name, function)
     for name, structure in STRUCTURES.items():
         size = ctypes.sizeof(structure)
         found = library.ali3_structure_size(name.encode())

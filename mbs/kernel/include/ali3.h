@@ -50,6 +50,27 @@ typedef enum {
   ALI3_STATUS_COUNT
 } ali3_status;
 
+/* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its flags,
+ * FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0 where
+ * that is usual already. ali3_float_control_restore: nothing for 0. Flags of exceptions stay. */
+typedef uint64_t ali3_float_control;
+ali3_float_control ali3_float_control_set(void);
+void ali3_float_control_restore(ali3_float_control before);
+/* Whether it is usual; inlined, as every call of an FMU asks. */
+static inline int ali3_float_control_is_usual(void) {
+#if defined(__x86_64__)
+  uint32_t now;
+  __asm__ volatile("stmxcsr %0" : "=m"(now));
+  return (now & ~0x3fu) == 0x1f80;
+#elif defined(__aarch64__)
+  uint64_t now;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(now));
+  return now == 0;
+#else
+  return 1; /* there is no such register */
+#endif
+}
+
 typedef struct ali3_system ali3_system;
 typedef struct ali3_instance ali3_instance;
 

@@ -127,6 +127,7 @@ struct ali3_instance {
   /* inputs.c: the function that is called; of a whole step as asked for: inputs at both ends, its start, its length; of
    * the present part of it: inputs at the start, its start, its length; the time of in->now */
   ali3_input_function *input_function;
+  ali3_float_control host_control; /* of the caller, for this function; 0: the same, see api/entries.c */
   void *input_context;
   const double *input_break; /* n_breaks: times at which steps are parted */
   int64_t n_breaks;

@@ -27,7 +27,12 @@ static ali3_status normals(ali3_instance *in, const double *input) {
 static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
   const ali3_system *S = in->system;
   memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
-  if (in->input_function(in->input_context, t, after ? 1 : 0, in->input_work) != 0) return ALI3_BAD_ARGUMENT;
+  const ali3_float_control host = in->host_control;
+  ali3_float_control_restore(host);
+  const int32_t refused = in->input_function(in->input_context, t, after ? 1 : 0, in->input_work);
+  ali3_float_control_set();
+  in->host_control = host;
+  if (refused != 0) return ALI3_BAD_ARGUMENT;
   if (!ali3_finite(in->input_work, S->size.nu)) return ALI3_BAD_ARGUMENT;
   for (int32_t i = 0; i < S->size.nu; i++) to[i] = fmax(S->input_min[i], fmin(S->input_max[i], in->input_work[i]));
   return normals(in, to);

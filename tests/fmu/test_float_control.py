@@ -1,0 +1,180 @@
+"""A host may round in another way, take denormal numbers for 0 or trap: it gets the same bits, and keeps its register.
+No call raises a flag of invalid, division by zero or overflow."""
+
+from __future__ import annotations
+
+import math
+import platform
+import sys
+import zipfile
+from ctypes import c_double
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mbs.vehicle.read_car import car_names
+from tests.fmu.calls import DISCARD, OK, HostMaker
+from tests.in_process import build_fmu
+from tests.processor import DEFAULT, FLAGS, ODD, control, flags, mathematics, set_control, set_flags
+
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux" or platform.machine() != "x86_64", reason="the test sets the register of x86-64 Linux"
+)
+STEP = 0.01
+WRONG = FLAGS["invalid"] | FLAGS["division by zero"] | FLAGS["overflow"]
+PARTS = {"throttle": (0.0, 0.4), "steering": (0.2, 0.6), "brake": (0.5, 0.8), "hand_brake": (0.9, 1.0)}
+"""Of a drive: from where to where an input that jumps to 1 and back is on."""
+
+STARTS: tuple[dict[str, float], ...] = ({}, {"initial.z": 1.5, "initial.speed": 15.0})
+"""At rest on the ground; in the air and fast, from where it falls on its stops and its wheels turn alone."""
+
+
+class Messages(list[str]):
+    """What the host's logger gets; `controls`: of the register while it was called."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.controls: set[int] = set()
+
+    def append(self, text: str) -> None:
+        self.controls.add(control())
+        super().append(text)
+
+
+class Odd:
+    """Methods of an object, each called under a control, which must still be there when it returns.
+
+    `calls`: how many; `wrong`: those that raised a flag of invalid, division by zero or overflow, and which.
+    """
+
+    def __init__(self, called: Any, under: int) -> None:
+        self.called, self.under, self.calls = called, under, 0
+        self.wrong: list[tuple[str, int, int]] = []
+
+    def __getattr__(self, name: str) -> Any:
+        method = getattr(self.called, name)
+        if not callable(method):
+            return method
+
+        def call(*given: Any, **more: Any) -> Any:
+            set_flags(0)
+            set_control(self.under)
+            try:
+                return method(*given, **more)
+            finally:
+                after, raised = control(), flags() & WRONG
+                set_control(DEFAULT)
+                self.calls += 1
+                self.wrong += [(name, self.calls, raised)] if raised else []
+                assert after == self.under, f"{name} leaves {after:#x} for {self.under:#x}"
+
+        return call
+
+
+def odd_host(host: HostMaker, fmu: Path, under: int) -> Any:
+    """A host of the fixture `host` all of whose calls are made under a control."""
+    set_control(under)
+    made = host(fmu)
+    after = control()
+    set_control(DEFAULT)
+    assert after == under
+    made.messages = Messages()
+    made.slave = Odd(made.slave, under)
+    return made
+
+
+def bits(host: HostMaker, fmu: Path, under: int, drive: dict[str, float], steps: int, **start: float) -> list[Any]:
+    """Outputs of each step, a derivative and a saved state."""
+    made = odd_host(host, fmu, under)
+    made.start({name.replace("__", "."): value for name, value in start.items()})
+    for name, value in drive.items():
+        assert made.set(name, value) == OK
+    found: list[Any] = made.run(steps, STEP)
+    known = made.references[next(iter(drive))]
+    unknown = [v.valueReference for v in made.description.modelVariables if v.causality == "output"][:3]
+    found.append(list(made.slave.getDirectionalDerivative(unknown, [known], *([1.0], 3) if made.three else [[1.0]])))
+    state = made.slave.getFMUState() if made.three else made.slave.getFMUstate()
+    found.append(bytes(made.slave.serializeFMUstate(state)))
+    assert made.slave.calls > steps
+    made.slave.terminate()
+    return found
+
+
+def test_the_bits_do_not_depend_on_the_host(crane: Path, host: HostMaker) -> None:
+    drive = {"torque": 5.0}
+    usual = bits(host, crane, DEFAULT, drive, 20)
+    assert all(map(math.isfinite, usual[-3]))
+    for name, under in ODD.items():
+        assert bits(host, crane, under, drive, 20) == usual, name
+
+
+def test_the_logger_has_the_register_of_its_host(reach: Path, host: HostMaker) -> None:
+    for name, under in ODD.items():
+        made = odd_host(host, reach, under)
+        made.start()
+        made.set("pull", 10.0)
+        assert made.step(0.0, 1.0) == DISCARD
+        assert made.messages
+        assert made.messages.controls == {under}, name
+        made.messages.clear()
+        made.call("getReal", [10**6])
+        assert made.messages.controls == {under}
+
+
+def test_flags_of_the_host_stay(crane: Path, host: HostMaker) -> None:
+    for under in (DEFAULT, *ODD.values()):
+        made = host(crane).start()
+        set_flags(FLAGS["division by zero"])
+        set_control(under)
+        made.slave.doStep(0.0, STEP)
+        assert flags() & WRONG == FLAGS["division by zero"]
+        set_control(DEFAULT)
+
+
+def test_a_flag_is_seen() -> None:
+    library = Odd(mathematics(), DEFAULT)
+    library.called.log.argtypes, library.called.log.restype = [c_double], c_double
+    assert library.log(1.0) == 0.0
+    assert math.isnan(library.log(-1.0))
+    library.log(0.0)
+    assert library.wrong == [("log", 2, FLAGS["invalid"]), ("log", 3, FLAGS["division by zero"])]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("car", car_names())
+def test_a_drive_of_a_car_raises_no_flag(tmp_path: Path, host: HostMaker, car: str) -> None:
+    """A start, full lock, braking to a stop, and what stands, all by jumps, at 2 ms."""
+    fmu, steps = build_fmu(tmp_path, "--car", car), 1500
+    systems = len([name for name in zipfile.ZipFile(fmu).namelist() if name.endswith(".ali3")])
+    for fidelity in range(systems):
+        chosen = {"fidelity": float(fidelity)} if systems > 1 else {}
+        for start in STARTS:
+            set_flags(0)
+            made = host(fmu)
+            assert flags() & WRONG == 0
+            made.slave = Odd(made.slave, DEFAULT)
+            made.start(chosen | start)
+            variables = made.description.modelVariables
+            inputs = {v.name: v.valueReference for v in variables if v.causality == "input"}
+            outputs = [v.valueReference for v in variables if v.causality == "output"]
+            for k in range(steps):
+                on = {name for name, (begin, end) in PARTS.items() if begin <= k / steps < end} | {"selector"}
+                made.slave.setReal([*inputs.values()], [float(name in on) for name in inputs])
+                made.slave.doStep(k * 0.002, 0.002)
+                made.slave.getReal(outputs)
+            assert made.slave.wrong == [], f"fidelity {fidelity} from {start}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("car", "fidelities"), [("prototype", (0, 1, 2, 3)), ("ferrari_250_lm", (0,))])
+def test_no_car_depends_on_the_host(tmp_path: Path, host: HostMaker, car: str, fidelities: tuple[int, ...]) -> None:
+    drive = {"throttle": 0.4, "steering": 0.3, "selector": 1.0}
+    for kind in ("native", "fmi3_scalar"):
+        fmu = build_fmu(tmp_path / kind, "--car", car, "--kind", kind)
+        for fidelity in fidelities:
+            more = {"fidelity": fidelity} if len(fidelities) > 1 else {}
+            usual = bits(host, fmu, DEFAULT, drive, 20, initial__speed=10.0, **more)
+            for name, under in ODD.items():
+                found = bits(host, fmu, under, drive, 20, initial__speed=10.0, **more)
+                assert found == usual, f"{kind}, fidelity {fidelity}, {name}"
