@@ -11,7 +11,7 @@ import numpy as np
 
 import mbs
 from benchmarks.methods.free_elements import ELEMENTS
-from benchmarks.methods.free_wheels import TWO_AXES, WHEELS, alone_late, growth
+from benchmarks.methods.free_wheels import TWO_AXES, WHEELS, alone_late
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, crossed, table
 from mbs.settings.methods import METHOD_TABLE
@@ -106,35 +106,24 @@ def cell(found: Sequence[Row], name: str, method: str) -> str:
 
 
 def draw(found: Sequence[Row], folder: Path) -> None:
-    """Change of the energy over rate times step, and what the paper's rule would gain in as many steps."""
+    """A map of mechanism over method and rate times step: the largest change of the energy."""
     plt = pyplot()
     methods = list(dict.fromkeys(row["method"] for row in found))
-    shown = [row for row in found if row["energy"] is not None]
-    names = [n for n in MECHANISMS if any(r["mechanism"] == n and r["energy"] > WRONG for r in shown)]
-    figure, both = plt.subplots(1, 2, figsize=(12.0, 5.0), layout="constrained")
-    axes = both[0]
-    for name in dict.fromkeys(row["mechanism"] for row in shown):
-        own = [row for row in shown if row["mechanism"] == name and row["method"] == "ali3p"]
-        loud = name in names
-        axes.loglog(
-            [row["turn"] for row in own], [row["energy"] for row in own], "o-" if loud else "-", markersize=3.5,
-            color=None if loud else "0.8", zorder=2 if loud else 1, label=name if loud else None,
-        )  # fmt: skip
-    turns = np.geomspace(TURNS[0], TURNS[-1], 60)
-    gained = np.expm1(np.minimum(300.0, [STEPS * growth(-3.0, 1.0, 9.0, x, x / 3.0) for x in turns]))
-    axes.loglog(turns, gained, "k--", label="pair, ratio -3, by the paper's rule")
-    axes.axhline(WRONG, color="0.6", linewidth=0.8)
-    axes.set(xlabel="rate x step, rad", ylabel="part of the energy", ylim=(1e-12, 1e2))
-    axes.set_title(f"Largest change of energy over {STEPS:g} steps, ALi3-P")
-    axes.legend(fontsize=6, ncols=2)
-    worst = np.full((len(names), len(methods)), np.nan)
-    for row in shown:
-        if row["mechanism"] in names:
-            k = names.index(row["mechanism"]), methods.index(row["method"])
-            worst[k] = np.nanmax([worst[k], np.log10(max(row["energy"], 1e-12))])
-    image = both[1].imshow(worst, vmin=-9.0, vmax=0.0, aspect="auto", cmap="RdYlGn_r")
-    both[1].set_xticks(range(len(methods)), [METHOD_TABLE[m].title for m in methods], rotation=30, ha="right")
-    both[1].set_yticks(range(len(names)), names)
-    both[1].set_title("Largest over all rates; white: not offered")
-    figure.colorbar(image, label="log10, part of the energy")
+    names = list(dict.fromkeys(row["mechanism"] for row in found))
+    figure, axes = plt.subplots(figsize=(9.5, 2.0 + 0.2 * len(names)), layout="constrained")
+    change = np.full((len(names), len(methods) * len(TURNS)), np.nan)
+    for row in found:
+        column = methods.index(row["method"]) * len(TURNS) + TURNS.index(row["turn"])
+        if row["energy"] is not None:
+            change[names.index(row["mechanism"]), column] = np.log10(max(row["energy"], 1e-12))
+    image = axes.imshow(change, vmin=-9.0, vmax=0.0, aspect="auto", cmap="RdYlGn_r")
+    for k in range(1, len(methods)):
+        axes.axvline(k * len(TURNS) - 0.5, color="k", linewidth=0.8)
+    middle = 0.5 * (len(TURNS) - 1)
+    titles = [METHOD_TABLE[m].title for m in methods]
+    axes.set_xticks([k * len(TURNS) + middle for k in range(len(methods))], titles, rotation=20, ha="right")
+    axes.set_yticks(range(len(names)), names, fontsize=8)
+    rates = ", ".join(f"{turn:g}" for turn in TURNS)
+    axes.set_title(f"Largest change of energy; columns of a method: rate x step {rates}; white: not taken")
+    figure.colorbar(image, label="log10 of the part of the energy", shrink=0.5)
     save_chart(figure, folder / "stability_free.png")
