@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import peers
-from benchmarks.methods import dissipative, error_control, gears, naive, work_precision
+from benchmarks.methods import dissipative, error_control, free_runs, naive, work_precision
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
 from benchmarks.shared.command import Part, run, say_missing, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
 from benchmarks.shared.warned import wrong_on_purpose
+from mbs.settings.methods import METHOD_TABLE
 
 
 @wrong_on_purpose()
@@ -55,6 +56,11 @@ def _dissipative(options: Namespace) -> list[dict[str, Any]]:
     return [dissipative.measure(*one, h) for one in watched(todo) for h in steps[one[0]]]
 
 
+def _free(options: Namespace) -> list[dict[str, Any]]:
+    steps = options.steps // 100 if options.quick else options.steps
+    return free_runs.rows(watched(list(options.only)), options.methods, steps)
+
+
 def _motions(options: Namespace) -> None:
     for name in watched(options.only):
         store(name)
@@ -89,14 +95,18 @@ PARTS = {
         pages=("stability.md",),
         blocks=dissipative.dissipative_blocks,
     ),
-    "gears": Part(
-        "free wheels with gears, racks and screws: energy, teeth and angles over many steps",
-        lambda options: gears.rows(watched(list(options.only)), options.quick),
-        names=tuple(gears.ALL),
-        options={"quick": (False, "a hundredth of the steps")},
+    "free": Part(
+        "each joint and each force in a free mechanism: energy, teeth and angles over many steps",
+        _free,
+        names=tuple(free_runs.MECHANISMS),
+        options={
+            "quick": (False, "a hundredth of the steps"),
+            "steps": (free_runs.STEPS, "of each run"),
+            "methods": ([*METHOD_TABLE], "that run them"),
+        },
         pages=("stability.md",),
-        blocks=gears.gear_blocks,
-        chart=gears.draw,
+        blocks=free_runs.blocks,
+        chart=free_runs.draw,
     ),
     "motions": Part(
         "write the exact motions that take long, by minimum-norm accelerations under DOP853 or Radau",

@@ -6,17 +6,18 @@ import numpy as np
 import pytest
 
 import mbs
-from benchmarks.methods import gears
+from benchmarks.methods.free_runs import STEPS, TURNS, measure
+from benchmarks.methods.free_wheels import WHEELS, Free, alone_late, growth
 from tests.oracle.paper_step import PaperState, paper_step
 
-NAMES = pytest.mark.parametrize("name", gears.MECHANISMS)
+NAMES = pytest.mark.parametrize("name", WHEELS)
 
 
 def check(name, turn, steps, method="ali3p"):
-    found = gears.measure(name, turn, steps, method)
+    found = measure(name, turn, steps, method)
     assert found["energy"] < 1e-3 * (turn / 0.5) ** 4 + 1e-9, found
     assert found["slip"] < 1e-11, found
-    assert found["late"] < gears.alone_late(turn), found
+    assert found["late"] < alone_late(turn), found
     return found
 
 
@@ -28,34 +29,34 @@ def test_wheels_keep_energy_and_teeth_do_not_slip(name):
 
 @pytest.mark.slow
 def test_wheels_keep_energy_for_a_hundred_thousand_steps():
-    for name in gears.MECHANISMS:
-        for turn in gears.TURNS:
-            check(name, turn, gears.STEPS)
+    for name in WHEELS:
+        for turn in TURNS:
+            check(name, turn, STEPS)
 
 
 @pytest.mark.parametrize("turn", [0.6, 3.0])
 def test_steps_in_which_wheels_turn_far_are_halved_or_refused(turn):
-    found = gears.measure("pair, ratio -3", turn, 100)
+    found = measure("pair, ratio -3", turn, 100)
     assert found["energy"] < 1e-3
     assert found["halvings"] >= 100
-    system = mbs.compile(gears.MECHANISMS["armature"](turn / 0.01).model)
+    system = mbs.compile(WHEELS["armature"](turn / 0.01).model)
     with pytest.raises(mbs.SimulationError, match=r"turns by more than 0\.52 rad .* a step of 0\.00\d+ s follows it"):
         mbs.simulate(system, 1.0, 0.01, settings=mbs.Settings(max_halvings=0), progress=False)
 
 
 def test_a_wheel_alone_keeps_its_rate_and_is_late():
     """An angle that carries nothing is no reason to open its row."""
-    wheels = gears.Wheels()
+    wheels = Free()
     wheels.angle("angle", wheels.model.ground, wheels.wheel("wheel", 0.1), 50.0)
     wheels.model.sense_coordinate("rate", wheels.angles["angle"][0], order=1)
-    r = mbs.simulate(mbs.compile(wheels.model), 1.0, 0.01, progress=False)
+    r = mbs.simulate(wheels.compiled(), 1.0, 0.01, progress=False, estimate_error=False)
     assert np.ptp(r["energy"]) < 1e-9 * r["energy"][0]
     assert np.ptp(r["rate"]) < 1e-7
-    assert 1.0 - r["angle"][-1] / 50.0 == pytest.approx(gears.alone_late(0.5), rel=1e-6)
+    assert 1.0 - r["angle"][-1] / 50.0 == pytest.approx(alone_late(0.5), rel=1e-6)
 
 
 def test_lanes_make_the_steps_of_one_run():
-    system = mbs.compile(gears.MECHANISMS["planetary"](40.0).model)
+    system = mbs.compile(WHEELS["planetary"](40.0).model)
     alone = mbs.simulate(system, 1.0, 0.01, progress=False, estimate_error=False)
     many = mbs.simulate_many(system, [mbs.Variant()] * 2, 1.0, 0.01, progress=False)
     assert max(many.alone) < 10
@@ -121,4 +122,4 @@ def test_the_rule_of_the_paper_gains_what_theory_says(ratio, inertia):
             state = paper_step(pair, state, h, 1e7 / h**2, 6, 6, "linearised")
             energies.append(0.5 * state.qd @ pair.M @ state.qd)
         gained = np.log(energies[-1] / energies[-21]) / 20.0
-        assert gained == pytest.approx(gears.growth(ratio, *inertia, turn, turn / ratio), rel=0.01 + 2.0 * turn**2)
+        assert gained == pytest.approx(growth(ratio, *inertia, turn, turn / ratio), rel=0.01 + 2.0 * turn**2)

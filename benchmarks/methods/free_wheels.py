@@ -1,4 +1,4 @@
-"""Free wheels that gears, racks and screws tie: what a run of many steps does to their energy, teeth and angles.
+"""Free mechanisms whose wheels gears, racks and screws tie.
 
 Nothing acts on them, so that all rates are constant.
 """
@@ -6,32 +6,54 @@ Nothing acts on them, so that all rates are constant.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 import mbs
-from benchmarks.shared.command import pyplot, save_chart
-from benchmarks.shared.pages import Row, table
 
+<<<<<<< HEAD:benchmarks/methods/gears.py
 STEP, STEPS, EVERY = 0.01, 100_000, 10
 TURNS = (0.01, 0.05, 0.1, 0.2, 0.5)
 """Rate of the fastest wheel times the step, rad."""
+=======
+>>>>>>> w-vocab:benchmarks/methods/free_wheels.py
 INERTIA = 0.02  # kg m2
 
 
-class Wheels:
-    """A model without gravity whose wheels turn on pins of the ground or of each other."""
+class Free:
+    """A model without gravity, or with a `weight` in m/s2, with what is sensed and what acts on it."""
 
-    def __init__(self, dimension: int = 2) -> None:
-        self.model = mbs.Model("wheels", dimension=dimension, gravity=(0.0,) * dimension)
+    def __init__(self, dimension: int = 2, weight: float = 0.0) -> None:
+        gravity = (*(0.0,) * (dimension - 1), -weight)
+        self.model = mbs.Model("free", dimension=dimension, gravity=gravity)
         self.angles: dict[str, tuple[mbs.Coordinate, float]] = {}
         """With the rate of each, rad/s."""
         self.ties: list[tuple[str, str, float]] = []
         """Sensors of which the first goes `ratio` times as far as the second."""
-        self.model.sense_energy("energy", "kinetic")
+        self.inputs: dict[str, Callable[[float], float]] = {}
+        """Functions of time, s, by the name of the input."""
+
+    def pedal(self, name: str, size: float, rate: float) -> mbs.Input:
+        """An input that swings between -size and size, at a rate in rad/s."""
+        self.inputs[name] = lambda t: size * math.sin(rate * t)
+        return self.model.input(name)
+
+    def compiled(self) -> mbs.System:
+        """The System, with sensors of its bodies, its energy and what elements and guides do to it."""
+        for body in self.model.bodies:
+            self.model.sense_position(f"x of {body.name}", body, None, "x")
+            if not body.is_point:
+                self.model.sense_position(
+                    f"x beside {body.name}", body, body.com + 0.1 * np.eye(len(body.com))[-1], "x"
+                )
+        self.model.sense_energy("energy")
+        if self.model.guides:
+            self.model.sense_energy("work", "with guides", list(self.model.elements))
+        elif self.model.elements:
+            self.model.sense_energy("work", "nonconservative", list(self.model.elements))
+        return mbs.compile(self.model)
 
     def wheel(self, name: str, inertia: float, x: float = 0.0, on: mbs.Body | None = None) -> mbs.Body:
         """A wheel on a pin at x, m."""
@@ -65,11 +87,11 @@ class Wheels:
         return body
 
 
-def train(*ratios: float) -> Callable[[float], Wheels]:
-    """Wheels in a row, each with as much of the energy as the first: the worst share for a pair."""
+def train(*ratios: float) -> Callable[[float], Free]:
+    """Free in a row, each with as much of the energy as the first: the worst share for a pair."""
 
-    def build(rate: float) -> Wheels:
-        w, size = Wheels(), max(1.0, abs(math.prod(ratios)))
+    def build(rate: float) -> Free:
+        w, size = Free(), max(1.0, abs(math.prod(ratios)))
         rates = [rate if abs(math.prod(ratios)) >= 1.0 else rate * abs(math.prod(ratios))]
         rates += [rates[0] / math.prod(ratios[: k + 1]) for k in range(len(ratios))]
         for k, own in enumerate(rates):
@@ -82,9 +104,9 @@ def train(*ratios: float) -> Callable[[float], Wheels]:
     return build
 
 
-def rack(rate: float, slides: bool = False) -> Wheels:
+def rack(rate: float, slides: bool = False) -> Free:
     """A pinion and its rack; `slides`: which another slide follows."""
-    w = Wheels()
+    w = Free()
     pinion = w.angle("pinion", w.model.ground, w.wheel("pinion body", 0.005), rate)
     body = w.slide("rack", pinion, 0.05)
     w.ties.append(("rack", "pinion", 0.05))
@@ -98,9 +120,9 @@ def rack(rate: float, slides: bool = False) -> Wheels:
     return w
 
 
-def screw(rate: float) -> Wheels:
+def screw(rate: float) -> Free:
     """A nut on its thread."""
-    w, lead = Wheels(3), 0.1
+    w, lead = Free(3), 0.1
     nut = w.model.body("nut", mass=2.0, com=(0.0, 0.0, 0.0), inertia=(0.01, 0.01, INERTIA))
     thread = w.model.screw(
         "thread", nut, w.model.ground, point=(0.0, 0.0, 0.0), axis=(0.0, 0.0, 1.0), pitch=2.0 * math.pi * lead
@@ -111,9 +133,9 @@ def screw(rate: float) -> Wheels:
     return w
 
 
-def differential(rate: float) -> Wheels:
+def differential(rate: float) -> Free:
     """Two shafts against a carrier of the same axis."""
-    w = Wheels()
+    w = Free()
     carrier = w.wheel("carrier", 0.1)
     w.angle("carrier angle", w.model.ground, carrier, 0.6 * rate)
     for name, inertia, own in (("left", 0.01, 0.4 * rate), ("right", 0.03, -0.4 * rate)):
@@ -122,9 +144,9 @@ def differential(rate: float) -> Wheels:
     return w
 
 
-def planetary(rate: float) -> Wheels:
+def planetary(rate: float) -> Free:
     """A sun and a planet, which a carrier takes round."""
-    w = Wheels()
+    w = Free()
     carrier = w.wheel("carrier", 0.1)
     w.angle("carrier angle", w.model.ground, carrier, 0.3 * rate)
     w.angle("planet", carrier, w.wheel("planet body", 0.01, 0.2, carrier), 0.7 * rate)
@@ -133,17 +155,17 @@ def planetary(rate: float) -> Wheels:
     return w
 
 
-def rotor(rate: float) -> Wheels:
+def rotor(rate: float) -> Free:
     """A wheel with a rotor behind a gear."""
-    w = Wheels()
+    w = Free()
     angle = w.angle("angle", w.model.ground, w.wheel("wheel", INERTIA), rate)
     w.model.armature("rotor", angle, inertia=INERTIA / 100.0, ratio=10.0)
     return w
 
 
-def bevel(rate: float, geared: bool = True) -> Wheels:
+def bevel(rate: float, geared: bool = True) -> Free:
     """A planet that turns across the axis of its carrier, and two shafts that it drives."""
-    w, ground = Wheels(3), (0.0, 0.0, 0.0)
+    w, ground = Free(3), (0.0, 0.0, 0.0)
     m, along, across = w.model, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
     def turning(name: str, on: mbs.Body, axis: tuple[float, ...], inertia: tuple[float, ...]) -> mbs.Body:
@@ -162,7 +184,7 @@ def bevel(rate: float, geared: bool = True) -> Wheels:
     return w
 
 
-MECHANISMS: dict[str, Callable[[float], Wheels]] = {
+WHEELS: dict[str, Callable[[float], Free]] = {
     "pair, ratio -3": train(-3.0),
     "pair, ratio 10": train(10.0),
     "pair, ratio -0.1": train(-0.1),
@@ -174,12 +196,11 @@ MECHANISMS: dict[str, Callable[[float], Wheels]] = {
     "planetary": planetary,
     "armature": rotor,
 }
-TWO_AXES: dict[str, Callable[[float], Wheels]] = {
+TWO_AXES: dict[str, Callable[[float], Free]] = {
     "bevel differential": bevel,
     "its carrier and planet without gears": lambda rate: bevel(rate, False),
 }
 """Of which the rule loses energy with and without gears."""
-ALL = MECHANISMS | TWO_AXES
 
 
 def alone_late(turn: float) -> float:
@@ -194,61 +215,3 @@ def growth(ratio: float, inertia: float, other: float, turn: float, second_turn:
     """
     share = ratio**2 * inertia * other / (ratio**2 * inertia + other) ** 2
     return share * (turn**2 - second_turn**2) ** 2 / 12.0
-
-
-def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p") -> dict[str, Any]:
-    """Largest change of the energy, slip of the teeth and lateness of angles, in parts of what there is of each."""
-    wheels = ALL[name](turn / STEP)
-    every = min(EVERY, steps)
-    r = mbs.simulate(
-        mbs.compile(wheels.model), steps * STEP, STEP, method=method, every=every, progress=False, estimate_error=False
-    )
-    assert r.report is not None
-    way = {end: r[end] - r[end][0] for end in {*wheels.angles, *(end for tie in wheels.ties for end in tie[:2])}}
-    slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in wheels.ties]
-    late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in wheels.angles.items()]
-    return {
-        "mechanism": name,
-        "turn": turn,
-        "energy": float(np.max(np.abs(r["energy"] / r["energy"][0] - 1.0))),
-        "slip": float(max(slips, default=0.0)),
-        "late": float(max(late) / (turn * steps)),
-        "alone_late": alone_late(turn),
-        "iterations": r.report.iterations / steps,
-        "halvings": r.report.halvings,
-    }
-
-
-def rows(names: Sequence[str], quick: bool) -> list[dict[str, Any]]:
-    """All mechanisms at all rates."""
-    return [measure(name, turn, STEPS // 100 if quick else STEPS) for name in names for turn in TURNS]
-
-
-def gear_blocks(found: Sequence[Row]) -> dict[str, str]:
-    """The table of the page."""
-    lines: dict[str, dict[str, Any]] = {}
-    for row in found:
-        line = lines.setdefault(row["mechanism"], {"mechanism": row["mechanism"]})
-        line[f"energy at {row['turn']:g}"] = row["energy"]
-        line |= {"slip": max(row["slip"], line.get("slip", 0.0)), f"late at {row['turn']:g}": row["late"]}
-    energies = [f"energy at {turn:g}" for turn in TURNS]
-    heads = ("slip", f"late at {TURNS[0]:g}", f"late at {TURNS[-1]:g}")
-    return {"gears": table(list(lines.values()), {"mechanism": ""} | dict.fromkeys((*energies, *heads), ".1e"))}
-
-
-def draw(found: Sequence[Row], folder: Path) -> None:
-    """Change of the energy over rate times step, and what the paper's rule would gain in as many steps."""
-    plt = pyplot()
-    figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
-    for name in dict.fromkeys(row["mechanism"] for row in found):
-        own = [row for row in found if row["mechanism"] == name]
-        form = "^:" if name in TWO_AXES else "o-"
-        axes.loglog([row["turn"] for row in own], [row["energy"] for row in own], form, markersize=3.5, label=name)
-    turns = np.geomspace(TURNS[0], TURNS[-1], 60)
-    gained = np.expm1(np.minimum(300.0, [STEPS * growth(-3.0, 1.0, 9.0, x, x / 3.0) for x in turns]))
-    axes.loglog(turns, gained, "k--", label="pair, ratio -3, by the paper's rule")
-    axes.axhline(1e-3, color="0.6", linewidth=0.8)
-    axes.set(xlabel="rate of the fastest wheel x step, rad", ylabel="part of the energy", ylim=(1e-12, 1e2))
-    axes.set_title(f"Free wheels: largest change of energy over {STEPS:g} steps")
-    axes.legend(fontsize=7, ncols=2)
-    save_chart(figure, folder / "stability_gears.png")

@@ -1,0 +1,129 @@
+"""Free mechanisms of each joint and each force: what a run of many steps does to their energy, teeth and angles."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import mbs
+from benchmarks.methods.free_elements import ELEMENTS
+from benchmarks.methods.free_wheels import TWO_AXES, WHEELS, alone_late
+from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.pages import Row, crossed, table
+from mbs.settings.methods import METHOD_TABLE
+
+STEP, STEPS, EVERY = 0.01, 100_000, 10
+TURNS = (0.01, 0.05, 0.2, 0.5)
+"""Rate of the fastest wheel, or of the force, times the step, rad."""
+WRONG = 1e-3
+"""Part of the energy from which a change is an error that a run should tell."""
+MECHANISMS = WHEELS | TWO_AXES | ELEMENTS
+
+
+def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", told: bool = False) -> dict[str, Any]:
+    """Largest change of the energy but for work, slip of the teeth and lateness of angles, in parts of what there is.
+
+    `drift`: mean change of the energy a step; `grows`: whether it makes up most of the change. `told`: whether a run
+    that is wrong is made once more with the check of its accuracy.
+    """
+    free = MECHANISMS[name](turn / STEP)
+    every, row = min(EVERY, steps), {"mechanism": name, "turn": turn, "method": method}
+    system = free.compiled()
+    options: dict[str, Any] = {"method": method, "inputs": free.inputs, "every": every, "progress": False}
+    try:
+        r = mbs.simulate(system, steps * STEP, STEP, estimate_error=False, **options)
+        row["told"] = ""
+    except mbs.SimulationError as error:
+        if error.time == 0.0 or error.trajectory is None or len(error.trajectory.t) < 2:
+            return row | {"told": "refused" if error.time > 0.0 else "no", "energy": None, "drift": None}
+        r, row["told"] = error.trajectory, "refused"
+    steps = every * (len(r.t) - 1)
+    work = r["work"] if free.model.elements or free.model.guides else 0.0 * r.t
+    change = r["energy"] - r["energy"][0] - work
+    tenth = max(1, len(change) // 10)
+    change /= max(r["energy"][0], np.max(np.abs(work[:tenth])))
+    drift = float(np.mean(change[-tenth:]) - np.mean(change[:tenth])) / (0.9 * steps)
+    row |= {"energy": float(np.max(np.abs(change))), "drift": drift}
+    row["grows"] = abs(drift) * steps > 0.5 * row["energy"]
+    if r.report is not None:
+        row |= {"iterations": r.report.iterations / steps, "halvings": r.report.halvings}
+    if told and row["energy"] > WRONG and not row["told"]:
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            mbs.simulate(system, steps * STEP, STEP, **options)
+        row["told"] = ", ".join(sorted({w.category.__name__ for w in said}))
+    if free.angles:
+        way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
+        slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in free.ties]
+        late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in free.angles.items()]
+        row |= {"slip": float(max(slips, default=0.0)), "late": float(max(late) / (turn * steps))}
+        row["alone_late"] = alone_late(turn)
+    return row
+
+
+def rows(names: Sequence[str], methods: Sequence[str], steps: int) -> list[dict[str, Any]]:
+    """All mechanisms by all methods at all rates."""
+    return [measure(name, turn, steps, method, True) for name in names for method in methods for turn in TURNS]
+
+
+def blocks(found: Sequence[Row]) -> dict[str, str]:
+    """The tables of the page."""
+    lines: dict[str, dict[str, Any]] = {}
+    for row in found:
+        if row["method"] == "ali3p" and row["mechanism"] in WHEELS | TWO_AXES and row["energy"] is not None:
+            line = lines.setdefault(row["mechanism"], {"mechanism": row["mechanism"]})
+            line |= {"slip": max(row["slip"], line.get("slip", 0.0)), f"late at {row['turn']:g}": row["late"]}
+    heads = ("slip", f"late at {TURNS[0]:g}", f"late at {TURNS[-1]:g}")
+    cells = {(row["mechanism"], row["method"]): cell(found, row["mechanism"], row["method"]) for row in found}
+    one = [{"mechanism": name, "method": method, "cell": text} for (name, method), text in cells.items()]
+    return {
+        "gears": table([*lines.values()], {"mechanism": ""} | dict.fromkeys(heads, ".1e")),
+        "free": crossed(one, lambda r: r["mechanism"], "method", lambda r: r["cell"], "mechanism"),
+        "free wrong": table(
+            [row for row in found if row["energy"] is not None and row["energy"] > WRONG and not row["told"]],
+            {"mechanism": "", "method": "", "turn": "g", "energy": ".1e", "drift": ".1e"},
+        ),
+    }
+
+
+def cell(found: Sequence[Row], name: str, method: str) -> str:
+    """Largest change over the rates, from which rate it grows or is beyond `WRONG`, and what the run says."""
+    own = sorted((r for r in found if (r["mechanism"], r["method"]) == (name, method)), key=lambda r: r["turn"])
+    ran = [row for row in own if row["energy"] is not None]
+    if not ran:
+        return "–" if all(row["told"] == "no" for row in own) else "refused"
+    text = f"{max(row['energy'] for row in ran):.0e}"
+    wrong = [row for row in ran if row["energy"] > WRONG]
+    if wrong:
+        text += f" from {wrong[0]['turn']:g}" + (", grows" if any(row.get("grows") for row in wrong) else "")
+        text += "" if all(row["told"] for row in wrong) else " (!)"
+    refused = [row["turn"] for row in own if row["told"] == "refused"]
+    return text + (f", refused from {refused[0]:g}" if refused else "")
+
+
+def draw(found: Sequence[Row], folder: Path) -> None:
+    """A map of mechanism over method and rate times step: the largest change of the energy."""
+    plt = pyplot()
+    methods = list(dict.fromkeys(row["method"] for row in found))
+    names = list(dict.fromkeys(row["mechanism"] for row in found))
+    figure, axes = plt.subplots(figsize=(9.5, 2.0 + 0.2 * len(names)), layout="constrained")
+    change = np.full((len(names), len(methods) * len(TURNS)), np.nan)
+    for row in found:
+        column = methods.index(row["method"]) * len(TURNS) + TURNS.index(row["turn"])
+        if row["energy"] is not None:
+            change[names.index(row["mechanism"]), column] = np.log10(max(row["energy"], 1e-12))
+    image = axes.imshow(change, vmin=-9.0, vmax=0.0, aspect="auto", cmap="RdYlGn_r")
+    for k in range(1, len(methods)):
+        axes.axvline(k * len(TURNS) - 0.5, color="k", linewidth=0.8)
+    middle = 0.5 * (len(TURNS) - 1)
+    titles = [METHOD_TABLE[m].title for m in methods]
+    axes.set_xticks([k * len(TURNS) + middle for k in range(len(methods))], titles, rotation=20, ha="right")
+    axes.set_yticks(range(len(names)), names, fontsize=8)
+    rates = ", ".join(f"{turn:g}" for turn in TURNS)
+    axes.set_title(f"Largest change of energy; columns of a method: rate x step {rates}; white: not taken")
+    figure.colorbar(image, label="log10 of the part of the energy", shrink=0.5)
+    save_chart(figure, folder / "stability_free.png")
