@@ -13,12 +13,6 @@ import numpy as np
 
 import mbs
 
-<<<<<<< HEAD:benchmarks/methods/gears.py
-STEP, STEPS, EVERY = 0.01, 100_000, 10
-TURNS = (0.01, 0.05, 0.1, 0.2, 0.5)
-"""Rate of the fastest wheel times the step, rad."""
-=======
->>>>>>> w-vocab:benchmarks/methods/free_wheels.py
 INERTIA = 0.02  # kg m2
 
 
