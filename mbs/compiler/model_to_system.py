@@ -299,8 +299,6 @@ def _metadata(
         "length_stated": model.length is not None,
         **({"contradiction": start.told} if start.told and not model.start_in_equilibrium else {}),
     }
-    if locked := locked_gears(model):
-        report["locked"] = locked
     coordinates = [reduced.known.remaining[k] for k in ordered.fronts.order]
     info = [reduced.natural.info[k] for k in coordinates]
     lengths = coordinate_lengths([c.kind for c in info], unit_vectors(model, coordinates), reduced.length)

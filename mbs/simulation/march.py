@@ -112,15 +112,14 @@ def march(
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """What a run tells beside its numbers: that nothing can move, that initial velocities contradict each other, and
-    what sensors with a notice say of their columns, `values` (n, ns) at `t` (n,).
+    """What a run tells beside its numbers: that nothing can move or that gears are locked, that initial velocities
+    contradict each other, and what sensors with a notice say of their columns, `values` (n, ns) at `t` (n,).
     """
     meta, found = prepared(system)[1], []
     sensors = meta["sensors"]
     if meta["report"].get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
         found.append(f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
-    if told := meta["report"].get("contradiction"):
-        found.append(told)
+    found += filter(None, (meta["report"].get(name) for name in ("locked", "contradiction")))
     for k, sensor in enumerate(sensors):
         none = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
         there = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())

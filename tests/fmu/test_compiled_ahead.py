@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import tempfile
 import time
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -72,7 +73,7 @@ def test_its_compilers_end_with_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     monkeypatch.setattr(ahead.subprocess, "Popen", start)
     place = tmp_path / "temporary"
     place.mkdir()
-    monkeypatch.setattr(ahead.tempfile, "tempdir", str(place))
+    monkeypatch.setattr(tempfile, "tempdir", str(place))
 
     def interrupted() -> None:
         with compiled_ahead([("fmi2", "linux64")]):

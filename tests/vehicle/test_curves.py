@@ -236,7 +236,7 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
             jump[2, k] += 1.0 if k == toe else 0.5
             refused(rf"column {name.split()[0]} changes by .* per m of wheel_travel near .*; at most 10? ", values=jump)
     written(copied, heading, rows)
-    with pytest.raises(CarFileError, match=r"nothing\.csv'; there is no such file"):
+    with pytest.raises(CarFileError, match=r"nothing\.csv' cannot be read: there is no such file"):
         car_from(_with(content["saloon"], "rear", file="nothing.csv"), copied, "x")
     with pytest.raises(CarFileError, match="has no column rack_travel; the front axle steers"):
         car_from(_with(content["saloon"], "front", file="rear.csv"), copied, "x")

@@ -11,7 +11,7 @@ from tests.vehicle.content import sentences
 
 JOINT, TUBE, MASS = "F2L,0.45,0.28,0.4,", "F1L,LFL,M,2", "powertrain,EML,32"
 CASES = {  # table, what is replaced by what, words of the sentence
-    "missing file": ("joints.csv", "", "", "chassis.frame.joints is 'joints.csv'; there is no such file in"),
+    "missing file": ("joints.csv", "", "", "chassis.frame.joints: 'joints.csv' cannot be read: there is no such file"),
     "missing column": ("joints.csv", "joint,x,y,z,", "joint,x,y,height,", "(joints.csv) has no column z"),
     "text for a number": ("joints.csv", JOINT, "F2L,0.45,wide,0.4,", "y is 'wide'; it must be a number"),
     "no number": ("joints.csv", JOINT, "F2L,0.45,nan,0.4,", "y is 'nan'; it must be a number"),
@@ -110,7 +110,7 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
     (tmp_path / "elsewhere.csv").write_bytes((file.parent / "joints.csv").read_bytes())
     (file.parent / "joints.csv").unlink()
     (file.parent / "joints.csv").symlink_to(tmp_path / "elsewhere.csv")
-    with pytest.raises(CarFileError, match=r"joints\.csv'; it leads out of the folder"):
+    with pytest.raises(CarFileError, match=r"joints\.csv' is not below the folder"):
         load(file)
 
 

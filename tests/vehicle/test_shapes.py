@@ -11,8 +11,7 @@ import pytest
 
 import mbs
 from ali3.scene.scene import scene_errors
-from mbs.vehicle import car_names, load
-from mbs.vehicle.shapes import car_shapes as shapes_module
+from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.shapes.body_shell import ARCH, DASHBOARD, BodyShell
 from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
 from mbs.vehicle.shapes.occupants import RADIUS, SHIRT, SKIN, TILT, TROUSERS, steering_wheel_place
@@ -260,9 +259,9 @@ def test_looks_change_no_motion() -> None:
 def test_a_car_is_not_drawn_before_it_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     shapes = len(scene("prototype")["shapes"])
     drawn_cars: list[str] = []
-    draws = shapes_module.car_shapes
+    draws = built_car.car_shapes
     monkeypatch.setattr(
-        shapes_module,
+        built_car,
         "car_shapes",
         lambda b, car, *rest, **more: drawn_cars.append(car.name) or draws(b, car, *rest, **more),
     )

@@ -120,7 +120,7 @@ def test_friction_and_radii_of_the_section_are_those_of_the_tyre(car):
 @pytest.mark.parametrize(
     ("more", "text", "sentence"),
     [
-        ("", None, "front.tyre.file is 'tyre.tir'; there is no such file"),
+        ("", None, "front.tyre.file: 'tyre.tir' cannot be read: there is no such file"),
         ("", "[UNITS]\nLENGTH = 'meter'\n", "it has no section [MODEL]"),
         ('signs = "adapted_sae"\n', "", "PKY1 is -17.5"),
         ("pressure = 5.0\n", "", "front.tyre.pressure is 5"),
