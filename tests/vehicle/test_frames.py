@@ -233,7 +233,7 @@ def test_the_smallest_table_of_a_frame(small: Car) -> None:
         ("joints.csv", "S1c,-1.1,0,", "S1c,-1.1,0.1,", r"joint S1c has y = 0\.1 m; y must be 0 on the centre plane"),
         ("joints.csv", "F1L,0.45,0.28,0.19,", "F1L,0.45,0.28,", r"line 5: 4 values where the heading has 5 columns"),
         ("masses.csv", "battery,F1L,7.5", "battery,F1L,-7.5", r"mass is '-7\.5'; it must be a number between 0"),
-        ("car.toml", '"masses.csv"', '"weights.csv"', r"frame\.masses: 'weights\.csv' cannot be read: there is no such file"),
+        ("car.toml", '"masses.csv"', '"weights.csv"', r"masses: 'weights\.csv' cannot be read: there is no such file"),
         ("car.toml", '"masses.csv"', '"../masses.csv"', "must be the name of a file in the folder of the car"),
         ("car.toml", 'kind = "tubes"', 'kind = "ansys"', r"chassis\.frame\.kind is 'ansys'; it must be one of"),
         ("car.toml", 'kind = "tubes"\n', "", r"chassis\.frame\.kind is missing"),
