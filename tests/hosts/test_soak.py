@@ -257,7 +257,7 @@ def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path)
 def test_a_process_that_dies_is_a_failure(
     car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(drive_module, "drive", dying)
+    monkeypatch.setattr("hosts.soak.soak.drive", dying)
     drives = ["--stop-time", "5", "--drives", "2", "--seed", "8"]
     assert main([str(car), "--soak", *drives, "--out", str(tmp_path)]) == 1
     told = capfd.readouterr().out

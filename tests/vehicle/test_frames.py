@@ -217,7 +217,7 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
         for c in (small, car)
     ]
     for name in ("chassis.x", "chassis.y", "wheel_RL.travel"):
-        np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=5e-4)
+        np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=2e-3)  # masses that ride are at nodes
 
 
 def test_the_smallest_table_of_a_frame(small: Car) -> None:

@@ -52,7 +52,7 @@ def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None
     assert list(made.imports) == []
     names = {export.name for export in made.exports}
     sources = "".join(f.read_text() for f in (fmu.folder / "sources").glob("fmi2_*.c"))
-    fmi = set(re.findall(r"FMI2_NAME\((fmi2\w+)\)", sources))
+    fmi = set(re.findall(r"FMI2_(?:NAME|ENTRY)\((fmi2\w+)", sources))
     assert len(fmi) == 34
     assert names == fmi | HELPERS
 

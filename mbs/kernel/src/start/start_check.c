@@ -120,7 +120,7 @@ ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text,
   if (in == NULL || text == NULL || size == 0) return ALI3_BAD_ARGUMENT;
   const ali3_report *r = &in->report;
   const int32_t e = (int32_t)r->rim_element;
-  const bool pressed = r->rim_pressed > 0.0;
+  const bool pressed = r->rim_pressed > 0.0 && in->system->el_kind[e]->depth == ali3_tyre_depth;
   double spacing[2];
   text[0] = 0;
   if (element != NULL) *element = pressed ? e : -1;
