@@ -57,7 +57,7 @@ static slave_status watch_rims(slave *s, const ali3_report *report) {
   char text[SLAVE_TEXT / 2];
   int32_t element = -1;
   if (s->rim_said || !(report->rim_pressed > 0.0)) return SLAVE_OK;
-  if (ali3_rim_text(s->fidelity.kernel, &element, text, sizeof text) != ALI3_OK) return SLAVE_OK;
+  if (ali3_rim_text(s->fidelity.kernel, &element, text, sizeof text) != ALI3_OK || element < 0) return SLAVE_OK;
   s->rim_said = true;
   return slave_say(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is said once.", text,
                    t->element[t->first_element[s->fidelity.number] + (size_t)element]);
