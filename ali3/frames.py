@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
-from pydantic import ConfigDict, TypeAdapter
 
 _HEAD = struct.Struct("<BQQ")
 _ARRAY, _BYTES = "\0array", "\0bytes"  # keys that no text of ours has
@@ -55,6 +54,8 @@ def read_frame(stream: IO[bytes], types: Mapping[int, Any]) -> tuple[int, Any]:
 
 @cache
 def _adapter(kind: Any) -> Any:
+    from pydantic import ConfigDict, TypeAdapter  # half of what a small command imports
+
     # The settings of a list hold for dataclasses in it, which have none of their own.
     return TypeAdapter(list[kind], config=ConfigDict(arbitrary_types_allowed=True))
 

@@ -8,24 +8,24 @@ from __future__ import annotations
 import os
 import pickle
 import queue
-import resource
 import sys
 import threading
 import traceback
 from pathlib import Path
 from typing import IO, Any
 
-from ali3.call_mark import begin_marks
-from ali3.frames import write_frame
 from ali3.guard import begin_guard
-from ali3.isolated import DONE, ERROR, READY, TOLD
-from ali3.processes import begin_for
-from ali3.running import WRONG_USE, sentence
 
 _SHARE = 0.75  # of the memory of the machine that a process may take
 
 
 def _serve(folder: Path) -> None:
+    from ali3.call_mark import begin_marks
+    from ali3.frames import write_frame
+    from ali3.isolated import DONE, ERROR, READY, TOLD
+    from ali3.processes import begin_for
+    from ali3.running import WRONG_USE, sentence
+
     begin_marks(folder)
     sink = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what an FMU prints must not get between the answers
@@ -59,6 +59,8 @@ def _limit_memory() -> None:
     """What is asked for beyond is refused to who asks, and ends nothing else on the machine."""
     if sys.platform != "linux":
         return
+    import resource
+
     most = int(_SHARE * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
     hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
     resource.setrlimit(resource.RLIMIT_DATA, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))

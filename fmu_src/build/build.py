@@ -28,7 +28,6 @@ from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
 from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
-from fmu_src.python_slave.package import pack_python
 from fmu_src.variables.other_names import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
@@ -214,6 +213,8 @@ class FmuBuilder:
         drawn = geometry_file(self._scene) if self._scene is not None else b""
         contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)
         if kind == "python":
+            from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
+
             pack_python(contents, platforms, file, self._told, self._libraries)
         else:
             if not self._runs:

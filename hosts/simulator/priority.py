@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import resource
 import sys
 
 # Above the threads of the kernel's own work at 50 it would delay interrupts.
@@ -51,6 +50,8 @@ def _keep_memory() -> str:
     """Locks what is touched, so that nothing of it is swapped out; only where no limit could refuse memory later."""
     if sys.platform != "linux":
         return ""
+    import resource
+
     unlimited = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0] == resource.RLIM_INFINITY
     if not unlimited and os.geteuid() != 0:
         return ""

@@ -21,14 +21,7 @@ from ali3.locks import locked
 from ali3.reading import is_file, is_folder
 from ali3.words import one_line
 from hosts.common.errors import HostError
-from hosts.fmu.built_fmu import car_digest, fmu_of_car
-from hosts.measures.limits import limits_record
-from hosts.study.cluster import bring, connected, take_away
-from hosts.study.damage import set_damaged_aside
-from hosts.study.earlier_start import check_same, keep_limits
-from hosts.study.execution import Execution
 from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
-from hosts.study.missing import ChunkSize, missing_runs
 from hosts.study.parts import PartWriter, forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
@@ -75,6 +68,8 @@ def run_study(
     if all(job.manoeuvre is not None for job in plan.work.jobs):
         plan = _with_limits(plan, study)  # measures of tests are known after a run only
     if before is not None:
+        from hosts.study.earlier_start import check_same
+
         # columns of tests are known from the runs that there are
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
@@ -82,9 +77,13 @@ def run_study(
     busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
     with nullcontext() if dry else locked(folder, busy):
         if before is not None and not dry:
+            from hosts.study.damage import set_damaged_aside
+
             for line in set_damaged_aside(folder, before):
                 print(f"note: {line}", file=sys.stderr)
         if before is not None and not dry and not again and runs_done(folder, before).all():
+            from hosts.study.earlier_start import keep_limits
+
             keep_limits(folder, before, plan.record["limits"], content)
             print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
             return Ended(folder, True, 0)
@@ -109,6 +108,8 @@ def _plan(study: StudyFile, file: Path, folder: Path, before: dict[str, Any] | N
     """The checked plan, with the FMU that is named, or that of the car, which an unchanged car keeps."""
     if study.car is None:
         return make_plan(study, file, fmu_of_study(study, file))
+    from hosts.fmu.built_fmu import car_digest
+
     digest = car_digest(_car(study.car, file))
     kept = before is not None and before.get("car") == digest and (folder / before["fmu"]).exists()
     fmu = fmu_of_folder(folder, before) if before is not None and kept else fmu_of_study(study, file)
@@ -120,6 +121,8 @@ def fmu_of_study(study: StudyFile, file: Path) -> Path:
     """The FMU that a study file names, or that of its car, which is built where there is none."""
     if study.fmu is not None:
         return file.parent / study.fmu
+    from hosts.fmu.built_fmu import fmu_of_car
+
     assert study.car is not None
     return fmu_of_car(_car(study.car, file), lambda line: print(line, file=sys.stderr))
 
@@ -133,6 +136,8 @@ def _car(name: str, file: Path) -> str:
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:
     limits: dict[str, Any] = {}
     if study.limits:
+        from hosts.measures.limits import limits_record
+
         limits = limits_record(study.limits, plan.record["measures"], plan.file)
     return replace(plan, record={**plan.record, "limits": limits})
 
@@ -178,6 +183,8 @@ def _run(
         record = json.loads(json.dumps(plan.record))
         begin_study(folder, record, content, plan.fmu)
     else:
+        from hosts.study.earlier_start import check_same, keep_limits
+
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
     if again:
@@ -211,6 +218,10 @@ def _make(
     scheduler: str | None,
     workers: int | None,
 ) -> Ended:
+    from hosts.study.cluster import bring, connected, take_away
+    from hosts.study.execution import Execution
+    from hosts.study.missing import ChunkSize, missing_runs
+
     signals: SignalWriter | None = None
     if plan.work.signals:
         from hosts.study.signals import SignalWriter, make_store

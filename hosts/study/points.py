@@ -9,7 +9,6 @@ from typing import Protocol
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.study.drawn_points import LatinHypercube, Saltelli, SobolSequence
 from hosts.study.parameters import Parameter, columns_of
 from hosts.study.sampling import Grid, Sampler
 from hosts.study.study_file import SamplingEntry
@@ -60,6 +59,8 @@ def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, f
 
 def _drawn(d: int, sampling: SamplingEntry, file: str) -> Sampler:
     """Random points of d dimensions."""
+    from hosts.study.drawn_points import LatinHypercube, Saltelli, SobolSequence
+
     n, seed = sampling.runs or 0, sampling.seed
     if sampling.method == "sobol":
         return SobolSequence(d, n, seed)

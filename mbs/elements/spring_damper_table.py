@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import array, is_number, not_negative
@@ -18,6 +17,9 @@ from mbs.elements.record import ElementRecord, columns
 from mbs.elements.record_checks import size
 from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops, given_stops
 from mbs.kernel.header.enumerations import ElementType
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PchipInterpolator
 
 Rows: TypeAlias = Sequence[Sequence[float]] | NDArray[np.float64]
 CLOSEST = 1e-9
@@ -142,4 +144,6 @@ def _slopes(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _curve(rows: NDArray[np.float64]) -> PchipInterpolator:
+    from scipy.interpolate import PchipInterpolator  # most of the time in which programs that read roads start
+
     return PchipInterpolator(*rows.T)

@@ -18,8 +18,6 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.limits import ROAD_FRICTION
 from mbs.roads.grid_files import read_grid
 from mbs.roads.kinds import CRG, MESHES, PICTURE
-from mbs.roads.mesh_road import mesh_road
-from mbs.roads.open_crg import crg_road
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
 from mbs.roads.sampled_road import SampledRoad, tell
@@ -224,8 +222,12 @@ def _grid(
     if mesh and kind not in MESHES:
         raise RoadFileError(f"{heights} is no mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")
     if kind in MESHES:
+        from mbs.roads.mesh_road import mesh_road
+
         return mesh_road(heights, spacing, **mesh)
     if kind == CRG:
+        from mbs.roads.open_crg import crg_road
+
         return crg_road(heights, spacing)
     grid = read_grid(heights, height_range, "heights")
     step = spacing or grid.spacing

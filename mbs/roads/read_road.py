@@ -6,7 +6,6 @@ import os
 from pathlib import Path
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
-from mbs.roads.description import described_road, grid_road
 from mbs.roads.kinds import ROADS
 from mbs.roads.road_file import RoadFile
 from mbs.roads.road_header import RoadFileError
@@ -62,6 +61,8 @@ def read_road(
         return RoadFile(path).read()
     if kind not in ROADS:
         raise RoadFileError(f"{path} is of a kind that is not read as a road; {', '.join(ROADS)} are.")
+    from mbs.roads.description import described_road, grid_road
+
     if kind == ".toml":
         return described_road(path)
     return grid_road(path, frictions, origin, spacing, height_range, friction_range)

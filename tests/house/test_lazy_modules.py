@@ -23,7 +23,15 @@ PATHS = (
 )
 
 
-OPTIONAL_OF_A_STUDY = {"hosts.study.analysis.report", "hosts.study.repeat", "hosts.study.signals", "hosts.study.target"}
+OPTIONAL_OF_A_STUDY = {
+    "hosts.fmu.built_fmu",
+    "hosts.study.analysis.report",
+    "hosts.study.damage",
+    "hosts.study.drawn_points",
+    "hosts.study.repeat",
+    "hosts.study.signals",
+    "hosts.study.target",
+}
 """What only some options and files of a study ask for."""
 
 
@@ -82,3 +90,12 @@ def test_a_study_does_not_load_what_only_some_studies_ask_for() -> None:
     ).stdout.split()
     assert {f"hosts.study.{room}" for room in rooms} <= set(loaded)
     assert OPTIONAL_OF_A_STUDY.isdisjoint(loaded)
+
+
+def test_a_process_for_code_of_others_leaves_its_guard_before_it_loads_packages() -> None:
+    """A fork copies what is loaded, with threads of none; and not all platforms have `resource`."""
+    loaded = ran(
+        "import sys; before = {*sys.modules}; import ali3.worker; print(*{*sys.modules} - before)"
+    ).stdout.split()
+    assert "ali3.guard" in loaded
+    assert {"numpy", "pydantic", "resource"}.isdisjoint(loaded)

@@ -6,8 +6,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
-
 from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
 from mbs.compiler.model_to_system import compiled
@@ -122,6 +120,8 @@ def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, flo
 
     Empty: none were found.
     """
+    from scipy.optimize import brentq  # takes long, and few cars are warned of
+
     lengths = {car.axles[name].spring.key("free_length"): car.axles[name].spring.free_length for name in axles}
     keys = dict(zip(axles, lengths, strict=True))
 

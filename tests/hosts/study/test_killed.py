@@ -226,8 +226,8 @@ def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
         self.keep()
         raise CommClosedError("in <TCP local=...>: Stream is closed")
 
-    monkeypatch.setattr("hosts.study.campaign.connected", broken)
-    monkeypatch.setattr("hosts.study.campaign.bring", lambda *_: None)
+    monkeypatch.setattr("hosts.study.cluster.connected", broken)
+    monkeypatch.setattr("hosts.study.cluster.bring", lambda *_: None)
     monkeypatch.setattr(Execution, "run", run)
     code = main([str(study_file()), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9", "--no-report"])
     assert len(read_study(tmp_path / "out")) == count
