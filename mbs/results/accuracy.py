@@ -5,7 +5,7 @@ a repeated run with shorter steps.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -30,7 +30,8 @@ AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fal
 ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
-GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
+GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
+MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
@@ -175,21 +176,30 @@ def balance_text(report: Report) -> str:
     )
 
 
-def remedy(system: System, method: str, h: float, accuracy: Accuracy) -> str:
-    """What would bring the result to about a hundredth, in a sentence."""
+def needed_step(h: float, accuracy: Accuracy) -> float | None:
+    """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to tell."""
     error = accuracy.error
-    better = _higher_orders(system, method)
-    others = (
-        f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
-    )
     if error is None or error > FAR or accuracy.order is None:
-        return (
-            "It is too far off to tell how short steps must be: simulate(..., tolerance=1e-3) in place of a step finds "
-            "them."
-        )
+        return None
     made = h / (1.0 + accuracy.halvings_per_step)
-    step = _rounded_down(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
-    return f"Steps of {step:g} s or less would bring it to about {_percent(2.0 * GOAL_ERROR)}{others}."
+    return made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order)
+
+
+def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
+    """What would bring the result near, in a sentence.
+
+    `tried`: steps of repeats, s, the finest last, and about by how much their runs are off, of the range.
+    """
+    found = next(((step, off) for step, off in tried if off <= MET), None)
+    if found is None:
+        finds = "imulate(..., tolerance=1e-3) in place of a step finds steps that will do."
+        if not tried:
+            return f"S{finds}"
+        step, off = tried[-1]
+        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: s{finds}"
+    better = _higher_orders(system, method)
+    others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])}{others}."
 
 
 def error_text(accuracy: Accuracy, sizes: Mapping[str, float], judged: Mapping[str, Judged]) -> str:
@@ -231,12 +241,6 @@ def _higher_orders(system: System, method: str) -> list[str]:
         return []
     explicit = "semi_recursive" if is_open_tree(system) else "runge_kutta_8"
     return [explicit] + (["radau_5"] if len(arrays["velocity_row"]) == 0 else [])
-
-
-def _rounded_down(x: float) -> float:
-    """One digit, towards zero."""
-    power = 10.0 ** math.floor(math.log10(x))
-    return float(f"{math.floor(x / power + 1e-9) * power:.1g}")
 
 
 def _percent(share: float) -> str:

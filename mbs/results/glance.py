@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from mbs.results.accuracy import Accuracy, missed_share, summed_miss
-from mbs.results.judged import Judged, has_loads, judged_sensors
+from mbs.results.judged import Judged, has_loads, is_open, judged_sensors
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
@@ -77,7 +77,8 @@ def glances(
     """
     method = settings.method
     limited = method in LIMITED and not settings.step_iterations
-    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if has_loads(judged) else TWICE if states else QUICK
+    whole = states or is_open(judged)  # with one iteration what guides prescribe is not met to round-off
+    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if has_loads(judged) else TWICE if whole else QUICK
     order, rest = METHOD_TABLE[method].order, 0.0
     if order > 2:
         chosen = HIGH

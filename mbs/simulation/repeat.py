@@ -12,14 +12,16 @@ from numpy.typing import NDArray
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
 from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.comparison import by_limit, differences, unsure
 from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
 from mbs.results.judged import (
+    ALIKE,
     COORDINATES,
     WHOLE,
     Judged,
     add_ends,
-    differences,
     has_loads,
+    is_open,
     judged_in,
     judged_sensors,
     rows_judged,
@@ -30,7 +32,6 @@ from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
-from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.march import WATCHED
@@ -46,6 +47,7 @@ Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
 AGREED = 0.1  # of what a coarser run may differ by
+LEAST_ORDER = 0.5  # with which repeats come nearer to the finest
 FASTEST = 1e3  # growth of a difference in a tenth of a run
 
 
@@ -138,7 +140,8 @@ class Repeats:
         coordinates = dict.fromkeys(self._columns, Judged(COORDINATES, place=True))
         seen = self._coordinates(self.run)
         stands = bool(seen) and not sizes_of(seen, coordinates, self._length, self.before)
-        self.judged = judged_in(self.run[0], judged_sensors(self.system), self._length, self.before, stands)
+        guided = len(self.system.arrays["gterm_row"]) > 0
+        self.judged = judged_in(self.run[0], judged_sensors(self.system), self._length, self.before, stands, guided)
         if shows_motion(self.judged):
             self.run = self.run[0], []
         elif self.run[1]:
@@ -250,6 +253,36 @@ class Repeats:
             known = replace(known, units=last.units, sensors=last.sensors)
         return replace(known, repeat_cost=self.cost)
 
+    def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
+        """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
+        do by the order of the errors where no run is that fine and it costs no more than is left.
+        """
+        step, tried = accuracy.needed_step(self.h, known), self._offs(known)
+        parts = 0 if step is None or self.twin else math.ceil(self.h / step - 1e-9)
+        if parts > max(self._finer) and tried[-1][1] > accuracy.MET:
+            try:
+                self._finer[parts] = self._again(self.h / parts, self.every * parts, float(parts))
+            except (SimulationError, TooDearError):
+                return tried
+            return self._offs(known)
+        return tried
+
+    def _offs(self, known: Accuracy) -> list[tuple[float, float]]:
+        """Of each finer run by the finest; of that one by the order with which the last two come nearer to it."""
+        *others, finest = [1, *sorted(self._finer)]
+        tables = {n: self._table(self.run if n == 1 else self._finer[n]) for n in (*others, finest)}
+        apart = {
+            n: max(
+                differences(tables[n], tables[finest], self.judged, self.before, self._length)[0].values(), default=0.0
+            )
+            for n in others
+        }
+        near, order = others[-1], float(METHOD_TABLE[self._method].order)
+        if near > 1 and min(apart[1], apart[near]) > 0.0:
+            order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))
+        apart[finest] = apart[near] / ((finest / near) ** order - 1.0)
+        return [(self.h / n, apart[n]) for n in sorted(self._finer)]
+
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
         if self.before is not None:
@@ -309,19 +342,22 @@ class Repeats:
         column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
         sizes, tenth = sizes_of(run, self.judged, self._length, self.before), len(run.t) / WATCHED
         rows = {name: rows_judged(self.judged[name], len(run.t)) for name in sizes}
+        unknown = is_open(self.judged)
+        sizes = {name: size for name, size in sizes.items() if self.judged[name].always or not unknown}
 
         def look(values: NDArray[np.float64]) -> bool:
-            agreed, left = len(values) >= smooth, (len(run.t) - len(values)) / tenth
+            agreed, left, same = len(values) >= smooth, (len(run.t) - len(values)) / tenth, unknown
             for name, size in sizes.items():
                 there = rows[name][rows[name] < len(values)]
-                gaps = np.abs(values[there, column[name]] - run[name][there]) / size
+                gaps = self.judged[name].apart(values[there, column[name]], run[name][there]) / size
                 if gaps.max() > most:
                     raise TooFarError
+                same = same and not (self.judged[name].place and gaps.max() > ALIKE)
                 old = there < len(values) - 1 - tenth
                 last, before = gaps[~old].max(), gaps[old & (there >= len(values) - 1 - 2 * tenth)].max(initial=0.0)
                 growth = min(max(last / before, 1.0), FASTEST) if before > 0.0 else FASTEST
                 agreed = agreed and last <= AGREED * right and last * growth**left <= right
-            return agreed
+            return agreed and not same
 
         return look
 
@@ -383,7 +419,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
-        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
+        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
     doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
@@ -429,4 +465,6 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     said = [repeats.text(known)]
     if accuracy.balance_says(report, method, driven):
         said.append(accuracy.balance_text(report))
-    return replace(known, branch=branch, message=" ".join([*said, accuracy.remedy(system, method, h, known)]))
+    tried = repeats.tried_steps(known)
+    message = " ".join([*said, accuracy.remedy(system, method, tried)])
+    return replace(known, repeat_cost=repeats.cost, branch=branch, message=message)

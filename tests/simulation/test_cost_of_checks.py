@@ -11,7 +11,7 @@ import pytest
 import mbs
 from benchmarks.methods import random_machines
 from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
-from mbs.results.judged import COORDINATES
+from mbs.results.judged import COORDINATES, Judged
 from mbs.results.smooth_laws import LOOPS, OPEN
 from mbs.simulation.repeat import Repeats, TooFarError
 from tests.simulation.drawn import drawn
@@ -61,7 +61,7 @@ def test_a_right_tree_costs_its_run_alone(method: str) -> None:
 
 
 def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
-    moves = {"m": ["x"]}
+    moves = {"x": Judged("m", place=True)}
     fine, coarse = (
         mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
         for h in (0.2, 0.4)
