@@ -182,7 +182,7 @@ def needed_step(h: float, accuracy: Accuracy) -> float | None:
     if error is None or error > FAR or accuracy.order is None:
         return None
     made = h / (1.0 + accuracy.halvings_per_step)
-    return made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order)
+    return float(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
 
 
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:

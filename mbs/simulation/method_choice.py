@@ -26,13 +26,19 @@ LOST = 1.1  # times the price of the one that ended first
 
 @dataclass(frozen=True)
 class Choice:
-    """A method, why, and its coarse run."""
+    """A method, why, its coarse run, and methods that follow where it cannot hold the tolerance."""
 
     method: str
     reason: str
     run: ControlledRun | None
     wall: float
     runs: int
+    others: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The method and those that follow it."""
+        return self.method, *self.others
 
 
 def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
@@ -74,7 +80,8 @@ def choose(
             Status.NOT_CONVERGED,
         )
     lost = [f"{name} {'fails' if name in failed else 'is slower'}" for name in runs if name != best]
-    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs))
+    others = tuple(name for name in dict.fromkeys([*runs, "ali3p"]) if name != best and name not in failed)
+    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs), others)
 
 
 def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:

@@ -22,7 +22,7 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.control import checked_tolerance
+from mbs.settings.control import Tolerance
 from mbs.settings.input_signals import InputSignals, Signal, unit_text
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
@@ -39,7 +39,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
-from mbs.simulation.chosen_run import check_tolerance_settings, record_times, to_tolerance
+from mbs.simulation.chosen_run import asked_tolerance, check_tolerance_settings, record_times, to_tolerance
 from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.follower import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
@@ -366,7 +366,7 @@ class Simulation(SteppedSystem):
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
         estimate_error: bool | float | None = None,
-        tolerance: float | None = None,
+        tolerance: float | Mapping[str, float] | None = None,
     ) -> Trajectory:
         """Step from the present time to `t_end`; what is by hand in between, such as switches, stays as it is.
 
@@ -389,7 +389,7 @@ class Simulation(SteppedSystem):
             As of `simulate`, in the first run in doubt, of ten steps or more; its last repeat is a twin that goes on
             from run to run with half the step and is given the same inputs, parameters and switches, until a step by
             hand.
-        tolerance : float, optional
+        tolerance : float or mapping of str to float, optional
             As of `simulate`, of what this part adds to the error; by the method of the settings.
 
         Returns
@@ -415,7 +415,8 @@ class Simulation(SteppedSystem):
             Once, when a flexible body bends more within its floating frame than its modes hold for.
         """
         if tolerance is not None:
-            return self._to_tolerance(checked_tolerance(tolerance), t_end, h, inputs, every, progress)
+            wanted = asked_tolerance(self.system, tolerance)
+            return self._to_tolerance(wanted, t_end, h, inputs, every, progress)
         if h is None:
             raise ValueError("A run needs a step h or a tolerance.")
         estimate_error = check_estimate(estimate_error)
@@ -450,7 +451,7 @@ class Simulation(SteppedSystem):
 
     def _to_tolerance(
         self,
-        tolerance: float,
+        tolerance: Tolerance,
         t_end: float,
         h: float | None,
         inputs: Mapping[str, Signal] | None,
