@@ -48,6 +48,9 @@ FAR, ONCE = 0.1, 0.1
 """Distance of two runs beyond which it says nothing of the finer one; largest guess by a single pair of runs that is
 accepted where errors grow, in parts of the tolerance: two coarse runs may be off alike."""
 MOST_RUNS, LEAST = 5, 1e-13
+LEAST_TOLD = 0.2
+"""Of the tolerance: the smallest guess that is told. Of 38 runs of seeds 2 and 3 whose errors are above a hundredth of
+their tolerance 35 are within ten times of what is told so, 31 of the guess alone."""
 HANDED_ON = (Status.NOT_CONVERGED, Status.TOO_DEAR, Status.TOO_STIFF, Status.UNRESOLVED, Status.SINGULAR)
 """How a method fails where another one may not."""
 DEFAULT_TOLERANCE = 1e-3
@@ -155,12 +158,14 @@ def _by(
         finer = min(0.1 if unsure else 1.0 / FINER, AGAIN * wanted / max(guess, wanted))
         aim = max(LEAST, aim * max(MOST_AT_ONCE, finer))
     assert run is not None
-    c = run.fields
+    c, told = run.fields, 0.0
+    if error > 0.0:  # what stands still errs by no more than it moves
+        told = max(error, min(LEAST_TOLD * wanted, run.moved / run.length))
     control = Control(
-        wanted, run.length, settings.method, reason, error, None, c.accepted, c.rejected, c.failed, c.forced,
+        wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,
         c.smallest, c.largest, c.side_steps, runs, run.moved, _errors(run, before, tolerance),
     )  # fmt: skip
-    _warn(control)
+    _warn(control, error)
     if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=4)
     if told := run.simulation.rim_text:
@@ -196,7 +201,8 @@ def _apart(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> f
 
 def _errors(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
     """The guessed errors of the sensors that have a tolerance of their own."""
-    return {name: gap * _fall(run, before) for name, gap in _gaps(run, before, tolerance).items()}
+    fall, gaps = _fall(run, before), _gaps(run, before, tolerance)
+    return {name: max(fall * gap, LEAST_TOLD * tolerance.sensors[name]) for name, gap in gaps.items()}
 
 
 def asked_tolerance(system: System, tolerance: object) -> Tolerance:
@@ -253,7 +259,7 @@ def equal_steps(
     found.control = Control(
         DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
     )  # fmt: skip
-    _warn(found.control)
+    _warn(found.control, error)
     found.wall_s += wall
     return found
 
@@ -336,8 +342,9 @@ def _refused(
     return refusal(simulation, what, error, _so_far(run, times, first), LOOKED_AHEAD * run.task.span)
 
 
-def _warn(control: Control) -> None:
-    error, moved = control.error * control.length, control.moved
+def _warn(control: Control, guess: float) -> None:
+    """Of a run whose `guess` of its error is above what it may be, or much of the motion."""
+    error, moved = guess * control.length, control.moved
     if control.kept and not control.sensors and error > WRONG_ERROR * moved and moved > STILL * control.length:
         warnings.warn(
             f"The tolerance of {control.tolerance:g} is relative to the model's length of {control.length:.4g} m, and "
