@@ -24,10 +24,7 @@ WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off b
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
-NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
-AGREED = 0.005  # estimate by two runs with an order that hardly agree so well by chance
-AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
-ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
+NEAR_LIMIT = (0.01, 0.15)  # estimates between which a third run decides: half the step may be off alike
 LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
 MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
@@ -137,15 +134,6 @@ def recorded_every(every: int, steps: int) -> int:
     """A divisor of `every` with which a run of so many steps has enough samples to be compared."""
     least = max(1, steps // INSTANTS)
     return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
-
-
-def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
-    most = float(METHOD_TABLE[method].order)
-    first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
-        return most
-    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:

@@ -27,17 +27,15 @@ class Glance:
     """Largest one, of the range, with which the run is right."""
 
 
-QUICK = (Glance(8, 1, 0.15), Glance(4, 1, 0.1), Glance(2, 1, 0.03))
+ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
+QUICK = tuple(Glance(times, 1, ALONE * (times - 1)) for times in (8, 4, 2))
 """Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
-FORCES = (Glance(2, 0, 0.03),)  # errors of order one, behind abrupt events, are as large as the difference
+FORCES = (Glance(2, 0, ALONE),)  # errors of order one, behind abrupt events, are as large as the difference
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
-HIGH = (Glance(4, 0, 0.1), Glance(2, 0, 0.05))
-"""Of methods of higher order: errors are a third of such a difference or less, also behind abrupt forces."""
-FOURTH = (Glance(4, 0, 0.2), Glance(2, 0, 0.1))
-"""Of order four in open trees where nothing abrupt can happen: errors are a 15th of the second one."""
+HIGH = tuple(Glance(times, 0, ALONE * (times - 1)) for times in (4, 2))
+"""Of methods of higher order."""
 SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}
 """Of an open tree where nothing abrupt can happen: `rest_missed` up to which a run is plainly smooth."""
-ALONE = 0.03  # of the range: up to it one coarser run is enough where something abrupt can happen, as of order one
 NEARER = 0.5  # times the difference of the coarser run before: by order one, which the next one must show there
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
@@ -83,7 +81,7 @@ def glances(
     if order > 2:
         chosen = HIGH
     if rest_of(run, method, unresolved) is not None:
-        chosen, rest = FOURTH if order == 4 else HIGH, rest_missed(run, method)
+        rest = rest_missed(run, method)
     return tuple(
         glance
         for glance in chosen

@@ -93,6 +93,7 @@ class Simulation(SteppedSystem):
         super().__init__(system, settings)
         self._warned = self._rim_told = False
         self._twin: SteppedSystem | None = None
+        self._parts = 0  # of a step, that it makes
         self._ends: dict[str, NDArray[np.float64]] = {}  # of what moved in runs so far
         self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
@@ -387,8 +388,8 @@ class Simulation(SteppedSystem):
             the share that is done.
         estimate_error : bool or float, optional
             As of `simulate`, in the first run in doubt, of ten steps or more; its last repeat is a twin that goes on
-            from run to run with half the step and is given the same inputs, parameters and switches, until a step by
-            hand.
+            from run to run with its part of the step and is given the same inputs, parameters and switches, until a
+            step by hand.
         tolerance : float or mapping of str to float, optional
             As of `simulate`, of what this part adds to the error; by the method of the settings.
 
@@ -435,13 +436,15 @@ class Simulation(SteppedSystem):
             return self._twin
 
         def equal_steps() -> Trajectory:
-            asked, twin = estimate_error if checked else False, given is not None
+            asked, twin = estimate_error if checked else False, self._parts if given is not None else 0
             return fixed_step_run(
                 self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._ends, twin
             )
 
         trajectory = equal_steps()
         found = trajectory.accuracy
+        if found is not None and found.repeated_with is not None:
+            self._parts = max(1, round(h / found.repeated_with))
         if found is not None and found.message and not self._warned:
             self._warned = True
             warnings.warn(found.message, AccuracyWarning, stacklevel=2)
