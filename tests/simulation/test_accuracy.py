@@ -115,7 +115,7 @@ class TestRepeats:
         assert run.accuracy.repeat_cost == pytest.approx(1.0 / longer, rel=1e-12)
         assert "repeats of 0.1" in repr(run)
         whole = simulate(system_of("pendulum"), 10.0, 0.005, estimate_error=True, **QUIET)
-        # So long steps err by less than order two says: the estimate is 0.69 of that by half the step (decision 105).
+        # So long steps err by less than order two says: the estimate is 0.69 of that by half the step.
         assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
 
     def test_near_the_limit_a_third_run_decides(self, starts):

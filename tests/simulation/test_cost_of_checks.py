@@ -87,7 +87,9 @@ def test_a_half_that_surely_is_coarse_is_not_made() -> None:
 
 
 def test_a_coarser_run_is_given_up_where_it_differs() -> None:
-    """At 0.625 s, after an impact at 0.5 s: half of the 0.5 of a run to 1.25 s, then two and four for a half and a quarter."""
+    """At 0.625 s, after an impact at 0.5 s: half of the 0.5 of a run to 1.25 s; then two for half the step and four
+    for a quarter.
+    """
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.01, every=2, progress=False)
     assert run.accuracy is not None
     assert run.accuracy.repeat_cost == 6.25

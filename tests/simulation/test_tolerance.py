@@ -14,6 +14,7 @@ from scipy.interpolate import PPoly
 import mbs
 from benchmarks.car.manoeuvres import inputs_of, load, start_of
 from benchmarks.car.manoeuvres import system_of as car_of
+from benchmarks.methods import random_machines
 from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
 from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, exact_of, system_of
@@ -471,3 +472,18 @@ def test_a_method_that_cannot_hold_a_tolerance_hands_on(monkeypatch: pytest.Monk
     refused = ["runge_kutta_8", "radau_5", "ali3p"]
     with pytest.raises(mbs.SimulationError, match="cannot be held by 'runge_kutta_8'"):
         mbs.simulate(system, 0.1, tolerance=1e-5, progress=False)
+
+
+def test_a_cam_that_the_default_cannot_hold_is_held_by_another_method() -> None:
+    """A follower behind a table: ALi3-P alone was a candidate, and refused 1e-3 and 1e-4."""
+    kind, machine = random_machines.machine(np.random.default_rng([2, 7]))
+    assert kind == "cam"
+    system = mbs.compile(random_machines.model_of(machine))
+    with pytest.raises(mbs.SimulationError, match="cannot be held by 'ali3p'"):
+        mbs.simulate(system, machine.span, tolerance=1e-3, method="ali3p", progress=False)
+    run = mbs.simulate(system, machine.span, tolerance=1e-3, progress=False)
+    fine = mbs.simulate(system, machine.span, tolerance=1e-6, method="runge_kutta_8", progress=False)
+    assert run.control is not None
+    assert run.control.method == "radau_5"
+    assert "ali3p cannot hold it" in run.control.reason
+    assert np.abs(run["x1"] - fine["x1"]).max() < 1e-3 * run.control.length
