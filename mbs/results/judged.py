@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
 WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
 STILL = 1e-4  # of the largest value in the unit, or of `_size_in`: a smaller range is rest
-NO_TURN = 1e-3  # rad: a smaller turn is rest, 1 mm at 1 m; what stands sways by as much
+NO_TURN = 1e-3  # rad: a smaller turn counts only where nothing else moves, 1 mm at 1 m; what stands sways by as much
 STANDS = 0.01  # the same of coordinates: rates and forces of what moves less are those of rest
 ALIKE = 1e-6  # of the range: places that differ by less do not move by themselves, or both runs are exact
 COORDINATES = "1"
@@ -95,12 +95,13 @@ def judged_in(
     motors, unless the coordinates say that all `stands`. `length`, `before`: as of `sizes_of`.
 
     What rests judges nothing, and switches nothing off; nor does an angle that turns by more than a quarter from one
-    sample to the next, as where roll and yaw jump. Where something is `guided` two motions say whether a place moves by
-    itself, see `differences`.
+    sample to the next, as where roll and yaw jump, nor turns below `NO_TURN` beside anything else. Where something is
+    `guided` two motions say whether a place moves by itself, see `comparison.differences`.
     """
-    moving = {
-        name: judged[name] for name in sizes_of(values, judged, length, before) if _is_followed(values, name, judged)
-    }
+    sizes = sizes_of(values, judged, length, before)
+    moving = {name: judged[name] for name in sizes if _is_followed(values, name, judged)}
+    if any(what.always and what.unit != "rad" for what in moving.values()):
+        moving = {name: what for name, what in moving.items() if what.unit != "rad" or sizes[name] > NO_TURN}
     free = stands or (not guided and any(what.place for what in moving.values()))
     if free or all(what.load for what in moving.values()):
         return {name: what for name, what in moving.items() if what.always}
@@ -113,7 +114,7 @@ def _is_followed(values: Mapping[str, Array], name: str, judged: Mapping[str, Ju
 
 
 def is_open(judged: Mapping[str, Judged]) -> bool:
-    """Whether two motions must say whether a place moves by itself, see `differences`."""
+    """Whether two motions must say whether a place moves by itself, see `comparison.differences`."""
     return any(what.place for what in judged.values()) and not all(what.always for what in judged.values())
 
 
@@ -154,7 +155,7 @@ def sizes_of(
         seen = [_seen(values[name], (before or {}).get(name), judged[name]) for name in names]
         largest, moved = [float(np.abs(v).max()) for v in seen], [float(np.ptp(v)) for v in seen]
         rest = (STANDS if unit == COORDINATES else STILL) * min(max(largest), _size_in(unit, length))
-        if max(moved) <= (NO_TURN if unit == "rad" else rest):
+        if max(moved) <= rest:
             continue
         found |= dict.fromkeys(names, max(largest if load else moved))
     return found

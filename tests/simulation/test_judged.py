@@ -110,3 +110,11 @@ def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     values = {"large": 1000.0 + 10.0 * np.sin(9.0 * T), "small": 1e-3 * T, "load": 5.0 + T, "rest": 0.0 * T}
     found = sizes_of(values, {"large": PLACE, "small": PLACE, "load": Judged("N", load=True), "rest": RATE}, length=1.0)
     assert found == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
+
+
+def test_a_small_turn_counts_where_nothing_else_moves() -> None:
+    judged = {"turn": Judged("rad", place=True), "x": PLACE}
+    values = {"turn": 5e-4 * np.sin(9.0 * T), "x": np.sin(T)}
+    assert set(judged_in(values, judged, 1.0)) == {"x"}
+    assert set(judged_in(values | {"x": 0.0 * T}, judged, 1.0)) == {"turn"}
+    assert set(judged_in(values | {"turn": 3.0 * values["turn"]}, judged, 1.0)) == {"turn", "x"}
