@@ -36,6 +36,7 @@ from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.march import WATCHED
 from mbs.simulation.prepared_system import length_of
+from mbs.simulation.step_choice import LEAST_ORDER
 from mbs.system.system import System
 
 FEWEST = 6  # instants at which a much coarser run is compared
@@ -43,7 +44,6 @@ Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
 AGREED = 0.1  # of what a coarser run may differ by
-LEAST_ORDER = 0.5  # with which repeats come nearer to the finest
 
 
 class TooFarError(Exception):
@@ -424,7 +424,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     try:
         known = repeats.finer(repeats.first)
         least, most = (0.0, math.inf) if repeats.coarse else NEAR_LIMIT
-        least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
+        least = 0.0 if accuracy.drift(report) > accuracy.SURE_BALANCE else least
         if not repeats.twin and least < (known.error or 0.0) < most:
             known = repeats.decided(known)
     except TooDearError:
