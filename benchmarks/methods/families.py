@@ -293,19 +293,21 @@ def _tumbling_body(rng: np.random.Generator) -> Case:
 
 
 def fmus(rng: np.random.Generator) -> Case:
-    """Cars over a kerb down, or that fall, through FMPy, with pedals and steering wheel held."""
-    car, falls, h_record = str(rng.choice(random_cars.CARS)), rng.random() < 0.5, random_cars.INTERVAL
+    """Cars over a kerb down, or that fall, through FMPy, with pedals and steering wheel held; compared where a host
+    reads them, at each communication step.
+    """
+    car, falls = str(rng.choice(random_cars.CARS)), rng.random() < 0.5
     pose = {"yaw": float(rng.uniform(-0.6, 0.6)), "speed": float(rng.uniform(3.0, 25.0))}
     pose["z"] = float(rng.uniform(0.05, 0.5)) if falls else 0.0
     road = {} if falls else {"road.kerb_x": 3.0, "road.kerb_height": float(rng.uniform(0.02, 0.12))}
     inputs = {"throttle": 0.3} if rng.random() < 0.5 else {"brake": float(rng.uniform(0.0, 0.6))}
     inputs["steering"] = float(rng.choice([0.0, rng.uniform(-0.3, 0.3)]))
-    span = float(round(rng.uniform(1.2, 2.2) / h_record) * h_record)
-    system = random_cars.system_of(car, 0.0)
+    span = float(round(rng.uniform(1.2, 2.2) / random_cars.INTERVAL) * random_cars.INTERVAL)
+    system, step = random_cars.system_of(car, 0.0), float(rng.choice(random_cars.STEPS))
 
     def simulate(method: str, h: float) -> mbs.Trajectory:
         return mbs.simulate(
-            system, span, h, inputs, mbs.Settings(method=method), road, every=round(h_record / h),
+            system, span, h, inputs, mbs.Settings(method=method), road, every=round(step / h),
             pose=mbs.Pose(**pose), estimate_error=False, progress=False,
         )  # fmt: skip
 
@@ -328,7 +330,7 @@ def fmus(rng: np.random.Generator) -> Case:
                 warnings.warn(text, mbs.AccuracyWarning, stacklevel=1)
         return Found(dict(zip(names, np.array(rows).T, strict=True)), None)
 
-    return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, random_cars.STEPS, ())
+    return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, (step,), ())
 
 
 FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {

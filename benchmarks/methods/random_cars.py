@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 import mbs
 from benchmarks.references.newton_euler import NoReferenceError
 from mbs.elements.road import KerbRoad
-from mbs.results.judged import differences, judged_sensors
+from mbs.results.comparison import differences
+from mbs.results.judged import judged_sensors
 from mbs.simulation.prepared_system import length_of
 from mbs.vehicle import load as load_car
 

@@ -5,7 +5,7 @@ a repeated run with shorter steps.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,15 +22,12 @@ from mbs.system.system import System
 WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
-SURE_BALANCE = 0.2  # above, no repeat is needed to know
+SURE_BALANCE = 0.2  # above, no repeat is needed to know; a drift above it leaves none alone: two may be off alike
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
-NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
-AGREED = 0.005  # estimate by two runs with an order that hardly agree so well by chance
-AT_LIMIT = (0.9 * WARNED_ERROR, 1.1 * WARNED_ERROR)  # the same where errors fall with the order of the method
-ABRUPT = 0.01  # the lower one where steps were divided at abrupt forces: half the step is then often off alike
-LARGE_DRIFT = 0.2  # drift with which a smaller estimate takes a third run too: two runs may be off alike
+NEAR_LIMIT = (0.01, 0.15)  # estimates between which a third run decides: half the step may be off alike
 MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
-GOAL_ERROR = 0.005  # what the step that is proposed aims at; it is told as twice this
+GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
+MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 SCREEN, REPEAT = "screen", "repeat"
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
@@ -138,15 +135,6 @@ def recorded_every(every: int, steps: int) -> int:
     return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
 
 
-def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
-    most = float(METHOD_TABLE[method].order)
-    first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
-        return most
-    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
-
-
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """What is known without a repeat."""
     known = report.kinetic_peak > 0.0
@@ -175,21 +163,30 @@ def balance_text(report: Report) -> str:
     )
 
 
-def remedy(system: System, method: str, h: float, accuracy: Accuracy) -> str:
-    """What would bring the result to about a hundredth, in a sentence."""
+def needed_step(h: float, accuracy: Accuracy) -> float | None:
+    """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to tell."""
     error = accuracy.error
-    better = _higher_orders(system, method)
-    others = (
-        f"; so would longer ones with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
-    )
     if error is None or error > FAR or accuracy.order is None:
-        return (
-            "It is too far off to tell how short steps must be: simulate(..., tolerance=1e-3) in place of a step finds "
-            "them."
-        )
+        return None
     made = h / (1.0 + accuracy.halvings_per_step)
-    step = _rounded_down(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
-    return f"Steps of {step:g} s or less would bring it to about {_percent(2.0 * GOAL_ERROR)}{others}."
+    return float(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
+
+
+def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
+    """What would bring the result near, in a sentence.
+
+    `tried`: steps of repeats, s, the finest last, and about by how much their runs are off, of the range.
+    """
+    found = next(((step, off) for step, off in tried if off <= MET), None)
+    if found is None:
+        finds = "imulate(..., tolerance=1e-3) in place of a step finds steps that will do."
+        if not tried:
+            return f"S{finds}"
+        step, off = tried[-1]
+        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: s{finds}"
+    better = _higher_orders(system, method)
+    others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])}{others}."
 
 
 def error_text(accuracy: Accuracy, sizes: Mapping[str, float], judged: Mapping[str, Judged]) -> str:
@@ -231,12 +228,6 @@ def _higher_orders(system: System, method: str) -> list[str]:
         return []
     explicit = "semi_recursive" if is_open_tree(system) else "runge_kutta_8"
     return [explicit] + (["radau_5"] if len(arrays["velocity_row"]) == 0 else [])
-
-
-def _rounded_down(x: float) -> float:
-    """One digit, towards zero."""
-    power = 10.0 ** math.floor(math.log10(x))
-    return float(f"{math.floor(x / power + 1e-9) * power:.1g}")
 
 
 def _percent(share: float) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from mbs.results.accuracy import Accuracy, missed_share, summed_miss
-from mbs.results.judged import Judged, has_loads, judged_sensors
+from mbs.results.judged import Judged, has_loads, is_open, judged_sensors
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import OPEN
 from mbs.settings.methods import METHOD_TABLE
@@ -27,17 +27,15 @@ class Glance:
     """Largest one, of the range, with which the run is right."""
 
 
-QUICK = (Glance(8, 1, 0.15), Glance(4, 1, 0.1), Glance(2, 1, 0.03))
+ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
+QUICK = tuple(Glance(times, 1, ALONE * (times - 1)) for times in (8, 4, 2))
 """Where steps can be limited and no forces are judged: one iteration shows more of what a long step misses."""
-FORCES = (Glance(2, 0, 0.03),)  # errors of order one, behind abrupt events, are as large as the difference
+FORCES = (Glance(2, 0, ALONE),)  # errors of order one, behind abrupt events, are as large as the difference
 TWICE = (Glance(2, 0, 0.012),)  # three times the error of order two
-HIGH = (Glance(4, 0, 0.1), Glance(2, 0, 0.05))
-"""Of methods of higher order: errors are a third of such a difference or less, also behind abrupt forces."""
-FOURTH = (Glance(4, 0, 0.2), Glance(2, 0, 0.1))
-"""Of order four in open trees where nothing abrupt can happen: errors are a 15th of the second one."""
+HIGH = tuple(Glance(times, 0, ALONE * (times - 1)) for times in (4, 2))
+"""Of methods of higher order."""
 SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}
 """Of an open tree where nothing abrupt can happen: `rest_missed` up to which a run is plainly smooth."""
-ALONE = 0.03  # of the range: up to it one coarser run is enough where something abrupt can happen, as of order one
 NEARER = 0.5  # times the difference of the coarser run before: by order one, which the next one must show there
 HOPELESS = 0.7  # of the range: two runs that differ by more are not compared once more with longer steps
 
@@ -77,12 +75,13 @@ def glances(
     """
     method = settings.method
     limited = method in LIMITED and not settings.step_iterations
-    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if has_loads(judged) else TWICE if states else QUICK
+    whole = states or is_open(judged)  # with one iteration what guides prescribe is not met to round-off
+    chosen: tuple[Glance, ...] = TWICE if not limited else FORCES if has_loads(judged) else TWICE if whole else QUICK
     order, rest = METHOD_TABLE[method].order, 0.0
     if order > 2:
         chosen = HIGH
     if rest_of(run, method, unresolved) is not None:
-        chosen, rest = FOURTH if order == 4 else HIGH, rest_missed(run, method)
+        rest = rest_missed(run, method)
     return tuple(
         glance
         for glance in chosen

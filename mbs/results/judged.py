@@ -10,17 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import SensorType
-from mbs.results.missed_load import missed_load
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
 INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
 WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
 STILL = 1e-4  # of the largest value in the unit, or of `_size_in`: a smaller range is rest
+NO_TURN = 1e-3  # rad: a smaller turn counts only where nothing else moves, 1 mm at 1 m; what stands sways by as much
 STANDS = 0.01  # the same of coordinates: rates and forces of what moves less are those of rest
-ROUND_OFF = 1e-12
+ALIKE = 1e-6  # of the range: places that differ by less do not move by themselves, or both runs are exact
 COORDINATES = "1"
 WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
+ANGLES = (SensorType.ANGLE, SensorType.ANGLE_ABOUT)  # from -pi to pi
 REACTIONS = (SensorType.REACTION, SensorType.REACTION_PRODUCTS, SensorType.REACTION_BY_TABLE)
 
 
@@ -30,35 +31,44 @@ class Judged:
 
     unit: str
     place: bool = False
-    """A position, a length, an angle that is not wrapped, or a coordinate; all else a rate or a load."""
+    """A position, a length, an angle or a coordinate; all else a rate or a load."""
     load: bool = False
     """A force, held against its largest value, since loads stay; all else against its range."""
     always: bool = True
-    """False: rates and the forces of motors, which change in jumps, judged where nothing else moves."""
-    prescribed: bool = False
-    """Whether guides alone say where it is, so that no step can make it wrong."""
+    """False: rates and the forces of motors, which change in jumps, judged where nothing else moves by itself."""
+    wrapped: bool = False
+    """An angle from -pi to pi."""
+
+    def apart(self, one: Array, other: Array) -> Array:
+        """Differences at samples, (n,); of angles the smaller arc."""
+        gap = np.abs(one - other)
+        return np.asarray(np.abs((gap + math.pi) % (2.0 * math.pi) - math.pi) if self.wrapped else gap)
+
+    def whole(self, values: Array) -> Array:
+        """Values at samples without jumps from pi to -pi, (n,)."""
+        return np.unwrap(values) if self.wrapped else values
 
 
 def judged_sensors(system: System) -> dict[str, Judged]:
     """What can be judged of the sensors that the System computes, by name.
 
-    Wrapped angles, gears, energies and accelerations change in jumps, or change sign, where a small shift in time is a
-    large difference: they say nothing.
+    Gears, energies and accelerations change in jumps, or change sign, where a small shift in time is a large
+    difference: they say nothing.
     """
     arrays, found = system.arrays, dict[str, Judged]()
-    driven, guided = set(np.asarray(arrays["gterm_row"]).tolist()), _guided(system)
+    driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):
         if not sensor.get("computed", True):
             continue
         kind, unit = SensorType(arrays["sen_type"][i]), sensor["unit"]
         integers = np.asarray(arrays["sen_int"][slice(*arrays["sen_int_ptr"][i : i + 2])]).tolist()
         order = integers[0] if kind in WITH_ORDER and integers else 0
-        signal = kind == SensorType.SIGNAL or (kind in WITH_ORDER and order == 0)
+        signal = kind in (SensorType.SIGNAL, SensorType.PITCH) or (kind in WITH_ORDER and order == 0)
         rate = kind in (SensorType.SIGNAL_RATE, SensorType.ANGULAR_RATE) or (kind in WITH_ORDER and order == 1)
-        if (signal and unit in ("m", "rad")) or (kind == SensorType.ELEMENT_OUTPUT and unit == "m"):
-            held = kind == SensorType.SIGNAL and _follows(system, integers[0], guided)
-            found[sensor["name"]] = Judged(unit, place=True, prescribed=held)
-        elif kind == SensorType.ELEMENT_OUTPUT and unit == "N":
+        output = kind == SensorType.ELEMENT_OUTPUT
+        if ((signal or kind in ANGLES) and unit in ("m", "rad")) or (output and unit == "m"):
+            found[sensor["name"]] = Judged(unit, place=True, wrapped=kind in ANGLES)
+        elif output and unit == "N":
             found[sensor["name"]] = Judged(unit, load=True)
         elif rate and unit in ("m/s", "rad/s"):
             found[sensor["name"]] = Judged(unit, always=False)
@@ -73,45 +83,39 @@ def _rows(kind: SensorType, integers: list[int]) -> list[int]:
     return integers[1::item]
 
 
-def _guided(system: System) -> Array:
-    """Weights of coordinates, and of what depends on them, in each linear row of a guide, (n, columns)."""
-    a = system.arrays
-    columns = 1 + max(int(np.max(a[name], initial=system.nq - 1)) for name in ("row_col", "sig_col"))
-    found = [np.zeros(columns)]
-    for row in dict.fromkeys(np.asarray(a["gterm_row"]).tolist()):
-        at = slice(*np.asarray(a["row_ptr"][row : row + 2]).tolist())
-        if np.count_nonzero(a["row_lin"][at]) == at.stop - at.start:  # else there are products in it
-            found.append(np.zeros(columns))
-            found[-1][np.asarray(a["row_col"])[at]] = np.asarray(a["row_lin"])[at]
-    return np.array(found)
-
-
-def _follows(system: System, signal: int, guided: Array) -> bool:
-    """Whether a signal is a sum of what the rows of guides hold."""
-    a, weights = system.arrays, np.zeros(guided.shape[1])
-    at = slice(*np.asarray(a["sig_ptr"][signal : signal + 2]).tolist())
-    np.add.at(weights, np.asarray(a["sig_col"])[at], np.asarray(a["sig_val"])[at])
-    left = weights - guided.T @ np.linalg.lstsq(guided.T, weights, rcond=None)[0]
-    return bool(len(guided) > 1 and np.abs(left).max(initial=0.0) <= ROUND_OFF * np.abs(weights).max(initial=0.0))
-
-
 def judged_in(
     values: Mapping[str, Array],
     judged: Mapping[str, Judged],
     length: float,
     before: Mapping[str, Array] | None = None,
     stands: bool = False,
+    guided: bool = False,
 ) -> dict[str, Judged]:
-    """What of a run is judged, by name: places and forces that move, and where no place moves but as prescribed, rates
-    and the forces of motors, unless the coordinates say that all `stands`. `length`, `before`: as of `sizes_of`.
+    """What of a run is judged, by name: places and forces that move, and where no place moves, rates and the forces of
+    motors, unless the coordinates say that all `stands`. `length`, `before`: as of `sizes_of`.
 
-    What rests judges nothing, and switches nothing off.
+    What rests judges nothing, and switches nothing off; nor does an angle that turns by more than a quarter from one
+    sample to the next, as where roll and yaw jump, nor turns below `NO_TURN` beside anything else. Where something is
+    `guided` two motions say whether a place moves by itself, see `comparison.differences`.
     """
-    moving = {name: judged[name] for name in sizes_of(values, judged, length, before)}
-    free = stands or any(what.place and not what.prescribed for what in moving.values())
+    sizes = sizes_of(values, judged, length, before)
+    moving = {name: judged[name] for name in sizes if _is_followed(values, name, judged)}
+    if any(what.always and what.unit != "rad" for what in moving.values()):
+        moving = {name: what for name, what in moving.items() if what.unit != "rad" or sizes[name] > NO_TURN}
+    free = stands or (not guided and any(what.place for what in moving.values()))
     if free or all(what.load for what in moving.values()):
         return {name: what for name, what in moving.items() if what.always}
     return moving
+
+
+def _is_followed(values: Mapping[str, Array], name: str, judged: Mapping[str, Judged]) -> bool:
+    turns = np.abs(np.diff(judged[name].whole(values[name])))
+    return not judged[name].wrapped or bool(turns.max(initial=0.0) <= 0.5 * math.pi)
+
+
+def is_open(judged: Mapping[str, Judged]) -> bool:
+    """Whether two motions must say whether a place moves by itself, see `comparison.differences`."""
+    return any(what.place for what in judged.values()) and not all(what.always for what in judged.values())
 
 
 def has_loads(judged: Mapping[str, Judged]) -> bool:
@@ -148,9 +152,10 @@ def sizes_of(
     for name, what in judged.items():
         groups.setdefault((what.unit, what.load, what.always), []).append(name)
     for (unit, load, _), names in groups.items():
-        seen = [np.append(values[name], (before or {}).get(name, ())) for name in names]
+        seen = [_seen(values[name], (before or {}).get(name), judged[name]) for name in names]
         largest, moved = [float(np.abs(v).max()) for v in seen], [float(np.ptp(v)) for v in seen]
-        if max(moved) <= (STANDS if unit == COORDINATES else STILL) * min(max(largest), _size_in(unit, length)):
+        rest = (STANDS if unit == COORDINATES else STILL) * min(max(largest), _size_in(unit, length))
+        if max(moved) <= rest:
             continue
         found |= dict.fromkeys(names, max(largest if load else moved))
     return found
@@ -161,40 +166,17 @@ def _size_in(unit: str, length: float) -> float:
     return {"m": length, "rad": 1.0, COORDINATES: max(length, 1.0)}.get(unit, math.inf)
 
 
-def differences(
-    coarse: Mapping[str, Array],
-    fine: Mapping[str, Array],
-    judged: Mapping[str, Judged],
-    before: Mapping[str, Array] | None,
-    length: float,
-) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs, at their `instants` and of loads between them.
-
-    Returns
-    -------
-    units : dict of str to float
-        Largest difference over its size, per unit; units in which nothing moves are left out.
-    sensors : dict of str to float
-        Largest difference per sensor.
-    sizes : dict of str to float
-        See `sizes_of`, of the finer run.
-    """
-    sizes = sizes_of(fine, judged, length, before)
-    gaps = {name: _gap(coarse[name], fine[name], judged[name]) for name in sizes}
-    units: dict[str, float] = {}
-    for name, size in sizes.items():
-        units[judged[name].unit] = max(gaps[name] / size, units.get(judged[name].unit, 0.0))
-    return units, gaps, sizes
-
-
-def _gap(one: Array, other: Array, what: Judged) -> float:
-    rows = rows_judged(what, len(one))
-    gap = float(np.abs(one[rows] - other[rows]).max())
-    return max(gap, missed_load(one, other)) if what.load else gap
+def _seen(values: Array, before: Array | None, what: Judged) -> Array:
+    """Values and the ends of those before; angles that are wrapped go on from the nearest turn."""
+    mine = what.whole(values)
+    if before is None:
+        return mine
+    turn = 2.0 * math.pi * round(float(mine[0] - before[1]) / (2.0 * math.pi)) if what.wrapped else 0.0
+    return np.append(mine, before + turn)
 
 
 def add_ends(ends: dict[str, Array], run: Mapping[str, Array], judged: Mapping[str, Judged]) -> None:
     """Widen the least and the largest value of what is compared by those of a run."""
-    for name in judged:
-        values = np.append(run[name], ends.get(name, ()))
+    for name, what in judged.items():
+        values = _seen(run[name], ends.get(name), what)
         ends[name] = np.array([values.min(), values.max()])

@@ -16,7 +16,11 @@ class SimulationError(RuntimeError):
         Code of the kernel.
     trajectory : Trajectory or None
         What a run had recorded so far.
+    final : bool
+        Whether no other step or method would go further, as where drives lead loops no further.
     """
+
+    final = False
 
     def __init__(self, message: str, time: float, status: int, trajectory: Trajectory | None = None) -> None:
         super().__init__(message)

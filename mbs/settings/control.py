@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from mbs.common.checks import is_finite, shown
 
 LEAST_TOLERANCE, MOST_TOLERANCE = 1e-11, 0.5
+FIRST_SHARE = 1e-3  # of the length: what a run begins with whose tolerance is that of sensors, at most
 ALLOWED = 3.0
 """A guess of the error up to so many tolerances passes without a warning: it may be too small by as much again."""
 
@@ -26,9 +28,9 @@ class Control:
     """Why this method; empty where the caller named it."""
     error: float
     """Guess of the largest error of positions over the run in parts of `length`: its distance from a coarser run, times
-    what its steps err over what those of the other do. In nine of ten random mechanisms it is within ten times the
-    error; what both runs miss is not in it, and where guides prescribe all motion it is 0. NaN where the step was
-    given: nothing was compared."""
+    what its steps err over what those of the other do, at least a fifth of the tolerance: smaller guesses tell little.
+    In nine of ten runs it is within ten times the error; what both runs miss is not in it, and where guides prescribe
+    all motion it is 0. NaN where the step was given: nothing was compared."""
     h: float | None
     """The fixed step, s; None: steps under error control."""
     steps: int
@@ -45,6 +47,11 @@ class Control:
     """Made for times between the steps, where no polynomial through the steps served."""
     runs: int
     """Whole runs that were made, those for the estimate and for the choice of the method included."""
+    moved: float = math.nan
+    """How far the coordinate that moves farthest moves, m; NaN where the step was given."""
+    sensors: Mapping[str, float] = field(default_factory=dict)
+    """Guessed errors of the sensors that were given a tolerance, in their units; `error` is then the largest of them
+    over its tolerance, times `tolerance`."""
 
     @property
     def kept(self) -> bool:
@@ -60,20 +67,51 @@ class Control:
         reason = f" ({self.reason})" if self.reason else ""
         if math.isnan(self.error):
             return f"{self.method}{reason}: {steps}"
-        said = f"{self.error:.0e}" if self.error > 0.0 else "none seen"
-        return (
-            f"{self.method}{reason}: {steps}; error guessed from a coarser run: {said} of the model's length of "
-            f"{self.length:.4g} m, tolerance {self.tolerance:g}"
-        )
+        if self.sensors:
+            errors = ", ".join(f"{e:.0e} of {name!r}" for name, e in self.sensors.items())
+            return f"{self.method}{reason}: {steps}; errors guessed from a coarser run: {errors}"
+        of = f"of {self.tolerance:g} of the model's length of {self.length:.4g} m"
+        if self.error <= self.tolerance:
+            return f"{self.method}{reason}: {steps}; within the tolerance {of}, as a coarser run shows"
+        return f"{self.method}{reason}: {steps}; error guessed from a coarser run: {self.error:.0e}, tolerance {of}"
 
 
-def checked_tolerance(tolerance: object) -> float:
-    """The tolerance as a number, or one sentence."""
+@dataclass(frozen=True)
+class Tolerance:
+    """What a run may err by."""
+
+    share: float
+    """Of positions, in parts of the model's length."""
+    sensors: Mapping[str, float] = field(default_factory=dict)
+    """Of sensors, in their units; they decide in place of positions."""
+
+
+def checked_tolerance(tolerance: object, units: Mapping[str, str], length: float) -> Tolerance:
+    """The tolerance of a run, or one sentence: a number, or numbers by sensor.
+
+    `units`: of the sensors that the System computes, by name; `length`: of the model, m.
+    """
+    if isinstance(tolerance, Mapping):
+        return _of_sensors(tolerance, units, length)
     value = float(tolerance) if is_finite(tolerance) else math.nan  # type: ignore[arg-type]
     if LEAST_TOLERANCE <= value <= MOST_TOLERANCE:
-        return value
+        return Tolerance(value)
     what = "it is below what round-off leaves; " if 0.0 < value < LEAST_TOLERANCE else ""
     raise ValueError(
         f"The tolerance is {shown(tolerance)}; {what}it must be a number between {LEAST_TOLERANCE:g} and "
-        f"{MOST_TOLERANCE:g}: the largest error of positions in parts of the model's length."
+        f"{MOST_TOLERANCE:g}: the largest error of positions in parts of the model's length; or errors of sensors in "
+        "their units, by name."
     )
+
+
+def _of_sensors(given: Mapping[object, object], units: Mapping[str, str], length: float) -> Tolerance:
+    for name, value in given.items():
+        if name not in units:
+            raise ValueError(f"A tolerance is given for {shown(name)}; the System computes no such sensor.")
+        if not (is_finite(value) and float(value) > 0.0):  # type: ignore[arg-type]
+            raise ValueError(f"The tolerance of {name!r} is {shown(value)}; it must be a number above 0.")
+    if not given:
+        raise ValueError("The tolerance names no sensor; give one error by name, or a number.")
+    allowed = {str(name): float(value) for name, value in given.items()}  # type: ignore[arg-type]
+    shares = [value / length for name, value in allowed.items() if units[name] == "m"]
+    return Tolerance(min(max(min(shares, default=FIRST_SHARE), LEAST_TOLERANCE), FIRST_SHARE), allowed)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
-from mbs.results.accuracy import AccuracyWarning
+from mbs.results.accuracy import WRONG_ERROR, AccuracyWarning
+from mbs.results.judged import STILL, Judged, judged_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.control import ALLOWED, Control
+from mbs.settings.control import ALLOWED, Control, Tolerance, checked_tolerance
 from mbs.settings.input_signals import Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import check_end, check_record, count_steps
@@ -32,6 +33,7 @@ from mbs.simulation.refusal import beyond_reach, refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.step_choice import StepChoice, choose_step
 from mbs.simulation.stepped_system import SteppedSystem
+from mbs.system.system import System
 
 Array = NDArray[np.float64]
 SHORTER = 0.5
@@ -46,6 +48,18 @@ FAR, ONCE = 0.1, 0.1
 """Distance of two runs beyond which it says nothing of the finer one; largest guess by a single pair of runs that is
 accepted where errors grow, in parts of the tolerance: two coarse runs may be off alike."""
 MOST_RUNS, LEAST = 5, 1e-13
+LEAST_TOLD = 0.2
+"""Of the tolerance: the smallest guess that is told, as smaller ones are too small more often than not."""
+HANDED_ON = (
+    Status.NOT_CONVERGED,
+    Status.TOO_DEAR,
+    Status.TOO_STIFF,
+    Status.UNRESOLVED,
+    Status.SINGULAR,
+    Status.WRONG_METHOD,
+    Status.NO_TREE,
+)
+"""How a method fails where another one may not."""
 DEFAULT_TOLERANCE = 1e-3
 """Of runs in equal steps that are chosen."""
 RECORDED = 200  # intervals where none is said
@@ -55,20 +69,15 @@ CHECKED = 50  # instants beside those that are recorded at which runs are compar
 
 def to_tolerance(
     start: Callable[[], SteppedSystem],
-    tolerance: float,
+    tolerance: Tolerance,
     times: Array,
     inputs: Mapping[str, Signal],
     settings: Settings,
     method: str,
     bar: Progress,
 ) -> tuple[Trajectory, SteppedSystem]:
-    """Sensor values at `times` (n,), the first of them the start, with an error of positions of about the tolerance,
-    and where it ended.
-
-    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err, unless the two
-    runs are far apart. Where it is larger than it should be, since the motion lets errors grow, up to three more runs
-    are made with what is then known of that growth; one also where a loop left its assembly mode, which the motion may
-    do or a step.
+    """Sensor values at `times` (n,), the first of them the start, with an error of about the tolerance, and where it
+    ended. A method that is chosen and cannot hold the tolerance hands on to the next one, at last to 'ali3p'.
     """
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
@@ -77,62 +86,137 @@ def to_tolerance(
         return _trajectory(first, times, values, None, 0.0, settings, first.state.q[None]), first
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
     grid[-1] = t_end
-    task = Task(t0, t_end, grid, inputs)
-    coarse = min(COARSE * tolerance, COARSEST)
-    aim = min(tolerance, coarse / FINER)
-    reason, wall, runs, before = "", 0.0, 0, None
-    if method == "auto":
-        choice = choose(start, task, settings, aim, coarse)
-        method, reason, before, wall, runs = choice.method, choice.reason, choice.run, choice.wall, choice.runs
-    settings = replace(settings, method=method)
+    task, coarse, made = Task(t0, t_end, grid, inputs), min(COARSE * tolerance.share, COARSEST), _Made()
+    if method != "auto":
+        return _by(start, first, tolerance, times, task, replace(settings, method=method), coarse, bar, made, "")
+    choice = choose(start, task, settings, min(tolerance.share, coarse / FINER), coarse)
+    made = _Made(choice.run, choice.runs, choice.wall)
+    refused: list[SimulationError] = []
+    for name in choice.names:
+        reason = choice.reason + "".join(f", {k} cannot hold it" for k in choice.names[: len(refused)])
+        try:
+            return _by(start, first, tolerance, times, task, replace(settings, method=name), coarse, bar, made, reason)
+        except SimulationError as error:
+            if error.status not in HANDED_ON or error.final:
+                raise
+            refused.append(error)
+            made = replace(made, run=None)
+    raise refused[0]
+
+
+@dataclass
+class _Made:
+    """What was made before a run to a tolerance."""
+
+    run: ControlledRun | None = None
+    runs: int = 0
+    wall: float = 0.0
+
+
+def _by(
+    start: Callable[[], SteppedSystem],
+    first: SteppedSystem,
+    tolerance: Tolerance,
+    times: Array,
+    task: Task,
+    settings: Settings,
+    coarse: float,
+    bar: Progress,
+    made: _Made,
+    reason: str,
+) -> tuple[Trajectory, SteppedSystem]:
+    """The same by one method.
+
+    A coarse run and a finer one give the error of the latter: errors fall about as what their steps err, unless the two
+    runs are far apart. Where it is larger than it should be, since the motion lets errors grow, up to three more runs
+    are made with what is then known of that growth; one also where a loop left its assembly mode, which the motion may
+    do or a step.
+    """
+    before, wall, runs = made.run, made.wall, made.runs
+    wanted = tolerance.share
+    aim = min(wanted, coarse / FINER)
     if before is None:
-        before = _whole(ControlledRun(start(), task, settings, coarse), tolerance, bar, 0.0, times, first)
+        before = _whole(ControlledRun(start(), task, settings, coarse), wanted, bar, 0.0, times, first)
         runs, wall = runs + 1, wall + before.wall
     error, run, longest = math.inf, None, 1.0
     for number in range(1, MOST_RUNS):
-        made = ControlledRun(start(), task, settings, aim, longest)
+        again = ControlledRun(start(), task, settings, aim, longest)
         try:
-            made = _whole(made, tolerance, bar, min(0.5, 0.3 * number), times, first)
+            again = _whole(again, wanted, bar, min(0.5, 0.3 * number), times, first)
         except (StalledError, SimulationError):
-            wall += made.wall
+            wall += again.wall
             if run is None:
                 raise
             break  # a finer run than the last is beyond round-off
-        run = made
+        run = again
         runs, wall = runs + 1, wall + run.wall
-        apart = run.distance(before)
+        apart, far = _apart(run, before, tolerance), run.distance(before)
         guess = apart * _fall(run, before)
-        error = apart if apart > FAR else guess
+        error = apart if far > FAR else guess
         if error == 0.0 and longest == 1.0:
             # the longest steps were fine enough both times, so the runs are the same and show no error
             before, longest = run, SHORTER
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
-        grows = number == 1 and apart > before.fields.error_sum
-        if (error <= (ONCE if grows else 1.0) * tolerance and not unsure) or aim <= LEAST:
+        grows = number == 1 and far > before.fields.error_sum
+        if (error <= (ONCE if grows else 1.0) * wanted and not unsure) or aim <= LEAST:
             break
         before = run
-        finer = min(0.1 if unsure else 1.0 / FINER, AGAIN * tolerance / max(guess, tolerance))
+        finer = min(0.1 if unsure else 1.0 / FINER, AGAIN * wanted / max(guess, wanted))
         aim = max(LEAST, aim * max(MOST_AT_ONCE, finer))
     assert run is not None
-    c = run.fields
+    c, told = run.fields, 0.0
+    if error > 0.0:  # what stands still errs by no more than it moves
+        told = max(error, min(LEAST_TOLD * wanted, run.moved / run.length))
     control = Control(
-        tolerance, run.length, method, reason, error, None, c.accepted, c.rejected, c.failed, c.forced,
-        c.smallest, c.largest, c.side_steps, runs,
+        wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,
+        c.smallest, c.largest, c.side_steps, runs, run.moved, _errors(run, before, tolerance),
     )  # fmt: skip
-    _warn(control)
+    _warn(control, error)
     if run.simulation.branch_change and not before.simulation.branch_change:
-        warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=3)
+        warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=4)
     if told := run.simulation.rim_text:
-        warnings.warn(told, RoadWarning, stacklevel=3)
+        warnings.warn(told, RoadWarning, stacklevel=4)
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))
-    run.simulation.bending.warn(stacklevel=4)
-    recorded = np.searchsorted(grid, times[1:])
+    run.simulation.bending.warn(stacklevel=5)
+    recorded = np.searchsorted(task.times, times[1:])
     values = np.vstack([list(first.instance.sensors()), run.values[recorded]])
     positions = np.vstack([first.state.q, run.positions[recorded]])
     trajectory = _trajectory(run.simulation, times, values, control, wall, run.settings, positions)
     return trajectory, run.simulation
+
+
+def _gaps(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
+    """Largest differences of the sensors that have a tolerance of their own."""
+    system = run.simulation.system
+    known, names = judged_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
+    found = dict[str, float]()
+    for name in tolerance.sensors:
+        one, other = (made.values[:, names.index(name)] for made in (run, before))
+        found[name] = float(known.get(name, Judged("")).apart(one, other).max())
+    return found
+
+
+def _apart(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> float:
+    """Distance of two runs in parts of the length, or of what sensors may differ by, times the share."""
+    if not tolerance.sensors:
+        return run.distance(before)
+    gaps = _gaps(run, before, tolerance)
+    return tolerance.share * max(gap / tolerance.sensors[name] for name, gap in gaps.items())
+
+
+def _errors(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
+    """The guessed errors of the sensors that have a tolerance of their own."""
+    fall, gaps = _fall(run, before), _gaps(run, before, tolerance)
+    return {name: max(fall * gap, LEAST_TOLD * tolerance.sensors[name]) for name, gap in gaps.items()}
+
+
+def asked_tolerance(system: System, tolerance: object) -> Tolerance:
+    """The tolerance that is asked for, or one sentence."""
+    sensors = prepared(system)[1]["sensors"]
+    units = {sensor["name"]: sensor["unit"] for sensor in sensors if sensor.get("computed", True)}
+    return checked_tolerance(tolerance, units, length_of(system))
 
 
 def check_tolerance_settings(settings: Settings) -> None:
@@ -182,7 +266,7 @@ def equal_steps(
     found.control = Control(
         DEFAULT_TOLERANCE, length, settings.method, reason, error, h, n, 0, 0, 0, h, h, 0, runs + 1
     )  # fmt: skip
-    _warn(found.control)
+    _warn(found.control, error)
     found.wall_s += wall
     return found
 
@@ -237,7 +321,7 @@ def _run_at(run: ControlledRun, wanted: float) -> str:
 
 def _stalled(run: ControlledRun, wanted: float, times: Array, first: SteppedSystem) -> SimulationError:
     time, beyond = run.simulation.time, beyond_reach(run.simulation, LOOKED_AHEAD * run.task.span)
-    return SimulationError(
+    error = SimulationError(
         f"A tolerance of {_run_at(run, wanted)} cannot be held by {run.settings.method!r}: until t = {time:g} s "
         f"{run.fields.forced + run.fields.over_share} of {run.fields.accepted} steps erred more than their share of "
         f"it, even with steps of {run.fields.smallest:.1e} s"
@@ -246,6 +330,8 @@ def _stalled(run: ControlledRun, wanted: float, times: Array, first: SteppedSyst
         Status.NOT_CONVERGED,
         _so_far(run, times, first),
     )
+    error.final = bool(beyond)
+    return error
 
 
 def _refused(
@@ -263,7 +349,18 @@ def _refused(
     return refusal(simulation, what, error, _so_far(run, times, first), LOOKED_AHEAD * run.task.span)
 
 
-def _warn(control: Control) -> None:
+def _warn(control: Control, guess: float) -> None:
+    """Of a run whose `guess` of its error is above what it may be, or much of the motion."""
+    error, moved = guess * control.length, control.moved
+    if control.kept and not control.sensors and error > WRONG_ERROR * moved and moved > STILL * control.length:
+        warnings.warn(
+            f"The tolerance of {control.tolerance:g} is relative to the model's length of {control.length:.4g} m, and "
+            f"what moves farthest moves {moved:.3g} m: the guessed error of {error:.1e} m is "
+            f"{100.0 * error / moved:.2g} % of that. Give one for a sensor, in its unit, tolerance={{name: ...}}, or "
+            f"tolerance={0.2 * WRONG_ERROR * moved / control.length:.0e}.",
+            AccuracyWarning,
+            stacklevel=5,
+        )
     if control.kept:
         return
     forced = f", {control.forced} steps of the least size erred more than their share of it" if control.forced else ""
@@ -273,7 +370,7 @@ def _warn(control: Control) -> None:
         f"or round-off is reached: shorten the time, accept a larger tolerance or name another method than "
         f"{control.method!r}.",
         AccuracyWarning,
-        stacklevel=4,
+        stacklevel=5,
     )
 
 

@@ -153,6 +153,11 @@ class ControlledRun:
             update(min(1.0, self.share))
             steps = max(1, int(steps * min(8.0, CHUNK_SECONDS / max(self.wall - before, 1e-9))))
 
+    @property
+    def moved(self) -> float:
+        """How far the coordinate that moves farthest moves, m."""
+        return float(np.max(np.ptp(self.positions, axis=0) * self.scale, initial=0.0))
+
     def distance(self, other: ControlledRun) -> float:
         """Largest distance of the positions of two runs, in parts of the length."""
         return float(np.max(np.abs(self.positions - other.positions) * self.scale, initial=0.0)) / self.length

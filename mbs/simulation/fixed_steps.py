@@ -42,7 +42,7 @@ def fixed_step_run(
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | float | None,
     before: dict[str, NDArray[np.float64]] | None = None,
-    twin: bool = False,
+    twin: int = 0,
 ) -> Trajectory:
     """A run in steps of h, with repeats where its accuracy asks for them, see `repeat.check`."""
     told: Told = []
@@ -65,7 +65,7 @@ def judged_run(
     estimate_error: bool | float | None,
     told: Told,
     before: dict[str, NDArray[np.float64]] | None = None,
-    twin: bool = False,
+    twin: int = 0,
 ) -> Trajectory:
     """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
     made, path = list[SteppedSystem](), list[tuple[int, Report]]()

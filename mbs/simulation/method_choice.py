@@ -21,18 +21,25 @@ FINE = 2e-3  # tolerance below which the rule of order eight is the cheaper one 
 FIRST_BUDGET, MORE, STEPS = 100.0, 2.0, 0.002
 LOOSE = 1e-3  # tolerance from which on ALi3-P, of order two, is tried too: it is the cheapest one for what is stiff
 FEWEST = 10  # steps of one call, which itself costs a few evaluations
+LAST = ("radau_5", "runge_kutta_8", "ali3p")  # tried where no other method holds a tolerance
 LOST = 1.1  # times the price of the one that ended first
 
 
 @dataclass(frozen=True)
 class Choice:
-    """A method, why, and its coarse run."""
+    """A method, why, its coarse run, and methods that follow where it cannot hold the tolerance."""
 
     method: str
     reason: str
     run: ControlledRun | None
     wall: float
     runs: int
+    others: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The method and those that follow it."""
+        return self.method, *self.others
 
 
 def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
@@ -56,7 +63,7 @@ def choose(
     system = start().system
     names, what = candidates(system, tolerance)
     if len(names) == 1:
-        return Choice(names[0], f"chosen: {what}", None, 0.0, 0)
+        return Choice(names[0], f"chosen: {what}", None, 0.0, 0, tuple(name for name in LAST if name != names[0]))
     growth = coarse / tolerance
     runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
     methods = {name: METHOD_TABLE[name] for name in names}
@@ -74,7 +81,8 @@ def choose(
             Status.NOT_CONVERGED,
         )
     lost = [f"{name} {'fails' if name in failed else 'is slower'}" for name in runs if name != best]
-    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs))
+    others = tuple(name for name in dict.fromkeys([*runs, *LAST]) if name != best and name not in failed)
+    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs), others)
 
 
 def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:

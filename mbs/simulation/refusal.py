@@ -51,7 +51,9 @@ def refusal(
         Status.BEYOND_TABLE,
     ):
         message += _worst_equations(simulation, report)
-    return SimulationError(message, simulation.time, error.status, trajectory)
+    refused = SimulationError(message, simulation.time, error.status, trajectory)
+    refused.final = bool(beyond)
+    return refused
 
 
 def _remedy(simulation: SteppedSystem, status: int) -> str:

@@ -11,15 +11,17 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.accuracy import MOST_COST, NEAR_LIMIT, WARNED_ERROR, Accuracy
+from mbs.results.comparison import by_limit, differences, unsure
 from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
 from mbs.results.judged import (
+    ALIKE,
     COORDINATES,
     WHOLE,
     Judged,
     add_ends,
-    differences,
     has_loads,
+    is_open,
     judged_in,
     judged_sensors,
     rows_judged,
@@ -30,23 +32,18 @@ from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
-from mbs.results.two_repeats import by_limit, unsure
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.march import WATCHED
 from mbs.simulation.prepared_system import length_of
+from mbs.simulation.step_choice import LEAST_ORDER
 from mbs.system.system import System
 
-FAR_FINER = 3.9  # times the step
-SAME = 0.9  # of the missed share of a run: with a quarter of the step an impact has less
-FALLS = 1.2  # times what a share falls to as its step does: above, shorter steps see quicker changes
-SURELY = 1.2  # times what steps resolve: what repeats miss by the run's own share differs from what they do
 FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
 AGREED = 0.1  # of what a coarser run may differ by
-FASTEST = 1e3  # growth of a difference in a tenth of a run
 
 
 class TooFarError(Exception):
@@ -77,8 +74,9 @@ class Repeats:
         Takes the progress of all runs, from 0 to 1.
     before : dict of str to ndarray, optional
         The ends of what moved in the runs before this one, by name.
-    twin : bool
-        Whether a repeat goes on from the one of a run before, so that there is a single one.
+    twin : int
+        By what the step is divided for the repeat that goes on from the one of a run before, so that there is a single
+        one; 0 where none does.
     inputs : dict of str to Signal, optional
         Those that follow time.
     most : float
@@ -115,7 +113,7 @@ class Repeats:
     every: int
     update: Callable[[float], None]
     before: dict[str, NDArray[np.float64]] | None = None
-    twin: bool = False
+    twin: int = 0
     inputs: Mapping[str, Signal] | None = None
     most: float = MOST_COST
     path: Sequence[tuple[int, Report]] = ()
@@ -138,7 +136,8 @@ class Repeats:
         coordinates = dict.fromkeys(self._columns, Judged(COORDINATES, place=True))
         seen = self._coordinates(self.run)
         stands = bool(seen) and not sizes_of(seen, coordinates, self._length, self.before)
-        self.judged = judged_in(self.run[0], judged_sensors(self.system), self._length, self.before, stands)
+        guided = len(self.system.arrays["gterm_row"]) > 0
+        self.judged = judged_in(self.run[0], judged_sensors(self.system), self._length, self.before, stands, guided)
         if shows_motion(self.judged):
             self.run = self.run[0], []
         elif self.run[1]:
@@ -192,18 +191,10 @@ class Repeats:
 
     @property
     def coarse(self) -> bool:
-        """Whether the last finer run has more than half of the step that just resolves what changes the velocities.
-
-        Where one misses as much as the one with four times its step, or as the run itself where that was not made, no
-        step does: a guide whose rate jumps. With an order it is one whose share has not fallen as its step: shorter
-        steps see quicker changes, as at a dead centre, and two may be off alike by chance.
+        """Whether the last finer run has more than half of the step that just resolves what changes the velocities; not
+        asked where errors have an order.
         """
-        missed = {1: self._missed(self.run)} | {parts: self._missed(run) for parts, run in self._finer.items()}
-        *_, before, last = sorted(missed)
-        if self.has_order:
-            return missed[last] * last > FALLS * missed[before] * before
-        same = any(missed[n] > SAME * missed.get(n // 4, missed[1]) for n in missed if n > self.parts)
-        return 2.0 * missed[last] > self.unresolved and not same
+        return not self.has_order and 2.0 * self._missed(self._finer[max(self._finer)]) > self.unresolved
 
     @property
     def first(self) -> int:
@@ -211,8 +202,10 @@ class Repeats:
         far as it costs no more than is left.
         """
         left = self.most - self.cost
-        most = 1 if self.twin else 2 if self.has_order else 4
-        share = self._missed(self.run) / (SURELY * self.unresolved)
+        if self.twin:
+            return max(self.twin, self.parts)
+        most = 2 if self.has_order else 4
+        share = self._missed(self.run) / self.unresolved
         most = max(times for times in (1, 2, 4) if times == 1 or (times <= most and times * self.parts <= left))
         return self.parts * next((times for times in (1, 2) if times >= most or share <= times), most)
 
@@ -234,21 +227,48 @@ class Repeats:
                 parts, last, known = 2 * parts, known, self.finer(2 * parts)
         while True:
             first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
-            if parts > 2 * self.parts and not self.has_order:
+            if parts > 2 * self.parts:
                 known = by_limit(known, [self._table(self.run), first, second], self.judged, self.before, self._length)
                 self.known = known
-            told = not self.has_order and (known.error or 0.0) > WARNED_ERROR
-            if parts == 8 * self.parts or (parts == 4 * self.parts and told):
+            if parts == 8 * self.parts or (parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR):
                 break  # of this one and the last the larger error counts
             apart = differences(first, second, self.judged, self.before, self._length)[0]
-            if self.has_order and not self.coarse:  # the finer one errs by less than that, by order two at least
-                apart = {unit: gap / 3.0 for unit, gap in apart.items()}
-            if not (unsure(known, apart) or (self.coarse and not self.has_order)):
+            if not (unsure(known, apart) or self.coarse):
                 break
             parts, last, known = 2 * parts, known, self.finer(2 * parts)
-        if parts == 8 * self.parts and not self.has_order and (last.error or 0.0) > (known.error or 0.0):
+        if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
             known = replace(known, units=last.units, sensors=last.sensors)
         return replace(known, repeat_cost=self.cost)
+
+    def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
+        """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
+        do by the order of the errors where no run is that fine and it costs no more than is left.
+        """
+        step, tried = accuracy.needed_step(self.h, known), self._offs(known)
+        parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
+        if parts > max(self._finer) and tried[-1][1] > accuracy.MET:
+            try:
+                self._finer[parts] = self._again(self.h / parts, self.every * parts, float(parts))
+            except (SimulationError, TooDearError):
+                return tried
+            return self._offs(known)
+        return tried
+
+    def _offs(self, known: Accuracy) -> list[tuple[float, float]]:
+        """Of each finer run by the finest; of that one by the order with which the last two come nearer to it."""
+        *others, finest = [1, *sorted(self._finer)]
+        tables = {n: self._table(self.run if n == 1 else self._finer[n]) for n in (*others, finest)}
+        apart = {
+            n: max(
+                differences(tables[n], tables[finest], self.judged, self.before, self._length)[0].values(), default=0.0
+            )
+            for n in others
+        }
+        near, order = others[-1], float(METHOD_TABLE[self._method].order)
+        if near > 1 and min(apart[1], apart[near]) > 0.0:
+            order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))
+        apart[finest] = apart[near] / ((finest / near) ** order - 1.0)
+        return [(self.h / n, apart[n]) for n in sorted(self._finer)]
 
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
@@ -309,19 +329,23 @@ class Repeats:
         column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
         sizes, tenth = sizes_of(run, self.judged, self._length, self.before), len(run.t) / WATCHED
         rows = {name: rows_judged(self.judged[name], len(run.t)) for name in sizes}
+        unknown = is_open(self.judged)
+        sizes = {name: size for name, size in sizes.items() if self.judged[name].always or not unknown}
 
         def look(values: NDArray[np.float64]) -> bool:
-            agreed, left = len(values) >= smooth, (len(run.t) - len(values)) / tenth
+            agreed, left, same = len(values) >= smooth, (len(run.t) - len(values)) / tenth, unknown
             for name, size in sizes.items():
                 there = rows[name][rows[name] < len(values)]
-                gaps = np.abs(values[there, column[name]] - run[name][there]) / size
+                gaps = self.judged[name].apart(values[there, column[name]], run[name][there]) / size
                 if gaps.max() > most:
                     raise TooFarError
+                same = same and not (self.judged[name].place and gaps.max() > ALIKE)
                 old = there < len(values) - 1 - tenth
                 last, before = gaps[~old].max(), gaps[old & (there >= len(values) - 1 - 2 * tenth)].max(initial=0.0)
-                growth = min(max(last / before, 1.0), FASTEST) if before > 0.0 else FASTEST
-                agreed = agreed and last <= AGREED * right and last * growth**left <= right
-            return agreed
+                growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
+                ahead = left * growth + math.log(last / right) if last > 0.0 else -math.inf
+                agreed = agreed and last <= AGREED * right and ahead <= 0.0
+            return agreed and not same
 
         return look
 
@@ -346,14 +370,9 @@ class Repeats:
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
         assert run.accuracy is not None
-        assert coarse[0].report is not None
-        assert fine[0].report is not None
         tables = self._table(coarse), self._table(fine)
         units, sensors, self._sizes = differences(*tables, self.judged, self.before, self._length)
         order = float(METHOD_TABLE[run.settings.method].order)
-        if ratio < FAR_FINER:  # else the other is so much nearer that the order hardly counts
-            reports = coarse[0].report, fine[0].report
-            order = accuracy.measured_order(run.settings.method, *reports, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
             run.accuracy,
@@ -383,7 +402,7 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
-        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, h, known)}")
+        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
     doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
     if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
         return known
@@ -404,12 +423,8 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
                 break
     try:
         known = repeats.finer(repeats.first)
-        if repeats.has_order:
-            least, most = (accuracy.AGREED, math.inf) if repeats.coarse else accuracy.AT_LIMIT
-        else:
-            least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
-            least = min(least, accuracy.ABRUPT) if report.divisions else least
-            least = 0.0 if accuracy.drift(report) > accuracy.LARGE_DRIFT else least
+        least, most = (0.0, math.inf) if repeats.coarse else NEAR_LIMIT
+        least = 0.0 if accuracy.drift(report) > accuracy.SURE_BALANCE else least
         if not repeats.twin and least < (known.error or 0.0) < most:
             known = repeats.decided(known)
     except TooDearError:
@@ -429,4 +444,6 @@ def check(repeats: Repeats, always: bool) -> Accuracy | None:
     said = [repeats.text(known)]
     if accuracy.balance_says(report, method, driven):
         said.append(accuracy.balance_text(report))
-    return replace(known, branch=branch, message=" ".join([*said, accuracy.remedy(system, method, h, known)]))
+    tried = repeats.tried_steps(known)
+    message = " ".join([*said, accuracy.remedy(system, method, tried)])
+    return replace(known, repeat_cost=repeats.cost, branch=branch, message=message)

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from mbs.common.progress import progress_for
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
-from mbs.settings.control import checked_tolerance
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation import chosen_run
@@ -50,7 +49,7 @@ def simulate(
     pose: Pose | None = None,
     method: str | None = None,
     estimate_error: bool | float | None = None,
-    tolerance: float | None = None,
+    tolerance: float | Mapping[str, float] | None = None,
     times: ArrayLike | None = None,
 ) -> Trajectory:
     """Run a System from `t0` to `t_end`, in equal steps or to a tolerance, and warn where the result is not what was
@@ -89,8 +88,9 @@ def simulate(
         error of the sensors. None repeats suspect runs, by energy balance, halvings, predictors or peaks of tables
         between steps, which costs at most 48 times the run; a number is another multiple. False checks nothing.
         Functions among `inputs` are called again, so they must depend on time.
-    tolerance : float, optional
-        Largest accepted error of positions over the whole run, in parts of the model's length (`Model(length=...)`, or
+    tolerance : float or mapping of str to float, optional
+        Largest accepted error over the whole run: of sensors by name, in their units, or of positions, in parts of the
+        model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
         chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
     times : array_like, shape (n,), optional
@@ -133,7 +133,7 @@ def simulate(
     check_progress(progress)
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
-    wanted = None if tolerance is None else checked_tolerance(tolerance)
+    wanted = None if tolerance is None else chosen_run.asked_tolerance(system, tolerance)
     settings = check_settings(settings)
     if wanted is not None:
         chosen_run.check_tolerance_settings(settings)

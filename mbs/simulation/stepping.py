@@ -22,7 +22,7 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.control import checked_tolerance
+from mbs.settings.control import Tolerance
 from mbs.settings.input_signals import InputSignals, Signal, unit_text
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
@@ -39,7 +39,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
-from mbs.simulation.chosen_run import check_tolerance_settings, record_times, to_tolerance
+from mbs.simulation.chosen_run import asked_tolerance, check_tolerance_settings, record_times, to_tolerance
 from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.follower import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
@@ -93,6 +93,7 @@ class Simulation(SteppedSystem):
         super().__init__(system, settings)
         self._warned = self._rim_told = False
         self._twin: SteppedSystem | None = None
+        self._parts = 0  # of a step, that it makes
         self._ends: dict[str, NDArray[np.float64]] = {}  # of what moved in runs so far
         self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
@@ -366,7 +367,7 @@ class Simulation(SteppedSystem):
         every: int = 1,
         progress: bool | Callable[[float], None] | None = None,
         estimate_error: bool | float | None = None,
-        tolerance: float | None = None,
+        tolerance: float | Mapping[str, float] | None = None,
     ) -> Trajectory:
         """Step from the present time to `t_end`; what is by hand in between, such as switches, stays as it is.
 
@@ -387,9 +388,9 @@ class Simulation(SteppedSystem):
             the share that is done.
         estimate_error : bool or float, optional
             As of `simulate`, in the first run in doubt, of ten steps or more; its last repeat is a twin that goes on
-            from run to run with half the step and is given the same inputs, parameters and switches, until a step by
-            hand.
-        tolerance : float, optional
+            from run to run with its part of the step and is given the same inputs, parameters and switches, until a
+            step by hand.
+        tolerance : float or mapping of str to float, optional
             As of `simulate`, of what this part adds to the error; by the method of the settings.
 
         Returns
@@ -415,7 +416,8 @@ class Simulation(SteppedSystem):
             Once, when a flexible body bends more within its floating frame than its modes hold for.
         """
         if tolerance is not None:
-            return self._to_tolerance(checked_tolerance(tolerance), t_end, h, inputs, every, progress)
+            wanted = asked_tolerance(self.system, tolerance)
+            return self._to_tolerance(wanted, t_end, h, inputs, every, progress)
         if h is None:
             raise ValueError("A run needs a step h or a tolerance.")
         estimate_error = check_estimate(estimate_error)
@@ -434,13 +436,15 @@ class Simulation(SteppedSystem):
             return self._twin
 
         def equal_steps() -> Trajectory:
-            asked, twin = estimate_error if checked else False, given is not None
+            asked, twin = estimate_error if checked else False, self._parts if given is not None else 0
             return fixed_step_run(
                 self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._ends, twin
             )
 
         trajectory = equal_steps()
         found = trajectory.accuracy
+        if found is not None and found.repeated_with is not None:
+            self._parts = max(1, round(h / found.repeated_with))
         if found is not None and found.message and not self._warned:
             self._warned = True
             warnings.warn(found.message, AccuracyWarning, stacklevel=2)
@@ -450,7 +454,7 @@ class Simulation(SteppedSystem):
 
     def _to_tolerance(
         self,
-        tolerance: float,
+        tolerance: Tolerance,
         t_end: float,
         h: float | None,
         inputs: Mapping[str, Signal] | None,

@@ -22,7 +22,8 @@ from benchmarks.references.newton_euler import (
     NoReferenceError,
     motion,
 )
-from mbs.results.judged import differences, judged_sensors, sizes_of
+from mbs.results.comparison import differences
+from mbs.results.judged import judged_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 TUMBLES = 3  # a body that turns over, 95 % off

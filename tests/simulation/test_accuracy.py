@@ -89,9 +89,9 @@ class TestThePrintedModel:
 
     def test_the_step_that_a_warning_names_is_as_right_as_it_says(self):
         system, case = system_of("pendulum"), CASES["pendulum"]
-        with pytest.warns(AccuracyWarning, match="would bring it to about 1 %") as caught:
+        with pytest.warns(AccuracyWarning, match="were tried: they are off by about") as caught:
             simulate(system, case.end, 0.05, **QUIET)
-        step = float(re.search(r"Steps of (\S+) s or less", str(caught[0].message))[1])
+        step = float(re.search(r"Steps of (\S+) s were tried", str(caught[0].message))[1])
         every = round(case.end / 50 / step)
         fine = simulate(system, case.end, case.end / 50 / every, every=every, **QUIET)
         exact = exact_of("pendulum").T
@@ -115,7 +115,7 @@ class TestRepeats:
         assert run.accuracy.repeat_cost == pytest.approx(1.0 / longer, rel=1e-12)
         assert "repeats of 0.1" in repr(run)
         whole = simulate(system_of("pendulum"), 10.0, 0.005, estimate_error=True, **QUIET)
-        # So long steps err by less than order two says: the estimate is 0.69 of that by half the step (decision 105).
+        # So long steps err by less than order two says: the estimate is 0.69 of that by half the step.
         assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
 
     def test_near_the_limit_a_third_run_decides(self, starts):
@@ -283,9 +283,10 @@ def test_a_run_of_one_step_is_not_refused_by_its_own_twin():
 def test_what_jumps_is_not_judged():
     names = judged_sensors(compile(prototype_car.build()))
     judged = {name for name, what in names.items() if what.always}
-    assert {names[n].unit for n in judged} == {"m", "N"}
-    assert {"chassis.x", "wheel_FL.Fz", "wheel_FL.travel"} <= judged
-    assert not {"chassis.yaw", "gear", "energy.total", "chassis.ax", "wheel_FL.omega", "solver.violation"} & judged
+    assert {names[n].unit for n in judged} == {"m", "rad", "N"}
+    assert {"chassis.x", "chassis.yaw", "chassis.pitch", "wheel_FL.Fz", "wheel_FL.travel"} <= judged
+    assert names["chassis.yaw"].wrapped
+    assert not {"gear", "energy.total", "chassis.ax", "wheel_FL.omega", "solver.violation"} & judged
 
 
 class TestByHand:

@@ -10,8 +10,8 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_machines
-from mbs.results.glance import FOURTH, HIGH, glances, rest_missed
-from mbs.results.judged import COORDINATES
+from mbs.results.glance import HIGH, glances, rest_missed
+from mbs.results.judged import COORDINATES, Judged
 from mbs.results.smooth_laws import LOOPS, OPEN
 from mbs.simulation.repeat import Repeats, TooFarError
 from tests.simulation.drawn import drawn
@@ -61,16 +61,16 @@ def test_a_right_tree_costs_its_run_alone(method: str) -> None:
 
 
 def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
-    moves = {"m": ["x"]}
+    moves = {"x": Judged("m", place=True)}
     fine, coarse = (
         mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
-        for h in (0.2, 0.4)
+        for h in (0.2, 0.3)
     )
     assert fine.settings is not None
     assert fine.report is not None
     assert coarse.report is not None
-    assert glances(fine.settings, moves, False, OPEN, fine.report) == FOURTH
-    assert glances(fine.settings, moves, False, OPEN, coarse.report) == FOURTH[1:]
+    assert glances(fine.settings, moves, False, OPEN, fine.report) == HIGH
+    assert glances(fine.settings, moves, False, OPEN, coarse.report) == HIGH[1:]
     assert glances(fine.settings, moves, False, LOOPS, coarse.report) == HIGH
 
 
@@ -87,11 +87,13 @@ def test_a_half_that_surely_is_coarse_is_not_made() -> None:
 
 
 def test_a_coarser_run_is_given_up_where_it_differs() -> None:
-    """At 0.625 s, after an impact at 0.5 s: half of the 0.5 of a run to 1.25 s, then two for half the step."""
+    """At 0.625 s, after an impact at 0.5 s: half of the 0.5 of a run to 1.25 s; then two for half the step and four
+    for a quarter.
+    """
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.01, every=2, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost == 2.25
-    assert run.accuracy.repeated_with == 0.005
+    assert run.accuracy.repeat_cost == 6.25
+    assert run.accuracy.repeated_with == 0.0025
 
 
 def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth() -> None:

@@ -7,7 +7,8 @@ import pytest
 from scipy.interpolate import PPoly
 
 import mbs
-from mbs.results.judged import Judged, judged_in, judged_sensors, sizes_of
+from mbs.results.comparison import differences
+from mbs.results.judged import Judged, judged_in, sizes_of
 
 RATE, PLACE = Judged("rad/s", always=False), Judged("m", place=True)
 T = np.linspace(0.0, 1.0, 101)
@@ -29,8 +30,8 @@ def test_a_body_that_tumbles_beside_a_sensor_at_rest_is_told(beside: str) -> Non
     assert set(run.accuracy.units) == {"1" if "alone" in beside else "rad/s"}
 
 
-def arm(rate: float) -> mbs.System:
-    """A driven arm with a rod that swings on it: the angle of the motor, its torque and the rate of the rod."""
+def arm(rate: float, beside: str) -> mbs.System:
+    """A driven arm with a rod that swings on it: what its guide prescribes, its torque and the rate of the rod."""
     m = mbs.Model("arm", dimension=2)
     first = m.body("first", mass=1.0, com=(0.5, 0.0), inertia=0.1)
     rod = m.body("rod", mass=2.0, com=(1.25, 0.0), inertia=0.05)
@@ -38,20 +39,23 @@ def arm(rate: float) -> mbs.System:
     m.revolute("joint", first, rod, point=(1.0, 0.0))
     angle = m.relative_angle("angle", m.ground, first)
     drive = m.drive("drive", angle, m.guide_time("turn", PPoly([[rate], [0.0]], [0.0, 10.0]), unit="rad"))
-    m.sense_coordinate("motor.angle", angle)
+    if beside == "motor.angle":
+        m.sense_coordinate("motor.angle", angle)
+    else:
+        m.sense_position("tip", first, (1.0, 0.0), "x")
     m.sense_joint("motor.torque", drive, "drive")
     m.sense_rotation("rod.rate", rod, "z", order=1)
     return mbs.compile(m)
 
 
-def test_a_prescribed_angle_switches_rates_and_the_torque_of_its_motor_on() -> None:
-    system = arm(4.0)
-    found = judged_sensors(system)
-    assert found["motor.angle"].prescribed
-    with pytest.warns(mbs.AccuracyWarning, match="off by"):
+@pytest.mark.parametrize("beside", ["motor.angle", "tip"])
+def test_what_a_guide_prescribes_switches_rates_and_the_torque_of_its_motor_on(beside: str) -> None:
+    """Also where it is no linear function of what is driven, as the tip of the arm: it silenced the rod's rate."""
+    system = arm(4.0, beside)
+    with pytest.warns(mbs.AccuracyWarning, match=r"off by .*'(rod\.rate|motor\.torque)'"):
         run = mbs.simulate(system, 3.0, 0.05, progress=False)
     assert run.accuracy is not None
-    assert set(run.accuracy.sensors) == {"motor.angle", "motor.torque", "rod.rate"}
+    assert set(run.accuracy.sensors) == {beside, "motor.torque", "rod.rate"}
     fine = mbs.simulate(system, 3.0, 0.0005, every=100, progress=False, estimate_error=False)
     size = np.ptp(fine["rod.rate"])
     assert run.accuracy.sensors["rod.rate"] / size == pytest.approx(
@@ -59,22 +63,58 @@ def test_a_prescribed_angle_switches_rates_and_the_torque_of_its_motor_on() -> N
     )
 
 
-@pytest.mark.parametrize(
-    ("place", "rates"),
-    [
-        pytest.param(PLACE, False, id="a place that moves"),
-        pytest.param(Judged("m", place=True, prescribed=True), True, id="one that is prescribed"),
-    ],
-)
-def test_rates_are_judged_where_no_place_moves_by_itself(place: Judged, rates: bool) -> None:
-    candidates = {"x": place, "rate": RATE}
+def test_rates_are_judged_where_no_place_moves_by_itself() -> None:
+    """Without guides each place that moves does; with them two motions say so."""
+    candidates = {"x": PLACE, "rate": RATE}
     values = {"x": np.sin(T), "rate": np.cos(9.0 * T)}
-    assert ("rate" in judged_in(values, candidates, 1.0)) == rates
-    assert "rate" in judged_in(values | {"x": 0.0 * T}, candidates, 1.0)
-    assert "rate" not in judged_in(values | {"x": 0.0 * T}, candidates, 1.0, stands=True)
+    assert set(judged_in(values, candidates, 1.0)) == {"x"}
+    assert set(judged_in(values, candidates, 1.0, guided=True)) == {"x", "rate"}
+    still = values | {"x": 0.0 * T}
+    assert set(judged_in(still, candidates, 1.0)) == {"rate"}
+    assert set(judged_in(still, candidates, 1.0, stands=True)) == set()
+    other = values | {"rate": np.cos(8.0 * T)}
+    for moved, units in ((0.0, {"m", "rad/s"}), (1e-3, {"m"})):
+        found, gaps, sizes = differences(values, other | {"x": (1.0 + moved) * values["x"]}, candidates, None, 1.0)
+        assert set(found) == units
+        assert set(gaps) == set(sizes)
+
+
+def test_angles_from_minus_pi_to_pi_are_compared_as_angles() -> None:
+    angle, turns = Judged("rad", place=True, wrapped=True), 20.0 * T
+    wrapped = (turns + np.pi) % (2.0 * np.pi) - np.pi
+    late = (turns - 0.3 + np.pi) % (2.0 * np.pi) - np.pi
+    assert np.abs(wrapped - late).max() > 5.0
+    units, sensors, sizes = differences({"a": late}, {"a": wrapped}, {"a": angle}, None, 1.0)
+    assert sensors["a"] == pytest.approx(0.3)
+    assert sizes["a"] == pytest.approx(20.0)
+    assert units["rad"] == pytest.approx(0.015)
+    assert set(judged_in({"a": wrapped}, {"a": angle}, 1.0)) == {"a"}
+    assert set(judged_in({"a": wrapped[::10]}, {"a": angle}, 1.0)) == set()
+
+
+def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:
+    m = mbs.Model("pendulum", dimension=2)
+    rod = m.body("rod", mass=1.0, com=(0.0, -1.0), inertia=0.1)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    m.initial_velocity(rod, linear=(6.2, 0.0), angular=6.2)
+    m.sense_angle("yaw", rod, "yaw")
+    m.sense_coordinate("turn", m.relative_angle("turn", m.ground, rod))
+    run = mbs.simulate(mbs.compile(m), 5.0, 0.02, progress=False, estimate_error=True)
+    assert np.ptp(run["turn"]) > 2.0 * np.pi
+    assert run.accuracy is not None
+    assert run.accuracy.sensors["yaw"] > 1e-3
+    assert run.accuracy.sensors["yaw"] == pytest.approx(run.accuracy.sensors["turn"], rel=1e-6)
 
 
 def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     values = {"large": 1000.0 + 10.0 * np.sin(9.0 * T), "small": 1e-3 * T, "load": 5.0 + T, "rest": 0.0 * T}
     found = sizes_of(values, {"large": PLACE, "small": PLACE, "load": Judged("N", load=True), "rest": RATE}, length=1.0)
     assert found == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
+
+
+def test_a_small_turn_counts_where_nothing_else_moves() -> None:
+    judged = {"turn": Judged("rad", place=True), "x": PLACE}
+    values = {"turn": 5e-4 * np.sin(9.0 * T), "x": np.sin(T)}
+    assert set(judged_in(values, judged, 1.0)) == {"x"}
+    assert set(judged_in(values | {"x": 0.0 * T}, judged, 1.0)) == {"turn"}
+    assert set(judged_in(values | {"turn": 3.0 * values["turn"]}, judged, 1.0)) == {"turn", "x"}

@@ -9,9 +9,9 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_cars
-from mbs.results import judged
+from mbs.results import comparison
+from mbs.results.comparison import WIDTH, missed_load
 from mbs.results.judged import instants, judged_sensors
-from mbs.results.missed_load import WIDTH, missed_load
 from mbs.scenes import prototype_car
 
 N = 2001
@@ -102,5 +102,5 @@ def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
     error, said = run(0.1)
     assert error < 0.05
     assert said == []
-    monkeypatch.setattr(judged, "missed_load", lambda one, other: 0.0)
+    monkeypatch.setattr(comparison, "missed_load", lambda one, other: 0.0)
     assert run(0.3)[1] == []

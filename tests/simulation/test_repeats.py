@@ -11,8 +11,8 @@ import pytest
 import mbs
 from mbs.kernel.header.enumerations import Status
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
+from mbs.results.comparison import EVENT_ORDER, by_limit, unsure
 from mbs.results.judged import Judged
-from mbs.results.two_repeats import EVENT_ORDER, by_limit, unsure
 from mbs.simulation.repeat import Repeats, Run
 
 T = np.linspace(0.0, 1.0, 101)

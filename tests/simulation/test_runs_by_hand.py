@@ -30,7 +30,7 @@ def swing(at: float = 1.0) -> mbs.System:
 def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
     """169 mm at its hand; at half the step 27 mm, 4.2 % of an angle, which is right."""
     system = mbs.compile(puma.build())
-    with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a repeat with steps of 0.05 s"):
+    with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a repeat with steps of 0.025 s"):
         puma.replay(system, 0.1)
     puma.replay(system, 0.05)
 

@@ -16,7 +16,7 @@ static const double WRONG = 0.05; /* of the largest force at communication point
 static const double AGREED = 0.1; /* of WRONG: a larger difference may still grow, as of a wheel that spins */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 static const int64_t MOST = 8; /* parts of a step */
-static const double SAFE = 0.6; /* of WRONG: what a step would do with, by order one as at a kink */
+static const double SAFE = 0.6; /* of WRONG: what a step that was not tried would do with, by order one as at a kink */
 static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
@@ -229,6 +229,7 @@ static slave_status judge(slave *s, const ali3_report *r) {
   slave_half_steps *t = &s->half_steps;
   const double n = (double)parts_of(t->h), order_2 = n * n / (n * n - 1.0);
   const double off = order_2 * t->apart, error = off / t->largest, h = t->h;
+  const bool met = error <= n * WRONG; /* by the step of the other motion, by order one */
   t->apart = 0.0;
   if (!(error > WRONG)) return SLAVE_OK;
   if (slave_event_told(r)) return slave_say_event(s, r);
@@ -237,8 +238,9 @@ static slave_status judge(slave *s, const ali3_report *r) {
       s, SLAVE_WARNING,
       "At %.4g s a tyre, a contact or a stop had changed a force too quickly for the step: made again with "
       "1/%.0f of it, forces are off by %s %.0f N, %.2g %% of the largest at communication points. Run again "
-      "with a step_size of %.2g s. This is said once.",
-      t->time, n, t->n_late > 0 ? "at least" : "about", off, 100.0 * error, h * fmin(0.5, SAFE * WRONG / error));
+      "with a step_size of %.2g s%s. This is said once.",
+      t->time, n, t->n_late > 0 ? "at least" : "about", off, 100.0 * error, met ? h / n : h * SAFE * WRONG / error,
+      met ? ", as was tried" : ", which was not tried");
 }
 
 /* What can be said by now, or when the run has `ended`. */
