@@ -10,7 +10,6 @@ import argparse
 import json
 import math
 from collections.abc import Sequence
-from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,12 +18,11 @@ from ali3.bars import bar as bar_of
 from ali3.cores import available_cores
 from ali3.files import check_writable, make_folder, write_text
 from ali3.isolated import Lost
-from ali3.shared_tasks import as_completed
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
+from hosts.experiment.pool import Pool
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
-from hosts.fmu.own_process import PATIENCE
 from hosts.fmu.settings import settings_of
 from hosts.soak.drive import Failure, Outcome, Task, drive
 from hosts.soak.grounds import IN_THE_FMU, jump_ground, world_ground
@@ -89,8 +87,8 @@ def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> Non
             outcomes[place].simulated = min(seconds, tasks[place].seconds)
             bar.update(min(int(sum(outcome.simulated for outcome in outcomes)), total) - bar.n)
 
-        with closing(as_completed(drive, Outcome, tasks, jobs, progress, PATIENCE)) as done:
-            for place, outcome in done:
+        with Pool(drive, Outcome, jobs) as pool:
+            for place, outcome in pool.results(tasks, progress):
                 if isinstance(outcome, Lost):
                     seconds, words = outcomes[place].simulated, f"The process of the drive {outcome.how}."
                     outcomes[place].failures.append(Failure("crash", words, -1, seconds, ""))

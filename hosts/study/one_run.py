@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ from hosts.fmu.fmu import Fmu
 from hosts.measures.measure import Measure
 from hosts.study.catalogue_tests import performed
 from hosts.study.job import Job
-from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Work
+from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
 
 if TYPE_CHECKING:
     from hosts.driving.driver import Driver
@@ -33,9 +33,6 @@ if TYPE_CHECKING:
 _MOST_NOTES = 3
 _MOST_MESSAGES = 5
 _LONGEST = 300  # characters of a message
-
-Task: TypeAlias = tuple[Job, Mapping[str, Value], int]
-"""A job, values of the parameters, and the seed."""
 
 
 def _quiet(done: float) -> None:
@@ -56,11 +53,13 @@ class Bench:
             fmu, self._fmu = self._fmu, None
             fmu.close()
 
-    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Outcome:
+    def __call__(self, run: Run, tell: Callable[[Any], None]) -> Outcome:
         """See `run`; as work for a process, which tells that it goes on unless the whole run has its time."""
-        if self._work.time_limit is None:
+        work = self._work
+        if work.time_limit is None:
             self._progress = tell
-        return self.run(*task)
+        point, number = divmod(run.index, len(work.jobs))
+        return self.run(work.jobs[number], run.values, seed_of(work.seed, point))
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         """Make a run; whatever goes wrong in it is its outcome. `seed`: for functions of the user's."""
