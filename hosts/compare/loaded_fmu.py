@@ -13,7 +13,6 @@ from hosts.common.numbers import Value
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
 from hosts.driving.co_simulation import run
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
 from hosts.fmu.aliased_fmu import AliasedFmu
@@ -94,6 +93,4 @@ class LoadedFmu:
         # A pilot has a memory: each run has its own.
         driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
         self._fmu.messages.clear()
-        result = run(fmu, manoeuvre, self._step, driver, progress)
-        derive_columns(result, self._aliases)
-        return result
+        return run(fmu, manoeuvre, self._step, driver, progress)

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
@@ -79,16 +78,12 @@ class Bench:
     def _drive(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         assert job.manoeuvre is not None
         fmu, work = self._fresh(), self._work
-        seen: SimulatedFmu = fmu
-        if work.aliases is not None:
-            seen = seen_through(fmu, work.aliases)
+        seen: SimulatedFmu = fmu if work.aliases is None else seen_through(fmu, work.aliases)
         manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
         driver: Driver | None = None
         if manoeuvre.driver:
             driver = driver_of(seen, manoeuvre)
         result = run(seen, manoeuvre, job.step, driver, self._progress)
-        if work.aliases is not None:
-            derive_columns(result, work.aliases)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
