@@ -2,41 +2,25 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from ali3.archives import LARGEST_ARCHIVE
-from ali3.reading import read_bytes
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, run_file
 from hosts.common.closing import Closing
-from hosts.common.errors import HostError
-from hosts.common.program import program_digest
 from hosts.driving.result import Result
 from hosts.experiment.journal import Journal
+from hosts.experiment.run_key import run_key
+from hosts.fmu.own_process import files_of
 
 
 def digest(task: Task) -> str:
-    """A hash of all that the outcome of a task depends on: the FMU, what is set, the test, and the program."""
+    """A hash of all that the outcome of a task depends on."""
     car = task.car
-    told = (task.test, repr(car.aliases), sorted(car.start.items()), car.step, sorted(task.settings.items()))
-    state = car.path.stat()
-    parts = (_file_hash(car.path, state.st_size, state.st_mtime_ns), _hash(repr(told).encode()))
-    return _hash(b"".join((*parts, _hash(program_digest().encode())))).hex()
-
-
-@cache
-def _file_hash(path: Path, size: int, changed: int) -> bytes:
-    """Once for all tests of an FMU; its size and the time of its last change, ns, tell another file of its name."""
-    return _hash(read_bytes(path, LARGEST_ARCHIVE, HostError))
-
-
-def _hash(content: bytes) -> bytes:
-    return hashlib.sha256(content).digest()
+    told = task.test, car.aliases, sorted(car.start.items()), car.step, sorted(task.settings.items())
+    return run_key(car.path, *told, files=files_of(car.start))
 
 
 class KeptTests(Closing):

@@ -9,7 +9,7 @@ from typing import Any
 from ali3.isolated import Lost
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.compare.loaded_fmu import LoadedFmu
+from hosts.compare.stretch_fmu import StretchFmu
 from hosts.compare.stretches import Stretch
 from hosts.driving.result import Result
 from hosts.experiment.pool import Pool
@@ -23,7 +23,7 @@ _Task = tuple[int, dict[str, Value], bool | None]
 class _Member:
     """What a process does: it drives the stretch of a number."""
 
-    def __init__(self, fmu: LoadedFmu, stretches: Sequence[Stretch]) -> None:
+    def __init__(self, fmu: StretchFmu, stretches: Sequence[Stretch]) -> None:
         self._fmu, self._stretches = fmu, list(stretches)
 
     def __call__(self, task: _Task, tell: Callable[[Any], None]) -> Result | str:
@@ -41,7 +41,7 @@ class Crew:
     def __init__(self, path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float, jobs: int) -> None:
         self._stretches = list(stretches)
         reads = [path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
-        member = _Member(LoadedFmu(path.absolute(), aliases, step), stretches)
+        member = _Member(StretchFmu(path.absolute(), aliases, step), stretches)
         self._pool: Pool[_Task, Result | str] = Pool(member, Result | str, min(jobs, len(stretches)), reads)
 
     def drive_first(self, can_reset: bool) -> Result:

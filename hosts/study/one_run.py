@@ -18,9 +18,7 @@ from hosts.driving.co_simulation import run
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
-from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliased_fmu import seen_through
-from hosts.fmu.fmu import Fmu
+from hosts.fmu.loaded_fmu import LoadedFmu
 from hosts.measures.measure import Measure
 from hosts.study.catalogue_tests import performed
 from hosts.study.job import Job
@@ -43,14 +41,12 @@ class Bench:
 
     def __init__(self, work: Work, path: Path) -> None:
         self._work, self._path = work, path
-        self._fmu: Fmu | None = None
+        self._fmu = LoadedFmu(path, work.aliases)
         self._progress: Callable[[float], None] = _quiet
 
     def close(self) -> None:
         """Free the instance."""
-        if self._fmu is not None:
-            fmu, self._fmu = self._fmu, None
-            fmu.close()
+        self._fmu.close()
 
     def __call__(self, run: Run, tell: Callable[[Any], None]) -> Outcome:
         """See `run`; as work for a process, which tells that it goes on unless the whole run has its time."""
@@ -77,13 +73,12 @@ class Bench:
 
     def _drive(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         assert job.manoeuvre is not None
-        fmu, work = self._fresh(), self._work
-        seen: SimulatedFmu = fmu if work.aliases is None else seen_through(fmu, work.aliases)
-        manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
+        fmu, work = self._fmu.fresh(), self._work
+        manoeuvre = started(with_names_of(job.manoeuvre, fmu.variables), values)
         driver: Driver | None = None
         if manoeuvre.driver:
-            driver = driver_of(seen, manoeuvre)
-        result = run(seen, manoeuvre, job.step, driver, self._progress)
+            driver = driver_of(fmu, manoeuvre)
+        result = run(fmu, manoeuvre, job.step, driver, self._progress)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
@@ -102,15 +97,6 @@ class Bench:
             outcome.units = {column(job, m): m.unit for m in record.measures}
         _take(outcome, [(name, m) for name, m in named if not self._work.columns or name in self._work.columns])
         return outcome
-
-    def _fresh(self) -> Fmu:
-        """An instance that is as new."""
-        if self._fmu is None:
-            self._fmu = Fmu(self._path)
-        else:
-            self._fmu.reset()
-            self._fmu.messages.clear()
-        return self._fmu
 
 
 def said(messages: Sequence[str]) -> tuple[str, ...]:
