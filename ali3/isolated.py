@@ -12,10 +12,11 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import IO, Any, Generic, TypeAlias, TypeVar
 
 from ali3.call_mark import last_call
@@ -59,7 +60,9 @@ class Lost:
 class _Process:
     """One process: what is started, and what is ended with it."""
 
-    def __init__(self, work: bytes, reads: Iterable[Path], writes: Iterable[Path]) -> None:
+    def __init__(
+        self, work: bytes, reads: Iterable[Path], writes: Iterable[Path], environment: Mapping[str, str]
+    ) -> None:
         self._held = ExitStack()
         self.folder = self._held.enter_context(temporary_folder())
         self.flooded, self._lock = False, threading.Lock()
@@ -74,11 +77,12 @@ class _Process:
             self.store = Path(f"/proc/self/fd/{self._memory}")
         passed = (life, self._memory) if life >= 0 else ()
         command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
-        environment = os.environ | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
+        told = {**os.environ, **environment}
+        environment = told | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
         self._confined = is_confined()
         if self._confined:
             command = confined(command, reads, (*writes, self.folder))
-            environment = confined_environment(dict(os.environ), self.folder)
+            environment = confined_environment(told, self.folder)
         try:
             self.process = subprocess.Popen(
                 command,
@@ -191,7 +195,8 @@ class Isolated(Generic[T, R]):
     `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
     module, not of the file that is run as a program. `answer`, `told`: types of the result and of what is given to
     ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute. `reads`: files of
-    the user that it may read where processes are confined, `writes`: that it may write too.
+    the user that it may read where processes are confined, `writes`: that it may write too; `environment`: variables
+    that it has beside those of this process.
     """
 
     def __init__(
@@ -201,8 +206,9 @@ class Isolated(Generic[T, R]):
         told: Any = float,
         reads: Iterable[Path] = (),
         writes: Iterable[Path] = (),
+        environment: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
-        self._work = work
+        self._work, self._environment = work, environment
         self._reads, self._writes = [file.absolute() for file in reads], list(writes)
         self._types = {DONE: answer, TOLD: told, ERROR: tuple[str, int], READY: int}
         self._process: _Process | None = None
@@ -306,7 +312,7 @@ class Isolated(Generic[T, R]):
         with self._lock:
             if self._process is not None:
                 return self._process, False
-            self._process = process = _Process(work, self._reads, self._writes)
+            self._process = process = _Process(work, self._reads, self._writes, self._environment)
             if self._closed:
                 process.kill()
         return process, True

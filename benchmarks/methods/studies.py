@@ -10,6 +10,7 @@ import time
 from argparse import Namespace
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -73,7 +74,7 @@ OPTIONS = {
     "fmu": ("dist/PrototypeCar.fmu", "of the car"),
     "runs": (200, "of the car"),
     "seconds": (0.1, "of a run of the car, s"),
-    "workers": ((1, 2), "of the local cluster"),
+    "workers": ((1, 2), "of the cluster"),
     "sizes": ((500, 2000), "runs of a small FMU"),
     "rows": (100_000, "of the plan and the writer alone"),
     "tasks": (2000, "that are empty"),
@@ -130,11 +131,23 @@ def loop(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row
         bench.close()
 
 
+@contextmanager
+def _cluster(workers: int) -> Iterator[str]:
+    """Address of a scheduler with workers on this machine, one process each."""
+    from distributed import LocalCluster
+
+    with LocalCluster(
+        n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", silence_logs=50
+    ) as cluster:
+        yield cluster.scheduler_address
+
+
 def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
-    """A study on a local cluster, without its start: time beside the runs, memory, disk."""
+    """A study on a cluster of Dask, without its start: time beside the runs, memory, disk."""
     from hosts.study.cluster import bring, connected
-    from hosts.study.execution import Execution
-    from hosts.study.parts import PartWriter, part_files
+    from hosts.study.cluster_runs import ClusterRuns
+    from hosts.study.outcome_store import OutcomeStore
+    from hosts.study.parts import part_files
     from hosts.study.store import read_study
 
     plan = plan_of(case, fmu, runs, stop_time, folder)
@@ -143,20 +156,24 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     begin_study(folder, plan.record, b"", plan.fmu)
     me, chunks, memory = psutil.Process(), [0], [0.0]
 
-    def came(*_: object) -> None:
-        memory.append(me.memory_info().rss)
-
     def counted(missing: Iterator[list[int]]) -> Iterator[list[int]]:
         for chunk in missing:
             chunks[0] += 1
             yield chunk
 
-    with connected(None, workers) as client:
+    with (
+        _cluster(workers) as address,
+        connected(address) as client,
+        OutcomeStore(folder, plan.record, plan) as store,
+    ):
         bring(client, plan)
         size = ChunkSize(trial.seconds, workers)
-        execution = Execution(client, plan, size, PartWriter(folder, plan.record), None, came)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
-        execution.run(counted(missing_runs(np.zeros(plan.runs, np.bool_), size)))
+        missing = counted(missing_runs(np.zeros(plan.runs, np.bool_), size))
+        for run, outcome in ClusterRuns(client, plan, size).outcomes(missing):
+            store.add(run, outcome)
+            memory.append(me.memory_info().rss)
+        store.flush()
         elapsed, processor = time.perf_counter() - started, sum(me.cpu_times()[:2]) - processor
         of_worker = max(p.memory_info().rss for p in me.children(recursive=True))
     frame = read_study(folder)
@@ -229,7 +246,8 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
             for k in indices
         ]
         begin = time.perf_counter()
-        writer.add(plan.chunk(indices), made)
+        for run, outcome in zip(plan.runs_at(indices), made, strict=True):
+            writer.add(run, outcome)
         if len(writer) >= part:
             writer.flush()
         spent += time.perf_counter() - begin
@@ -254,7 +272,7 @@ def empty_tasks(tasks: int, workers: int) -> Row:
     """Tasks that do nothing, to see what Dask itself takes."""
     from hosts.study.cluster import connected
 
-    with connected(None, workers) as client:
+    with _cluster(workers) as address, connected(address) as client:
         client.gather(client.map(_nothing, range(100), pure=False))
         me = psutil.Process()
         begin, processor = time.perf_counter(), sum(me.cpu_times()[:2])

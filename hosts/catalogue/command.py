@@ -22,6 +22,8 @@ from hosts.fmu.fmu_file import fmu_file
 
 if TYPE_CHECKING:
     from hosts.catalogue.car import TestedCar
+    from hosts.catalogue.kept import KeptTests
+    from hosts.catalogue.limits import GivenLimits
     from hosts.catalogue.record import StandardTest
     from hosts.catalogue.task import Outcome, Task
 
@@ -89,13 +91,12 @@ def _list() -> int:
 
 def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from ali3.files import check_writable
+    from ali3.locks import locked
     from hosts.catalogue.cars import cars_of
-    from hosts.catalogue.kept import kept
+    from hosts.catalogue.kept import KeptTests
     from hosts.catalogue.limits import GivenLimits
-    from hosts.catalogue.output import print_measures, write_measures
-    from hosts.catalogue.perform import missing_for, settings_of_test
+    from hosts.catalogue.perform import settings_of_test
     from hosts.catalogue.registry import TESTS, standard_test
-    from hosts.catalogue.task import Task
     from hosts.measures.limits import read_limits
 
     if not options.fmus:
@@ -113,6 +114,26 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     fmus = [fmu_file(path).absolute() for path in options.fmus]
     cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
+    busy = f"Another program does tests in {options.out}; wait for it, or give another --out."
+    with locked(options.out, busy), KeptTests(options.out) as kept:
+        return _do(options, command, tests, cars, settings, limits, kept)
+
+
+def _do(
+    options: argparse.Namespace,
+    command: Sequence[str],
+    tests: Sequence[StandardTest],
+    cars: Sequence[TestedCar],
+    settings: Mapping[str, Mapping[str, float]],
+    limits: GivenLimits,
+    kept: KeptTests,
+) -> int:
+    """Do the tests that are not kept, and write what is there after each."""
+    from hosts.catalogue.output import print_measures, write_measures
+    from hosts.catalogue.perform import missing_for
+    from hosts.catalogue.report import write_report
+    from hosts.catalogue.task import Task
+
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
     tasks = []
     for test in tests:
@@ -123,7 +144,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
             else:
                 folder = None if options.no_runs else options.out.absolute()
                 task = Task(test.name, car, settings[test.name], folder)
-                before = None if options.again else kept(task, options.out)
+                before = None if options.again else kept.find(task)
                 outcomes[test.name][car.label] = _PENDING if before is None else before
                 tasks += [task] if before is None else []
     there = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
@@ -132,13 +153,14 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     try:
-        with closing(_done(tasks, options.jobs or available_cores(), outcomes, options.out)) as done:
+        with closing(_done(tasks, options.jobs or available_cores(), outcomes, kept)) as done:
             for _ in done:
                 write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     finally:  # after Ctrl-C too, of what is there
         judged, faults = limits.judged(outcomes)
         print_measures(tests, cars, judged)
-        files += _report(options.out / "report.html", tests, cars, judged, settings, command)
+        write_report(options.out / "report.html", tests, cars, judged, settings, command)
+        files.append(options.out / "report.html")
         runs = "" if options.no_runs or not tasks else f", tables of the runs in {options.out / 'runs'}"
         print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
         pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
@@ -163,50 +185,39 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
     return settings
 
 
-def _done(tasks: Sequence[Task], jobs: int, outcomes: dict[str, dict[str, Outcome]], out: Path) -> Generator[None]:
+def _done(
+    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: KeptTests
+) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
     from ali3.bars import bar as bar_of
     from ali3.isolated import Lost
-    from ali3.shared_tasks import as_completed
-    from hosts.catalogue.kept import keep
     from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do, write_runs
-    from hosts.fmu.own_process import PATIENCE, files_of
+    from hosts.experiment.pool import Pool
+    from hosts.fmu.own_process import files_of
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
-    with bar_of(total=float(len(tasks)), bar_format=form, desc="catalogue") as bar:
+    reads = [file for task in tasks for file in (task.car.path, *files_of(task.car.start))]
+    with (
+        bar_of(total=float(len(tasks)), bar_format=form, desc="catalogue") as bar,
+        Pool(do, TestRecord | Reason, jobs, reads) as pool,
+    ):
 
         def progress(place: int, part: float) -> None:
             parts[place] = max(part, parts[place])
             bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
             bar.update(sum(parts) - bar.n)
 
-        reads = [file for task in tasks for file in (task.car.path, *files_of(task.car.start))]
-        with closing(as_completed(do, TestRecord | Reason, tasks, jobs, progress, PATIENCE, reads)) as done:
-            for place, outcome in done:
-                progress(place, 1.0)
-                words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
-                outcomes[tasks[place].test][tasks[place].car.label] = words
-                if not isinstance(words, str):
-                    write_runs(tasks[place], words)
-                    keep(tasks[place], words, out)
-                yield
-
-
-def _report(
-    file: Path,
-    tests: Sequence[StandardTest],
-    cars: Sequence[TestedCar],
-    outcomes: Mapping[str, Mapping[str, Outcome]],
-    settings: Mapping[str, Mapping[str, float]],
-    command: Sequence[str],
-) -> list[Path]:
-    from hosts.catalogue.report import write_report
-
-    write_report(file, tests, cars, outcomes, settings, command)
-    return [file]
+        for place, outcome in pool.results(tasks, progress):
+            progress(place, 1.0)
+            words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
+            outcomes[tasks[place].test][tasks[place].car.label] = words
+            if not isinstance(words, str):
+                write_runs(tasks[place], words)
+                kept.add(tasks[place], words)
+            yield
 
 
 def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str]) -> int:

@@ -39,14 +39,12 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
 def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
     """Why a test cannot be done with a car, from what its FMU tells; None if it can.
 
-    An entry ``a | b`` of what the test needs is there if one of its names is. A test whose needs depend on its settings
-    has a method ``why_not(car, settings)`` that gives a sentence or None.
+    An entry ``a | b`` of what the test needs is there if one of its names is.
     """
     there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
     missing = [need for need in test.needs if not there & set(_names(need))]
     if not missing:
-        why_not = getattr(test, "why_not", None)
-        return None if why_not is None else why_not(car, settings)
+        return test.why_not(car, settings)
     words = " and no ".join(" or ".join(_names(need)) for need in missing)
     told = [car.aliases.why_missing(name) for need in missing for name in _names(need)]
     hint = "where it has another name, an alias file says which (--aliases)."

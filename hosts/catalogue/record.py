@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +52,14 @@ class Setting:
 
 
 @dataclass(frozen=True)
+class MeasureText:
+    """What a measure of a test is."""
+
+    unit: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Line:
     """Points that are joined in a plot; of length n both, NaN where there is none."""
 
@@ -91,21 +99,31 @@ class TestRecord:
     """Sentences: what was not as asked, with a number and a remedy."""
 
 
-class StandardTest(Protocol):
+Perform: TypeAlias = "Callable[[TestedCar, Mapping[str, float], Callable[[float], None]], TestRecord]"
+WhyNot: TypeAlias = "Callable[[TestedCar, Mapping[str, float]], str | None]"
+
+
+def always(car: TestedCar, settings: Mapping[str, float]) -> None:
+    """There is nothing against it."""
+
+
+@dataclass(frozen=True)
+class StandardTest:
     """A test of the catalogue."""
+
+    __test__ = False  # no test of pytest's
 
     name: str
     """Of the command, such as ``step_steer``."""
     title: str
-    standards: tuple[Standard, ...]
-    settings: tuple[Setting, ...]
-    needs: tuple[str, ...]
+    perform: Perform
+    """``perform(car, settings, progress)`` does the test with all of `settings`; `progress` is called with the part
+    that is done, 0 to 1. It raises `HostError` if the car cannot do it, with what is missing."""
+    standards: tuple[Standard, ...] = ()
+    settings: tuple[Setting, ...] = ()
+    needs: tuple[str, ...] = ()
     """Variables by our names without which the test cannot be done."""
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        """Do the test.
-
-        `settings`: every one of `settings`; `progress`: called with the part that is done, 0 to 1. Raises `HostError`
-        if the car cannot do it, with what is missing.
-        """
-        ...
+    measures: Mapping[str, MeasureText] = field(default_factory=dict)
+    """Of those that its file describes, by their names."""
+    why_not: WhyNot = always
+    """``why_not(car, settings)`` gives a sentence where the settings do not fit each other or the car, else None."""

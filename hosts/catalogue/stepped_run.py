@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from hosts.catalogue.record import MeasureText
 from hosts.catalogue.steered_run import SteeredRun
 from hosts.catalogue.two_sides import asymmetry, mean_of_sides
 from hosts.measures.measure import Measure
@@ -56,89 +57,51 @@ def stepped(run: SteeredRun, steady: tuple[float, float]) -> SteppedRun:
     return SteppedRun(run, angle, rise, yaw_rate, acceleration, roll, slip)
 
 
-def measures_of_step(level: str, wanted: float, left: SteppedRun, right: SteppedRun, angle_unit: str) -> list[Measure]:
+VALUES: Mapping[str, Callable[[SteppedRun], float]] = {
+    "steering_wheel_angle": lambda s: abs(s.angle),
+    "lateral_acceleration.steady": lambda s: _sign(s) * s.acceleration.steady,
+    "yaw_rate.gain": lambda s: s.yaw_rate.steady / s.angle,
+    "yaw_rate.response_time": lambda s: s.yaw_rate.response_time,
+    "yaw_rate.peak_response_time": lambda s: s.yaw_rate.peak_response_time,
+    "yaw_rate.overshoot": lambda s: s.yaw_rate.overshoot,
+    "lateral_acceleration.gain": lambda s: s.acceleration.steady / s.angle,
+    "lateral_acceleration.response_time": lambda s: s.acceleration.response_time,
+    "lateral_acceleration.overshoot": lambda s: s.acceleration.overshoot,
+    "sideslip.steady": lambda s: _sign(s) * s.sideslip,
+    "tb_factor": lambda s: s.yaw_rate.peak_response_time * abs(s.sideslip),
+    "roll.gradient": lambda s: s.roll.steady / s.acceleration.steady,
+    "roll.overshoot": lambda s: s.roll.overshoot,
+}
+"""What `step_steer.toml` describes, of one side."""
+_OF_PEAK = ("yaw_rate.peak_response_time", "tb_factor")
+_OF_INPUT = {"steering_wheel_angle": "1", "yaw_rate.gain": "rad/s", "lateral_acceleration.gain": "m/s2"}
+"""Units where the steering is no angle."""
+
+
+def _sign(s: SteppedRun) -> float:
+    return math.copysign(1.0, s.angle)
+
+
+def measures_of_step(
+    about: Mapping[str, MeasureText], level: str, wanted: float, left: SteppedRun, right: SteppedRun, is_angle: bool
+) -> list[Measure]:
     """Measures of the runs to both sides, as means.
 
-    `level`: first part of their names; `wanted`: steady lateral acceleration, m/s²; `angle_unit`: of the steering
-    wheel: ``rad``, or ``1`` where angles are not known.
+    `about`: what they are; `level`: first part of their names; `wanted`: steady lateral acceleration, m/s²; `is_angle`:
+    whether angles of the steering wheel are known.
     """
-    a = f" at {wanted:g} m/s²"
-    no_peak = "The yaw rate does not overshoot: it has no peak response time."
-
     peaks = not all(s.yaw_rate.overshoot == 0.0 for s in (left, right))
-
-    def made(name: str, value: Callable[[SteppedRun], float], unit: str, text: str, why: str = "") -> Measure:
-        exists = peaks or why != no_peak
-        return mean_of_sides(f"{level}.{name}", value(left), value(right), unit, text + a, why=why, exists=exists)
-
-    def sign(s: SteppedRun) -> float:
-        return math.copysign(1.0, s.angle)
-
-    per = {"rad": ("1/s", "m/(s2.rad)"), "1": ("rad/s", "m/s2")}[angle_unit]
-    return [
-        made("steering_wheel_angle", lambda s: abs(s.angle), angle_unit, "step of the steering wheel"),
-        made(
-            "lateral_acceleration.steady",
-            lambda s: sign(s) * s.acceleration.steady,
-            "m/s2",
-            "steady lateral acceleration, as it came out",
-        ),
-        made("yaw_rate.gain", lambda s: s.yaw_rate.steady / s.angle, per[0], "steady yaw rate over steering angle"),
-        made(
-            "yaw_rate.response_time",
-            lambda s: s.yaw_rate.response_time,
-            "s",
-            "time from 50 % of steering to 90 % of the yaw rate",
-        ),
-        made(
-            "yaw_rate.peak_response_time",
-            lambda s: s.yaw_rate.peak_response_time,
-            "s",
-            "time from 50 % of steering to the peak of the yaw rate",
-            no_peak,
-        ),
-        made(
-            "yaw_rate.overshoot", lambda s: s.yaw_rate.overshoot, "1", "overshoot of the yaw rate over its steady value"
-        ),
-        made(
-            "lateral_acceleration.gain",
-            lambda s: s.acceleration.steady / s.angle,
-            per[1],
-            "steady lateral acceleration over steering angle",
-        ),
-        made(
-            "lateral_acceleration.response_time",
-            lambda s: s.acceleration.response_time,
-            "s",
-            "time from 50 % of steering to 90 % of the lateral acceleration",
-        ),
-        made(
-            "lateral_acceleration.overshoot",
-            lambda s: s.acceleration.overshoot,
-            "1",
-            "overshoot of the lateral acceleration over its steady value",
-        ),
-        made("sideslip.steady", lambda s: sign(s) * s.sideslip, "rad", "steady sideslip angle, in a turn to the left"),
-        made(
-            "tb_factor",
-            lambda s: s.yaw_rate.peak_response_time * abs(s.sideslip),
-            "rad.s",
-            "TB: peak response time of the yaw rate times steady sideslip angle",
-            no_peak,
-        ),
-        made(
-            "roll.gradient",
-            lambda s: s.roll.steady / s.acceleration.steady,
-            "rad.s2/m",
-            "roll angle over lateral acceleration",
-        ),
-        made("roll.overshoot", lambda s: s.roll.overshoot, "1", "overshoot of the roll angle over its steady value"),
-        asymmetry(
-            f"{level}.asymmetry",
-            [(left.yaw_rate.steady / left.angle, right.yaw_rate.steady / right.angle)],
-            "difference of the yaw rate gain left and right over their mean" + a,
-        ),
-    ]
+    at = f" at {wanted:g} m/s²"
+    made = []
+    for name, value in VALUES.items():
+        unit = about[name].unit if is_angle else _OF_INPUT.get(name, about[name].unit)
+        why = "The yaw rate does not overshoot: it has no peak response time." if name in _OF_PEAK else ""
+        exists = peaks or name not in _OF_PEAK
+        sides = value(left), value(right)
+        made.append(mean_of_sides(f"{level}.{name}", *sides, unit, about[name].text + at, why, exists))
+    gains = VALUES["yaw_rate.gain"](left), VALUES["yaw_rate.gain"](right)
+    words = f"difference of the yaw rate gain left and right over their mean{at}"
+    return [*made, asymmetry(f"{level}.asymmetry", [gains], words)]
 
 
 def remarks(wanted: float, left: SteppedRun, right: SteppedRun) -> list[str]:

@@ -36,7 +36,7 @@ _STEPS = 50
 _TIME_LIMIT = 20.0  # s for a check
 _OF_CHECK = ("steps", "time_limit")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
-_OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "out", "json")
+_OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "again", "out", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
 _OF_BOTH = ("fidelity", "step")
 
@@ -102,6 +102,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(soak, "--step", "0.002; with --reference that of the FMU, or what divides its times")
     add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
     add_option(soak, "--jobs", "as there are cores that it may use")
+    add_option(soak, "--again", "drives that are done already in the folder are kept")
     add_option(soak, "--out", "out/soak")
     add_option(soak, "--json")
     return parser

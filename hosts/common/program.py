@@ -15,11 +15,12 @@ _PACKAGES = ("ali3", "distributed", "fmpy", "numpy", "pandas", "pyarrow", "scipy
 
 @cache
 def program_digest() -> str:
-    """A hash of the sources of the hosts and of what they share."""
+    """A hash of the sources of the hosts and of what they share, and of the files that these read."""
     root = Path(ali3.__file__).parents[1]
     digest = hashlib.sha256()
     for package in ("ali3", "hosts"):
-        for file in sorted((root / package).rglob("*.py")):
+        files = [file for kind in ("*.py", "*.toml") for file in (root / package).rglob(kind)]
+        for file in sorted(files):
             digest.update(file.relative_to(root).as_posix().encode() + b"\n" + file.read_bytes())
     return digest.hexdigest()
 

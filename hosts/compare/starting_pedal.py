@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from hosts.compare.loaded_fmu import LoadedFmu
 from hosts.compare.log import Signal
+from hosts.compare.stretch_fmu import StretchFmu
 from hosts.compare.stretches import Stretch
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.own_process import in_own_process
@@ -31,7 +31,7 @@ def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], 
 
 def _pedals_of(task: tuple[Path, Aliases, list[Stretch], float], tell: Callable[[float], None]) -> list[float | None]:
     path, aliases, stretches, step = task
-    fmu = LoadedFmu(path, aliases, step)
+    fmu = StretchFmu(path, aliases, step)
     try:
         return [None if s.speed is None else _pedal(fmu, step, s, s.speed) for s in stretches]
     finally:
@@ -47,7 +47,7 @@ def _pedals(pedal: float) -> dict[str, float]:
     return {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)}
 
 
-def _pedal(fmu: LoadedFmu, step: float, stretch: Stretch, speed: Signal) -> float:
+def _pedal(fmu: StretchFmu, step: float, stretch: Stretch, speed: Signal) -> float:
     manoeuvre = replace(stretch.manoeuvre, stop_time=max(step, min(_AHEAD, stretch.end)))
     short = Stretch(manoeuvre)
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
+from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_inputs import missed_end, missed_inputs
 from hosts.driving.pilots.pilot import Pilot, refuse_missing
@@ -107,7 +108,7 @@ def run(
     Returns
     -------
     Result
-        Up to the first refused step.
+        Up to the first refused step. Its derived columns have the rates of both sides, unless `kept` has the rows.
     """
     manoeuvre = with_names_of(manoeuvre, fmu.variables)
     check_columns(fmu, manoeuvre)
@@ -176,7 +177,7 @@ def run(
     progress(rows.done)
     recorded, table = rows.close(last)
     names = inputs + outputs
-    return Result(
+    result = Result(
         names,
         {n: fmu.variables[n].unit or "1" for n in names},
         step * np.array(recorded, dtype=np.float64),
@@ -192,6 +193,9 @@ def run(
         missed=[told for told in (manoeuvre.late_begin(acts), lost, end) if told is not None],
         start=dict(manoeuvre.start),
     )
+    if kept is None:
+        derive_columns(result, fmu, every > 1)
+    return result
 
 
 def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> NDArray[np.float64]:

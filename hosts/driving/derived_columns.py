@@ -8,16 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.driving.result import Result
+from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.derivation import Derivation
 
 
-def derive_columns(result: Result, aliases: Aliases, thinned: bool = False) -> None:
+def derive_columns(result: Result, fmu: SimulatedFmu, thinned: bool = False) -> None:
     """Compute the derived columns of a run again, from the inputs that ended each step; its values change.
 
-    `result`: under our names; `aliases`: by which the FMU was driven; `thinned`: whether steps are left out; then rates
-    of the run are better, and only those that are NaN are written.
+    `thinned`: whether steps are left out; then rates of the run are better, and only those that are NaN are written.
     """
+    aliases = fmu.aliases or Aliases()
     derived = [result.names.index(d.ours) for d in aliases.derived if d.ours in result.names]
     if not derived:
         return

@@ -16,6 +16,7 @@ from ali3.isolated import Isolated, Lost
 from ali3.processes import store
 from hosts.common.errors import FailedFmuError
 from hosts.driving.co_simulation import columns_of, run
+from hosts.driving.derived_columns import derive_columns
 from hosts.driving.ground_marks import marked
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
@@ -74,6 +75,7 @@ def run_with_bar(
             bar.update(steps - bar.n if not done.failed_steps else 0)
     if process.left:
         done.messages.append(f"{process.left} processes that it had started were ended with it.")
+    derive_columns(done, fmu, every > 1)
     return marked(done, driver)
 
 

@@ -122,8 +122,6 @@ def _run(options: argparse.Namespace) -> int:
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
-        if other is not None:
-            other.derive(result, every)
     of_course: Sequence[tuple[str, str]] = ()
     gates: NDArray[np.float64] | None = None
     if driver is not None:

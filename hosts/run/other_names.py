@@ -6,10 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from hosts.common.options import Wishes
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.aliases.of_file import aliases_of
@@ -33,7 +31,3 @@ class OtherNames:
         """See `hosts.driving.manoeuvre_settings.set_in`; wishes and settings are in the FMU's names and units."""
         theirs, settings = set_in(self._own, manoeuvre, wishes, fidelity, self._aliases.values)
         return replace(theirs, start=self._aliases.own_values(theirs.start)), settings
-
-    def derive(self, result: Result, every: int) -> None:
-        """Computed columns of a result with a row every so many steps, with rates of both sides."""
-        derive_columns(result, self._aliases, every > 1)

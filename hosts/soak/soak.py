@@ -10,7 +10,6 @@ import argparse
 import json
 import math
 from collections.abc import Sequence
-from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,12 +18,15 @@ from ali3.bars import bar as bar_of
 from ali3.cores import available_cores
 from ali3.files import check_writable, make_folder, write_text
 from ali3.isolated import Lost
-from ali3.shared_tasks import as_completed
+from ali3.locks import locked
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
+from hosts.experiment.journal import Journal
+from hosts.experiment.pool import Pool
+from hosts.experiment.run_key import run_key
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
-from hosts.fmu.own_process import PATIENCE
+from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import settings_of
 from hosts.soak.drive import Failure, Outcome, Task, drive
 from hosts.soak.grounds import IN_THE_FMU, jump_ground, world_ground
@@ -67,9 +69,35 @@ def soak(options: argparse.Namespace, prog: str) -> int:
         for k in range(options.drives or SEEDS * len(fidelities))
         for fidelity in (fidelities[k % len(fidelities)],)
     ]
-    outcomes = [Outcome(task.seed, task.fidelity) for task in tasks]
+    busy = f"Another program drives in {out}; wait for it, or give another --out."
+    with locked(out, busy), Journal[Outcome](out / "done", Outcome) as journal:
+        kept = journal.read()
+        if options.again:
+            journal.clear()
+        before = [None if options.again else kept.get(_key(task)) for task in tasks]
+        outcomes = [made or Outcome(task.seed, task.fidelity) for task, made in zip(tasks, before, strict=True)]
+        left = [place for place, outcome in enumerate(before) if outcome is None]
+        if len(left) < len(tasks):
+            print(f"{len(tasks) - len(left)} of {len(tasks)} drives are there; --again makes them again.", flush=True)
+        return _drive(options, prog, tasks, outcomes, left, journal)
+
+
+def _key(task: Task) -> str:
+    roads = [Path(ground["road"]) for ground in task.grounds]
+    return run_key(Path(task.fmu), task, files=[*files_of(task.start), *roads])
+
+
+def _drive(
+    options: argparse.Namespace,
+    prog: str,
+    tasks: Sequence[Task],
+    outcomes: list[Outcome],
+    left: Sequence[int],
+    journal: Journal[Outcome],
+) -> int:
+    """Make the drives that are left, and tell of all; the exit code."""
     try:
-        _drive_all(tasks, outcomes, options.jobs or available_cores())
+        _drive_all(tasks, outcomes, left, options.jobs or available_cores(), journal)
     finally:  # after Ctrl-C too, of what is done
         print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
         if options.json is not None:
@@ -79,24 +107,33 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     return 0 if all(map(is_good, outcomes)) else 1
 
 
-def _drive_all(tasks: Sequence[Task], outcomes: list[Outcome], jobs: int) -> None:
-    """Drive all tasks under a progress bar, each in a process; of one that is not done its outcome has the seconds."""
+def _drive_all(
+    tasks: Sequence[Task], outcomes: list[Outcome], left: Sequence[int], jobs: int, journal: Journal[Outcome]
+) -> None:
+    """Make drives under a progress bar, each in a process; of one that is not done its outcome has the seconds.
+
+    `left`: places of those that are made; each outcome is kept as soon as it is there.
+    """
     form = "{desc}: {percentage:3.0f} % {bar} {n_fmt} of {total_fmt} s, {elapsed} so far, {remaining} to go"
     total = math.ceil(sum(task.seconds for task in tasks))
     with bar_of(total=total, desc="soak", bar_format=form, delay=0.0) as bar:
 
-        def progress(place: int, seconds: float) -> None:
+        def progress(number: int, seconds: float) -> None:
+            place = left[number]
             outcomes[place].simulated = min(seconds, tasks[place].seconds)
             bar.update(min(int(sum(outcome.simulated for outcome in outcomes)), total) - bar.n)
 
-        with closing(as_completed(drive, Outcome, tasks, jobs, progress, PATIENCE)) as done:
-            for place, outcome in done:
+        with Pool(drive, Outcome, jobs) as pool:
+            for number, outcome in pool.results([tasks[place] for place in left], progress):
+                place = left[number]
                 if isinstance(outcome, Lost):
                     seconds, words = outcomes[place].simulated, f"The process of the drive {outcome.how}."
                     outcomes[place].failures.append(Failure("crash", words, -1, seconds, ""))
                 else:
                     outcomes[place] = outcome
-                progress(place, outcomes[place].simulated)
+                progress(number, outcomes[place].simulated)
+                if not isinstance(outcome, Lost):
+                    journal.add(_key(tasks[place]), outcome)
 
 
 def _fidelities(fmu: Fmu, asked: Sequence[int]) -> list[int | None]:

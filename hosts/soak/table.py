@@ -71,7 +71,7 @@ def _print_failures(task: Task, outcome: Outcome, prog: str, worlds: Sequence[st
             words = [task.fmu, "-m", failure.manoeuvre, "--step", repr(task.step)]
             print(f"  the last seconds again: {command_name('run')} {shlex.join(words)}")
     if outcome.failures or outcome.memory_growth > LARGEST_GROWTH:
-        words = [task.fmu, "--seed", str(task.seed), "--stop-time", repr(task.seconds), "--drives", "1"]
+        words = [task.fmu, "--seed", str(task.seed), "--stop-time", repr(task.seconds), "--drives", "1", "--again"]
         words += [] if outcome.fidelity is None else ["--fidelity", str(outcome.fidelity)]
         words += ["--step", repr(task.step), *(part for name in worlds for part in ("--world", name))]
         print(f"  the whole drive again: {prog} {shlex.join([*words, *set_words(task.start)])}")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import sys
 import time as clock
-from collections.abc import Mapping
-from contextlib import nullcontext
+from collections.abc import Generator, Mapping
+from contextlib import closing, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,19 +19,18 @@ from ali3.cores import available_cores
 from ali3.errors import FileError
 from ali3.locks import locked
 from ali3.reading import is_file, is_folder
-from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
-from hosts.study.parts import PartWriter, forget_rows, part_files, runs_done
+from hosts.study.isolated import RunProcesses
+from hosts.study.missing import ChunkSize, missing_runs
+from hosts.study.outcome_store import OutcomeStore
+from hosts.study.parts import forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
 from hosts.study.record import read_record
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
-from hosts.study.work import FAILED
-
-if TYPE_CHECKING:
-    from hosts.study.signals import SignalWriter
+from hosts.study.work import FAILED, Outcome, Run
 
 _MARGIN = 50e6  # bytes of the disk that are left to others
 _CHUNK_BYTES = 20e6  # of signals that come from a worker at once
@@ -187,17 +186,24 @@ def _run(
 
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
-    if again:
-        failed = forget_rows(folder, record, lambda table: [status != FAILED for status in table["status"].to_pylist()])
-        print(f"{failed} failed runs are made again")
-    done = runs_done(folder, record)
-    before = int(np.count_nonzero(done))
-    if before:
-        print(f"{before} of {plan.runs} runs are there", flush=True)
-        _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
-    if before == plan.runs:
-        return Ended(folder, True, 0)
-    return _make(plan, trial, folder, record, done, scheduler, workers)
+    with OutcomeStore(folder, record, plan) as store:
+        store.recover()
+        if again:
+            failed = forget_rows(folder, record, _has_not_failed)
+            print(f"{failed} failed runs are made again")
+        done = runs_done(folder, record)
+        before = int(np.count_nonzero(done))
+        if before:
+            print(f"{before} of {plan.runs} runs are there", flush=True)
+            _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
+        if before == plan.runs:
+            return Ended(folder, True, 0)
+        progress = StudyProgress(plan.runs, before)
+        return _make(folder, record, store, progress, _outcomes(plan, trial, done, scheduler, workers), scheduler)
+
+
+def _has_not_failed(table: Any) -> list[bool]:
+    return [status != FAILED for status in table["status"].to_pylist()]
 
 
 def _check_space(needed: float, folder: Path) -> None:
@@ -210,44 +216,26 @@ def _check_space(needed: float, folder: Path) -> None:
 
 
 def _make(
-    plan: Plan,
-    trial: Trial,
     folder: Path,
     record: dict[str, Any],
-    done: NDArray[np.bool_],
+    store: OutcomeStore,
+    progress: StudyProgress,
+    outcomes: Generator[tuple[Run, Outcome]],
     scheduler: str | None,
-    workers: int | None,
 ) -> Ended:
-    from hosts.study.cluster import bring, connected, take_away
-    from hosts.study.execution import Execution
-    from hosts.study.missing import ChunkSize, missing_runs
-
-    signals: SignalWriter | None = None
-    if plan.work.signals:
-        from hosts.study.signals import SignalWriter, make_store
-
-        for job in plan.work.jobs:
-            if job.manoeuvre is not None:
-                make_store(folder, job, record)
-        signals = SignalWriter(folder, plan.work.jobs, plan.work.signals)
-    before, begin = int(np.count_nonzero(done)), clock.monotonic()
-    bytes_a_run = max(8 * job.samples * len(plan.work.signals) for job in plan.work.jobs) + 1
-    lost: Exception | None = None
-    progress = StudyProgress(plan.runs, before)
+    begin, lost = clock.monotonic(), False
     try:
-        with progress, connected(scheduler, workers) as client:
-            bring(client, plan)
-            size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
-            execution = Execution(client, plan, size, PartWriter(folder, record), signals, progress)
+        with progress, closing(outcomes):
             try:
-                execution.run(missing_runs(done, size))
+                for run, outcome in outcomes:
+                    store.add(run, outcome)
+                    progress(outcome)
             except FileError:
                 raise
             except BaseException:
-                execution.keep()
+                store.flush()
                 raise
-            if scheduler is not None:
-                take_away(client, plan)
+        store.flush()
     except KeyboardInterrupt:
         print(_kept(folder, record), file=sys.stderr)
         raise
@@ -255,11 +243,13 @@ def _make(
         raise FileError(f"{error} {_kept(folder, record)}") from None
     except HostError:
         raise
-    except Exception as error:  # of processes that were killed Dask raises many kinds
-        lost = error
+    except Exception:  # of processes that were killed Dask raises many kinds
+        if scheduler is None:
+            raise
+        lost = True
     seconds = clock.monotonic() - begin
-    if lost is not None and not runs_done(folder, record).all():
-        print(f"{_gone(scheduler, lost)} {_kept(folder, record)}", file=sys.stderr)
+    if lost and not runs_done(folder, record).all():
+        print(f"The scheduler at {scheduler} has gone. {_kept(folder, record)}", file=sys.stderr)
         return Ended(folder, False, progress.failed)
     rate = progress.made / seconds
     words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
@@ -278,11 +268,25 @@ def _make(
     return Ended(folder, not bare, progress.failed)
 
 
-def _gone(scheduler: str | None, error: Exception) -> str:
-    if scheduler is not None:
-        return f"The scheduler at {scheduler} has gone."
-    words = one_line(str(error)).rstrip(".") or type(error).__name__
-    return f"The workers of this machine have gone ({words})."
+def _outcomes(
+    plan: Plan, trial: Trial, done: NDArray[np.bool_], scheduler: str | None, workers: int | None
+) -> Generator[tuple[Run, Outcome]]:
+    """Make the runs that are not done, on a cluster or in processes of this machine."""
+    count = workers or available_cores()
+    if scheduler is None:
+        missing = missing_runs(done, ChunkSize(trial.seconds, count))
+        with RunProcesses(plan.work, plan.fmu, count) as processes:
+            yield from processes.outcomes(run for indices in missing for run in plan.runs_at(indices))
+        return
+    from hosts.study.cluster import bring, connected, take_away
+    from hosts.study.cluster_runs import ClusterRuns
+
+    bytes_a_run = max(8 * job.samples * len(plan.work.signals) for job in plan.work.jobs) + 1
+    with connected(scheduler) as client:
+        bring(client, plan)
+        size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
+        yield from ClusterRuns(client, plan, size).outcomes(missing_runs(done, size))
+        take_away(client, plan)
 
 
 def _kept(folder: Path, record: Mapping[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""Workers of a study: a cluster of this machine, or one that is there."""
+"""Workers of a study on a cluster that is there."""
 
 from __future__ import annotations
 
@@ -9,45 +9,21 @@ from contextlib import contextmanager
 from distributed import Client, KilledWorker
 
 from ali3.archives import LARGEST_ARCHIVE
-from ali3.cache import cache_folder
-from ali3.cores import available_cores
 from ali3.errors import UserError
 from ali3.reading import read_bytes
-from ali3.temporary import temporary_folder
 from hosts.common.errors import HostError
-from hosts.study.local_cluster import local_cluster
 from hosts.study.plan import Plan
 from hosts.study.scheduler import client_of
 from hosts.study.worker import StudyPlugin, why_wrong
 
 
 @contextmanager
-def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
-    """A client of a scheduler, or of a local cluster that ends with the block.
+def connected(scheduler: str) -> Iterator[Client]:
+    """A client of a scheduler, whose certificates are those of the configuration of Dask.
 
-    Parameters
-    ----------
-    scheduler : str, optional
-        Address; certificates are those of the configuration of Dask. Where traffic is not secured, that is told.
-    workers : int, optional
-        Of a local cluster, one process each; by default as many as cores this process may use. Only programs that
-        have the key of this cluster, which stands in memory alone, can talk to its scheduler, workers and nannies.
-
-    Raises
-    ------
-    HostError
-        Nobody answers there.
+    `scheduler`: its address. Where traffic is not secured, that is told. Raises `HostError`: nobody answers there.
     """
-    if scheduler is not None:
-        with _without_logs(), client_of(scheduler) as client:
-            yield client
-        return
-    with (
-        temporary_folder(cache_folder("study")) as folder,
-        _without_logs(),
-        local_cluster(workers or available_cores(), folder) as cluster,
-        Client(cluster) as client,
-    ):
+    with _without_logs(), client_of(scheduler) as client:
         yield client
 
 
@@ -70,7 +46,7 @@ def bring(client: Client, plan: Plan) -> None:
 
     Raises `HostError`: a worker has another version of ALi3, or cannot load it.
     """
-    plugin = StudyPlugin(plan.key, plan.work, plan.seed, read_bytes(plan.fmu, LARGEST_ARCHIVE, HostError))
+    plugin = StudyPlugin(plan.key, plan.work, read_bytes(plan.fmu, LARGEST_ARCHIVE, HostError))
     try:
         client.register_plugin(plugin)
         answers = client.run(why_wrong, plan.key)

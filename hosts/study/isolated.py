@@ -1,36 +1,52 @@
-"""Runs in a process of their own: one that crashes or hangs takes nothing with it, and is known by its number."""
+"""Processes of this machine that make runs of a study."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Generator, Iterable, Iterator
 from pathlib import Path
 
-from ali3.isolated import Isolated, Lost
-from hosts.common.numbers import Value
+from ali3.isolated import Lost
+from hosts.common.closing import Closing
+from hosts.experiment.pool import Pool
 from hosts.fmu.own_process import PATIENCE, files_of
-from hosts.study.job import Job
-from hosts.study.one_run import Bench, Task
-from hosts.study.work import FAILED, Outcome, Work
+from hosts.study.one_run import Bench
+from hosts.study.work import FAILED, Outcome, Run, Work
 
 
-class IsolatedBench:
-    """A `Bench` in a process of its own; after a crash or a run that took too long, in a new one."""
+class RunProcesses(Closing):
+    """Processes with a `Bench` each; that a run crashed or took too long is its outcome. `jobs`: how many."""
 
-    def __init__(self, work: Work, path: Path) -> None:
+    def __init__(self, work: Work, path: Path, jobs: int = 1) -> None:
         self._limit = work.time_limit
         started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
         reads = [path, *(file for values in started for file in files_of(values))]
-        self._bench: Isolated[Task, Outcome] = Isolated(Bench(work, path.absolute()), Outcome, reads=reads)
-
-    def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
-        outcome = self._bench.do((job, values, seed), limit=PATIENCE if self._limit is None else self._limit)
-        if not isinstance(outcome, Lost):
-            return outcome
-        if outcome.late:
-            which = "" if self._limit is None else " (time_limit)"
-            return Outcome(FAILED, f"The run {outcome.how}{which}.", wall=self._limit or 0.0)
-        return Outcome(FAILED, f"The process of the run {outcome.how}.")
+        limit = PATIENCE if work.time_limit is None else work.time_limit
+        self._pool: Pool[Run, Outcome] = Pool(Bench(work, path.absolute()), Outcome, jobs, reads, limit)
 
     def close(self) -> None:
-        """End the process."""
-        self._bench.close()
+        """End the processes."""
+        self._pool.close()
+
+    def run(self, run: Run) -> Outcome:
+        """Make a run, each time in the same process."""
+        return self._outcome(self._pool.run(run))
+
+    def outcomes(self, runs: Iterable[Run]) -> Generator[tuple[Run, Outcome]]:
+        """Make runs; give each with its outcome as soon as it is there."""
+        sent: dict[int, Run] = {}
+
+        def remembered() -> Iterator[Run]:
+            for number, run in enumerate(runs):
+                sent[number] = run
+                yield run
+
+        for number, result in self._pool.results(remembered()):
+            yield sent.pop(number), self._outcome(result)
+
+    def _outcome(self, result: Outcome | Lost) -> Outcome:
+        if not isinstance(result, Lost):
+            return result
+        if result.late:
+            which = "" if self._limit is None else " (time_limit)"
+            return Outcome(FAILED, f"The run {result.how}{which}.", wall=self._limit or 0.0)
+        return Outcome(FAILED, f"The process of the run {result.how}.")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-WORK = 2.0  # s of a chunk: Dask takes some milliseconds for a task, and a kill loses no more than this
+WORK = 2.0  # s of a chunk: Dask takes some milliseconds for a task
 _MOST = 5000  # runs of a chunk
 _SMOOTHING = 0.3
 _LOOK = 100_000  # runs that are looked at a time

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,17 +15,14 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
-from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliased_fmu import seen_through
-from hosts.fmu.fmu import Fmu
+from hosts.fmu.loaded_fmu import LoadedFmu
 from hosts.measures.measure import Measure
 from hosts.study.catalogue_tests import performed
 from hosts.study.job import Job
-from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Work
+from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
 
 if TYPE_CHECKING:
     from hosts.driving.driver import Driver
@@ -33,9 +30,6 @@ if TYPE_CHECKING:
 _MOST_NOTES = 3
 _MOST_MESSAGES = 5
 _LONGEST = 300  # characters of a message
-
-Task: TypeAlias = tuple[Job, Mapping[str, Value], int]
-"""A job, values of the parameters, and the seed."""
 
 
 def _quiet(done: float) -> None:
@@ -47,20 +41,20 @@ class Bench:
 
     def __init__(self, work: Work, path: Path) -> None:
         self._work, self._path = work, path
-        self._fmu: Fmu | None = None
+        self._fmu = LoadedFmu(path, work.aliases)
         self._progress: Callable[[float], None] = _quiet
 
     def close(self) -> None:
         """Free the instance."""
-        if self._fmu is not None:
-            fmu, self._fmu = self._fmu, None
-            fmu.close()
+        self._fmu.close()
 
-    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Outcome:
+    def __call__(self, run: Run, tell: Callable[[Any], None]) -> Outcome:
         """See `run`; as work for a process, which tells that it goes on unless the whole run has its time."""
-        if self._work.time_limit is None:
+        work = self._work
+        if work.time_limit is None:
             self._progress = tell
-        return self.run(*task)
+        point, number = divmod(run.index, len(work.jobs))
+        return self.run(work.jobs[number], run.values, seed_of(work.seed, point))
 
     def run(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         """Make a run; whatever goes wrong in it is its outcome. `seed`: for functions of the user's."""
@@ -79,17 +73,12 @@ class Bench:
 
     def _drive(self, job: Job, values: Mapping[str, Value], seed: int) -> Outcome:
         assert job.manoeuvre is not None
-        fmu, work = self._fresh(), self._work
-        seen: SimulatedFmu = fmu
-        if work.aliases is not None:
-            seen = seen_through(fmu, work.aliases)
-        manoeuvre = started(with_names_of(job.manoeuvre, seen.variables), values)
+        fmu, work = self._fmu.fresh(), self._work
+        manoeuvre = started(with_names_of(job.manoeuvre, fmu.variables), values)
         driver: Driver | None = None
         if manoeuvre.driver:
-            driver = driver_of(seen, manoeuvre)
-        result = run(seen, manoeuvre, job.step, driver, self._progress)
-        if work.aliases is not None:
-            derive_columns(result, work.aliases)
+            driver = driver_of(fmu, manoeuvre)
+        result = run(fmu, manoeuvre, job.step, driver, self._progress)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
@@ -108,15 +97,6 @@ class Bench:
             outcome.units = {column(job, m): m.unit for m in record.measures}
         _take(outcome, [(name, m) for name, m in named if not self._work.columns or name in self._work.columns])
         return outcome
-
-    def _fresh(self) -> Fmu:
-        """An instance that is as new."""
-        if self._fmu is None:
-            self._fmu = Fmu(self._path)
-        else:
-            self._fmu.reset()
-            self._fmu.messages.clear()
-        return self._fmu
 
 
 def said(messages: Sequence[str]) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,9 @@ from ali3.columns import some_of
 from ali3.files import whole_file
 from ali3.words import one_line
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
 from hosts.common.parquet import opened_parquet
 from hosts.study.folder import RUNS, sync
-from hosts.study.work import MISSING, Chunk, Outcome, seed_of
+from hosts.study.work import MISSING, Outcome, Run, seed_of
 
 _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
 _NAME = "part-{:06d}.parquet"
@@ -131,23 +130,25 @@ class PartWriter:
     def __len__(self) -> int:
         return len(self._rows["index"])
 
-    def add(self, chunk: Chunk, outcomes: Sequence[Outcome]) -> None:
-        """Keep rows for the next part."""
-        rows, each, seed = self._rows, len(self._labels), self._record["seed"]
-        for index, outcome in zip(chunk.indices, outcomes, strict=True):
-            point, number = divmod(index, each)
-            own = (index, point, self._labels[number], seed_of(seed, point))
-            for name, value in zip(("index", "point", "manoeuvre", "seed"), own, strict=True):
-                rows[name].append(value)
-            for name in self._record["measures"]:
-                rows[name].append(outcome.measures.get(name, np.nan))
-            for name in ("status", "reason", "simulated"):
-                rows[name].append(getattr(outcome, name))
-            rows["missing"].append(MISSING.join(outcome.missing))
-            rows["messages"].append(" ".join(outcome.messages))
-            rows["wall_seconds"].append(outcome.wall)
+    def add(self, run: Run, outcome: Outcome) -> None:
+        """Keep a row for the next part."""
+        point, number = divmod(run.index, len(self._labels))
+        row: dict[str, Any] = {
+            "index": run.index,
+            "point": point,
+            "manoeuvre": self._labels[number],
+            "seed": seed_of(self._record["seed"], point),
+            **{name: outcome.measures.get(name, np.nan) for name in self._record["measures"]},
+            **{name: getattr(outcome, name) for name in ("status", "reason", "simulated")},
+            "missing": MISSING.join(outcome.missing),
+            "messages": " ".join(outcome.messages),
+            "wall_seconds": outcome.wall,
+        }
         for name in self._record["parameters"]:
-            rows[name].extend(_texts(chunk.values[name], self._schema.field(name).type))
+            value, is_text = run.values[name], self._schema.field(name).type == pa.string()
+            row[name] = str(value) if is_text else value
+        for name, value in row.items():
+            self._rows[name].append(value)
 
     def flush(self) -> None:
         """Write the kept rows as a part. Raises `FileError`: it cannot be written; the parts before it stay."""
@@ -160,10 +161,6 @@ class PartWriter:
             column.clear()
 
 
-def _texts(values: Sequence[Value], kind: Any) -> Sequence[Value]:
-    return [str(value) for value in values] if kind == pa.string() else values
-
-
 def write_part(table: Any, file: Path) -> None:
     """Write a part, whole or not at all."""
     buffer = pa.BufferOutputStream()
@@ -171,7 +168,3 @@ def write_part(table: Any, file: Path) -> None:
     with whole_file(file) as made:
         made.write_bytes(buffer.getvalue())
         sync(made)
-
-
-Progress = Callable[[Sequence[Outcome]], None]
-"""Called with the outcomes that came."""

@@ -23,7 +23,7 @@ from hosts.study.parameters import Parameter
 from hosts.study.planned_runs import planned_runs
 from hosts.study.points import Points, digest
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
-from hosts.study.work import ALL, Chunk, Work
+from hosts.study.work import ALL, Run, Work
 
 if TYPE_CHECKING:
     from hosts.study.measures.study_measure import StudyMeasure
@@ -64,13 +64,14 @@ class Plan:
         """A name for what workers keep."""
         return hashlib.sha256(json.dumps(self.record, sort_keys=True).encode()).hexdigest()[:16]
 
-    def chunk(self, indices: Sequence[int]) -> Chunk:
+    def runs_at(self, indices: Sequence[int]) -> list[Run]:
         """Runs with their values. `indices`: rising."""
         each = len(self.work.jobs)
         first, last = indices[0] // each, indices[-1] // each
         block = self.points.block(first, last - first + 1)
-        places = [index // each - first for index in indices]
-        return Chunk(list(indices), {name: [column[k] for k in places] for name, column in block.items()})
+        return [
+            Run(index, {name: column[index // each - first] for name, column in block.items()}) for index in indices
+        ]
 
 
 def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
@@ -99,6 +100,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         tuple(measures),
         tuple(columns),
         tuple(signals),
+        study.sampling.seed,
         runs.aliases,
         time_limit=study.time_limit,
     )

@@ -17,7 +17,7 @@ from ali3.errors import FileError, reason
 from hosts.study.folder import SIGNALS
 from hosts.study.job import Job
 from hosts.study.parts import attributes
-from hosts.study.work import Chunk, Outcome
+from hosts.study.work import Outcome, Run
 
 _CHUNK = 4e6  # bytes of one array in a file
 _MOST_POINTS = 256  # of a file
@@ -66,13 +66,12 @@ class SignalWriter:
         self._kept: dict[int, dict[int, Any]] = {}
         self.bytes = 0
 
-    def add(self, chunk: Chunk, outcomes: Sequence[Outcome]) -> None:
+    def add(self, run: Run, outcome: Outcome) -> None:
         """Keep samples for the next flush."""
-        for index, outcome in zip(chunk.indices, outcomes, strict=True):
-            point, number = divmod(index, len(self._jobs))
-            if outcome.signals is not None:
-                self._kept.setdefault(number, {})[point] = outcome.signals
-                self.bytes += outcome.signals.nbytes
+        point, number = divmod(run.index, len(self._jobs))
+        if outcome.signals is not None:
+            self._kept.setdefault(number, {})[point] = outcome.signals
+            self.bytes += outcome.signals.nbytes
 
     def flush(self) -> None:
         """Write what was kept; before the rows, so that each row that is there has its signals.

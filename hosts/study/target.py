@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -28,13 +27,14 @@ from hosts.fmu.variables import Variable, Variables
 from hosts.measures.limits import column_of
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.folder import check_no_link
-from hosts.study.isolated import IsolatedBench
+from hosts.study.isolated import RunProcesses
 from hosts.study.job import Job
 from hosts.study.parameters import Parameter
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
-from hosts.study.work import Outcome, seed_of
+from hosts.study.work import Outcome
+from hosts.study.work import Run as StudyRun
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -91,8 +91,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     folder = out if out is not None else out_folder(None, study, file) / "target"
     make_folder(folder)
     check_no_link(folder)
-    with closing(IsolatedBench(search.work, fmu)) as bench:
-        search.bench = bench
+    with RunProcesses(search.work, fmu) as search.processes:
         found = search.found(_start(study, target.by, fmu))
     lines = search.words(found)
     print("\n".join(lines))
@@ -165,8 +164,8 @@ class _Search:
         self.parameter = _parameter(plan)
         self.job, self.column = self._job()
         is_test = self.job.manoeuvre is None
-        self.work = replace(plan.work, columns=() if is_test else plan.work.columns)
-        self.bench: IsolatedBench
+        self.work = replace(plan.work, jobs=(self.job,), columns=() if is_test else plan.work.columns)
+        self.processes: RunProcesses
         self.unit, self.wanted, self.shown = "", target.value, Shown("", 1.0)
         if not is_test:
             self._take_unit(plan.units[self.column])
@@ -216,7 +215,7 @@ class _Search:
 
     def _run(self, x: float) -> Outcome:
         if x not in self._made:
-            self._made[x] = self.bench.run(self.job, {self.target.by: x}, seed_of(self.plan.seed, 0))
+            self._made[x] = self.processes.run(StudyRun(0, {self.target.by: x}))
         return self._made[x]
 
     def measure(self, x: float) -> tuple[float, str]:

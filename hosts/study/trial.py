@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
-from hosts.study.isolated import IsolatedBench
+from hosts.study.isolated import RunProcesses
 from hosts.study.job import Job
-from hosts.study.one_run import Task
 from hosts.study.plan import Plan
-from hosts.study.work import FAILED, INCOMPLETE, Outcome, Work, seed_of
+from hosts.study.work import FAILED, INCOMPLETE, Outcome, Work
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers
@@ -49,7 +47,7 @@ def try_out(plan: Plan) -> Trial:
         for point in points:
             # with no columns known, a test tells which it has
             tried = work if job.manoeuvre is not None else replace(work, columns=())
-            outcome = _outcomes(tried, plan, [_task(plan, job, point)])[0]
+            outcome = _outcomes(tried, plan, number, [point])[0]
             if outcome.status != FAILED:
                 break
             notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, fails: {outcome.reason}")
@@ -82,32 +80,28 @@ def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
     return {column: unit for column, unit in units.items() if column.removeprefix(f"{job.label}.") in job.measures}
 
 
-def _outcomes(work: Work, plan: Plan, tasks: Sequence[Task]) -> list[Outcome]:
-    with closing(IsolatedBench(work, plan.fmu)) as bench:
-        return [bench.run(*task) for task in tasks]
-
-
-def _task(plan: Plan, job: Job, point: int) -> Task:
-    values = {name: values[0] for name, values in plan.points.block(point, 1).items()}
-    return job, values, seed_of(plan.seed, point)
+def _outcomes(work: Work, plan: Plan, number: int, points: Sequence[int]) -> list[Outcome]:
+    """Of the job of a number at some points, one after the other in one process."""
+    with RunProcesses(work, plan.fmu) as processes:
+        return [processes.run(plan.runs_at([point * len(work.jobs) + number])[0]) for point in points]
 
 
 def _reuse(plan: Plan, good: list[tuple[int, Job, int, Outcome]]) -> tuple[bool, float | None]:
     """Whether a run has the same bits in an instance that has made another run; and what it takes there."""
-    driven = [(job, point, outcome) for _, job, point, outcome in good if job.manoeuvre is not None]
+    driven = [found for found in good if found[1].manoeuvre is not None]
     if not driven:
         return False, None
-    job, point, outcome = driven[0]
+    number, job, point, outcome = driven[0]
     assert job.manoeuvre is not None
     share = min(1.0, _LONGEST / max(outcome.wall, 1e-9))
     samples = max(1, math.floor(share * job.manoeuvre.stop_time / job.step)) + 1
     stop = (samples - 1) * job.step
     # every output at every step, so that nothing can differ unseen
     short = replace(job, manoeuvre=replace(job.manoeuvre, stop_time=stop), every=1, samples=samples)
-    work = replace(plan.work, reuse=True, measures=(), signals=plan.outputs)
+    jobs = (*plan.work.jobs[:number], short, *plan.work.jobs[number + 1 :])
+    work = replace(plan.work, jobs=jobs, reuse=True, measures=(), signals=plan.outputs)
     other = (point + plan.points.count // 2) % plan.points.count
-    tasks = [_task(plan, short, p) for p in (point, other, point)]
-    first, _, again = _outcomes(work, plan, tasks)
+    first, _, again = _outcomes(work, plan, number, (point, other, point))
     if first.status == FAILED or again.status == FAILED or first.signals is None or again.signals is None:
         return False, None
     same = first.signals.tobytes() == again.signals.tobytes()

@@ -40,6 +40,8 @@ class Work:
     columns: tuple[str, ...]
     """All measures of the table."""
     signals: tuple[str, ...]
+    seed: int = 0
+    """Of the study."""
     aliases: Aliases | None = None
     """Of an alias file."""
     reuse: bool = False
@@ -49,23 +51,13 @@ class Work:
 
 
 @dataclass(frozen=True)
-class Chunk:
-    """Runs that are done one after the other by one worker."""
+class Run:
+    """A run of a study."""
 
-    indices: list[int]
-    """Of the runs, n of them."""
-    values: Mapping[str, list[Value]]
-    """n values of each parameter."""
-    tried: bool = False
-    """Whether a worker was lost with it."""
-
-    def __len__(self) -> int:
-        return len(self.indices)
-
-    def part(self, first: int, stop: int, tried: bool) -> Chunk:
-        """Some of its runs."""
-        values = {name: column[first:stop] for name, column in self.values.items()}
-        return Chunk(self.indices[first:stop], values, tried)
+    index: int
+    """Its point times the number of jobs, and its job."""
+    values: Mapping[str, Value]
+    """Of the parameters."""
 
 
 @dataclass

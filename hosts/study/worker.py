@@ -7,7 +7,6 @@ import tempfile
 import threading
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from distributed import Worker, WorkerPlugin, get_worker
 
@@ -15,11 +14,10 @@ from ali3.archives import LARGEST_ARCHIVE
 from ali3.confinement import confine, is_confined
 from ali3.reading import read_bytes
 from hosts.common.errors import HostError
-from hosts.common.numbers import Value
 from hosts.common.program import program_digest
 from hosts.fmu.fmu import described
-from hosts.study.isolated import IsolatedBench
-from hosts.study.work import Chunk, Outcome, Work, seed_of
+from hosts.study.isolated import RunProcesses
+from hosts.study.work import Outcome, Run, Work
 
 
 class WrongWorkerError(HostError):
@@ -31,22 +29,22 @@ class _Room:
     """What a worker keeps of a study."""
 
     work: Work
-    seed: int
     folder: tempfile.TemporaryDirectory[str]
-    benches: list[IsolatedBench] = field(default_factory=list)
+    made: list[RunProcesses] = field(default_factory=list)
     of_thread: threading.local = field(default_factory=threading.local)
 
     @property
     def fmu(self) -> Path:
         return Path(self.folder.name, self.work.fmu)
 
-    def bench(self) -> IsolatedBench:
-        """The bench of this thread."""
-        bench: IsolatedBench | None = getattr(self.of_thread, "bench", None)
-        if bench is None:
-            bench = self.of_thread.bench = IsolatedBench(self.work, self.fmu)
-            self.benches.append(bench)
-        return bench
+    @property
+    def processes(self) -> RunProcesses:
+        """The process of this thread."""
+        if not hasattr(self.of_thread, "processes"):
+            self.of_thread.processes = RunProcesses(self.work, self.fmu)
+            self.made.append(self.of_thread.processes)
+        found: RunProcesses = self.of_thread.processes
+        return found
 
 
 _rooms: dict[str, _Room] = {}
@@ -56,9 +54,9 @@ _rooms: dict[str, _Room] = {}
 class StudyPlugin(WorkerPlugin):
     """Brings a study to each worker that there is and that comes."""
 
-    def __init__(self, key: str, work: Work, seed: int, fmu: bytes) -> None:
+    def __init__(self, key: str, work: Work, fmu: bytes) -> None:
         self.name = f"ali3-study-{key}"
-        self._key, self._work, self._seed, self._fmu = key, work, seed, fmu
+        self._key, self._work, self._fmu = key, work, fmu
         self._confined = is_confined()
 
     def setup(self, worker: Worker) -> None:
@@ -66,7 +64,7 @@ class StudyPlugin(WorkerPlugin):
         if self._confined:
             confine()
         folder = tempfile.TemporaryDirectory(prefix="study-", dir=worker.local_directory, ignore_cleanup_errors=True)
-        room = _Room(self._work, self._seed, folder)
+        room = _Room(self._work, folder)
         room.fmu.write_bytes(self._fmu)
         _rooms[f"{self._key} {worker.address}"] = room
 
@@ -74,8 +72,8 @@ class StudyPlugin(WorkerPlugin):
         """Free what the worker keeps."""
         room = _rooms.pop(f"{self._key} {worker.address}", None)
         if room is not None:
-            for bench in room.benches:
-                bench.close()
+            for processes in room.made:
+                processes.close()
             room.folder.cleanup()
 
 
@@ -94,17 +92,10 @@ def why_wrong(key: str, dask_worker: Worker) -> str:
     return ""
 
 
-def run_chunk(key: str, chunk: Chunk) -> list[Outcome]:
-    """Make the runs of a chunk; a task of Dask."""
+def run_chunk(key: str, runs: list[Run]) -> list[Outcome]:
+    """Make runs one after the other; a task of Dask."""
     worker = get_worker()
     room = _rooms.get(f"{key} {worker.address}")
     if room is None or program_digest() != room.work.program:
         raise WrongWorkerError(f"The worker {worker.address} cannot be used: {why_wrong(key, worker)}.")
-    work = room.work
-    tasks: list[tuple[Any, dict[str, Value], int]] = []
-    for k, index in enumerate(chunk.indices):
-        point, number = divmod(index, len(work.jobs))
-        values = {name: column[k] for name, column in chunk.values.items()}
-        tasks.append((work.jobs[number], values, seed_of(room.seed, point)))
-    bench = room.bench()
-    return [bench.run(*task) for task in tasks]
+    return [room.processes.run(run) for run in runs]

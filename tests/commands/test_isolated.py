@@ -17,7 +17,6 @@ import pytest
 from ali3.children import how_ended
 from ali3.errors import FileError, UserError
 from ali3.isolated import Isolated, Lost
-from ali3.shared_tasks import as_completed, as_completed_by
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 Tell = Callable[[Any], None]
@@ -110,20 +109,6 @@ def test_errors_of_the_user_come_back(worker: Isolated[str, Any]) -> None:
     assert worker.do("")[0] == 3
 
 
-def slow(task: int, tell: Tell) -> int:
-    if task == 0:
-        raise UserError("The first cannot begin.")
-    time.sleep(1000.0)
-    return task
-
-
-def test_an_error_ends_the_others_at_once() -> None:
-    begin = time.monotonic()
-    with pytest.raises(UserError, match="The first cannot begin"):
-        list(as_completed(slow, int, range(4), 2, lambda *_: None))
-    assert time.monotonic() - begin < 60.0
-
-
 @posix
 def test_processes_end_with_the_program_in_the_middle_of_a_task() -> None:
     text = "from ali3.isolated import Isolated; from tests.commands.test_isolated import Counter; "
@@ -153,17 +138,6 @@ def test_how_a_process_ended() -> None:
     assert how_ended(-signal.SIGTERM) == "was ended by SIGTERM"
     assert how_ended(-200) == "was ended by signal 200"
     assert how_ended(None) == "ended with exit code None"
-
-
-def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_left() -> None:
-    worker: Isolated[str, tuple[int, int]] = Isolated(Counter(), tuple[int, int])
-    rounds = [[result for _, result in as_completed_by([worker], ["", ""])] for _ in range(2)]
-    counts, ids = zip(*(result for found in rounds for result in found if not isinstance(result, Lost)), strict=True)
-    assert sorted(counts) == [1, 2, 3, 4]
-    assert len(set(ids)) == 1
-    with pytest.raises(UserError, match="The value is 3"):
-        list(as_completed_by([worker], ["wrong", "hang"]))
-    assert not psutil.pid_exists(ids[0])
 
 
 def talkative(task: float, tell: Tell) -> int:

@@ -69,6 +69,18 @@ def test_a_short_soak_test_is_good(car: Path, tmp_path: Path, capfd: pytest.Capt
         assert outcome["messages"] == {}
     assert max(outcome["counts"]["top_speed"] for outcome in outcomes) > 20.0
 
+    command[command.index("--drives") + 1] = "5"  # what is done stays
+    with (tmp_path / "done").open("rb+") as done:
+        done.truncate((tmp_path / "done").stat().st_size - 9)  # as a kill would leave it
+    assert main([*command, "--out", str(tmp_path), "--json", str(numbers)]) == 0
+    assert "3 of 5 drives are there; --again makes them again." in capfd.readouterr().out
+    more = json.loads(numbers.read_text())["outcomes"]
+    assert sum(outcome in more for outcome in outcomes) == 3  # with their wall time, so that they are not made again
+    kept = [
+        {k: v for k, v in o.items() if k not in ("wall", "memory_last", "memory_growth")} for o in (*outcomes, *more)
+    ]
+    assert kept[:4] == kept[4:8]
+
 
 @pytest.mark.slow
 def test_a_drive_is_the_same_by_its_seed(car: Path, ground: Ground, tmp_path: Path) -> None:

@@ -84,7 +84,7 @@ def test_importing_loads_none_of_them() -> None:
 
 
 def test_a_study_does_not_load_what_only_some_studies_ask_for() -> None:
-    rooms = "campaign", "cluster", "command", "execution", "missing", "trial"
+    rooms = "campaign", "cluster", "cluster_runs", "command", "missing", "outcome_store", "trial"
     loaded = ran(
         f"import sys, {', '.join(f'hosts.study.{room}' for room in rooms)}; print(*sys.modules)"
     ).stdout.split()

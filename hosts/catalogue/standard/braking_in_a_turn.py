@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import early_end, held, start_at, with_step_up_to
-from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
+from hosts.catalogue.record import TestRecord
 from hosts.catalogue.turn_braking_measures import STEADY, Stop, measures_of, plots_of
 from hosts.common.errors import HostError
 from hosts.driving.pilots.braking import Braking
@@ -21,55 +22,28 @@ STEP = 0.005  # s; the yaw acceleration is a difference over some of them
 ON_CIRCLE = 12.0  # s, after which the steering is fixed
 HORIZON = 1.5  # s; shorter, light cars sway along the circle
 LONGEST_RUN_UP = 60.0  # s, for a car that cannot be started at speed
-ISO_7975 = Standard(
-    "ISO 7975:2019",
-    "Passenger cars: braking in a turn, open-loop test method",
-    (
-        Clause("", "from a steady circle of 100 m with 5 m/s2 of lateral acceleration, the steering held fixed"),
-        Clause("", "brake applied in steps of growing deceleration until wheels lock, the throttle released with it"),
-        Clause("", "motion 1 s after the onset against that which keeps the circle at the speed then"),
-    ),
-)
 
 
-class BrakingInATurn:
-    """See `hosts.catalogue.record.StandardTest`."""
-
-    name = "braking_in_a_turn"
-    title = "Braking in a turn"
-    standards = (ISO_7975,)
-    settings = (
-        Setting("radius", 100.0, "m", "of the circle; negative: to the right", -1000.0, 1000.0),
-        Setting("lateral_acceleration", 5.0, "m/s2", "on the circle", 0.5, 15.0),
-        Setting("levels", 8.0, "1", "number of stops, with pedals in equal parts up to the largest", 1.0, 50.0),
-        Setting("pedal", 1.0, "1", "largest position of the brake pedal", 0.01, 1.0),
-        Setting("rise_time", 0.1, "s", "from the first movement of the pedal to its position", 0.0, 5.0),
-        Setting("deceleration", 5.0, "m/s2", "mean of the first second at which cars are compared", 0.5, 12.0),
-    )
-    needs = (
-        *("steering", "throttle", "brake", "chassis.x", "chassis.y", "chassis.yaw", "chassis.wz", "sideslip", "speed"),
-        *("vehicle.wheelbase", "vehicle.front_wheel_angle_max"),
-    )
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        radius, levels = settings["radius"], settings["levels"]
-        if abs(radius) < 10.0:
-            raise HostError(f"The radius is {radius:g} m; it must be 10 m or more, or -10 m or less.")
-        if levels != round(levels):
-            raise HostError(f"levels is {levels:g}; it must be a whole number.")
-        car, notes = with_step_up_to(car, STEP, "the yaw acceleration")
-        stops: list[Stop] = []
-        for k in range(1, round(levels) + 1):
-            made = stop(car, settings, settings["pedal"] * k / levels)
-            stops.append(made)
-            notes += early_end(f"pedal {made.pedal:.2g}", made.result)
-            if math.isnan(made.onset):
-                notes += (_not_there(made, settings),)
-                break
-            progress(k / levels)
-        notes += _unsteady(stops[0], settings) if not math.isnan(stops[0].onset) else ()
-        runs = {f"pedal_{s.pedal:.3g}": s.result for s in stops}
-        return TestRecord(measures_of(stops, settings), plots_of(stops), runs, notes)
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    radius, levels = settings["radius"], settings["levels"]
+    if abs(radius) < 10.0:
+        raise HostError(f"The radius is {radius:g} m; it must be 10 m or more, or -10 m or less.")
+    if levels != round(levels):
+        raise HostError(f"levels is {levels:g}; it must be a whole number.")
+    car, notes = with_step_up_to(car, STEP, "the yaw acceleration")
+    stops: list[Stop] = []
+    for k in range(1, round(levels) + 1):
+        made = stop(car, settings, settings["pedal"] * k / levels)
+        stops.append(made)
+        notes += early_end(f"pedal {made.pedal:.2g}", made.result)
+        if math.isnan(made.onset):
+            notes += (_not_there(made, settings),)
+            break
+        progress(k / levels)
+    notes += _unsteady(stops[0], settings) if not math.isnan(stops[0].onset) else ()
+    runs = {f"pedal_{s.pedal:.3g}": s.result for s in stops}
+    return TestRecord(measures_of(stops, settings), plots_of(stops), runs, notes)
 
 
 def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
@@ -126,4 +100,4 @@ def _unsteady(made: Stop, settings: Mapping[str, float]) -> tuple[str, ...]:
     return notes
 
 
-TEST = BrakingInATurn()
+TEST = load_test("braking_in_a_turn", perform)

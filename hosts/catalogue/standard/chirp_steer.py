@@ -12,10 +12,11 @@ from scipy.signal import chirp
 from scipy.signal.windows import tukey
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.definition import load_test
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.steady_map import map_at_reachable_speed
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
-from hosts.catalogue.steering import NEED, SteeringInput
+from hosts.catalogue.steering import SteeringInput
 from hosts.measures.bandwidth import bandwidth
 from hosts.measures.frequency_response import FrequencyResponse, frequency_response
 from hosts.measures.measure import Measure
@@ -55,85 +56,58 @@ _QUANTITIES = (
 )
 
 
-class ChirpSteer:
-    """See `hosts.catalogue.record.StandardTest`."""
+def why_not(car: TestedCar, settings: Mapping[str, float]) -> str | None:
+    """Why the test cannot be done with this car and these settings; None if it can."""
+    low, high, duration = (settings[n] for n in ("lowest_frequency", "highest_frequency", "duration"))
+    if high <= 2.0 * low:
+        return f"highest_frequency is {high:g} Hz; it must be above twice lowest_frequency, {2.0 * low:g} Hz."
+    if duration < 8.0 / low:
+        return f"duration is {duration:g} s; for {low:g} Hz it must be at least {8.0 / low:g} s."
+    if car.facts.step > 0.1 / high:
+        return (
+            f"The communication step is {car.facts.step:g} s; for responses up to {high:g} Hz it must not be "
+            f"longer than {0.1 / high:.3g} s (--step, or less highest_frequency)."
+        )
+    return None
 
-    name = "chirp_steer"
-    title = "Chirp steer"
-    standards = (
-        Standard(
-            "ISO 7401:2011",
-            "Road vehicles: lateral transient response test methods, open-loop test methods",
-            (
-                Clause("12, 14", "Gain and phase of the responses to the steering wheel over 0.2 to 2 Hz or more."),
-                Clause(
-                    "12",
-                    "Speed of 100 km/h, held; an amplitude in the linear range, lateral acceleration below 4 m/s².",
-                ),
-                Clause("12", "The coherence is stated with the responses."),
-                Clause("14", "The standard steers steady sines at single frequencies; here the frequency rises."),
-            ),
+
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    given = SteeringInput.of(car.facts)
+    speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
+    low, high = settings["lowest_frequency"], settings["highest_frequency"]
+    ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
+    progress(0.3)
+    amplitude = ramp.need_angle_at(wanted)
+    run = steer(car, "chirp", ramp.speed, *_table(amplitude, low, high, settings["duration"]), Pedals.HOLD_SPEED)
+    progress(0.95)
+    notes = [*ramp.notes, *filter(None, [given.note])]
+    if not run.whole:
+        notes.append(
+            f"The chirp ended after {run.time[-1] if len(run.time) else 0.0:.3g} s of {settings['duration']:g} s."
+        )
+    if len(run.time) and (drift := float(np.ptp(run.speed[run.time >= 0.0]))) > 0.05 * ramp.speed:
+        notes.append(f"The speed varied by {3.6 * drift:.3g} km/h during the chirp.")
+    found = {q: _response(run, q, low, high) for q in _QUANTITIES}
+    measures = [
+        Measure("speed", ramp.speed, "m/s", "speed that is held"),
+        Measure(
+            "steering_wheel_angle",
+            amplitude,
+            "rad" if given.is_angle else "1",
+            f"amplitude of the steering for {wanted:g} m/s²",
         ),
-    )
-    settings = (
-        Setting("speed", 100.0, "km/h", "that is held; 80 km/h for a car that cannot", 20.0, 300.0),
-        Setting("lateral_acceleration", 2.0, "m/s2", "steady, that belongs to the amplitude", 0.1, 8.0),
-        Setting("lowest_frequency", 0.2, "Hz", "of the responses", 0.1, 1.0),
-        Setting("highest_frequency", 4.0, "Hz", "of the responses", 1.0, 10.0),
-        Setting("duration", 60.0, "s", "of the chirp", 30.0, 600.0),
-    )
-    needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
-
-    def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
-        """Why the test cannot be done with this car and these settings; None if it can."""
-        low, high, duration = (settings[n] for n in ("lowest_frequency", "highest_frequency", "duration"))
-        if high <= 2.0 * low:
-            return f"highest_frequency is {high:g} Hz; it must be above twice lowest_frequency, {2.0 * low:g} Hz."
-        if duration < 8.0 / low:
-            return f"duration is {duration:g} s; for {low:g} Hz it must be at least {8.0 / low:g} s."
-        if car.facts.step > 0.1 / high:
-            return (
-                f"The communication step is {car.facts.step:g} s; for responses up to {high:g} Hz it must not be "
-                f"longer than {0.1 / high:.3g} s (--step, or less highest_frequency)."
-            )
-        return None
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        given = SteeringInput.of(car.facts)
-        speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
-        low, high = settings["lowest_frequency"], settings["highest_frequency"]
-        ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
-        progress(0.3)
-        amplitude = ramp.need_angle_at(wanted)
-        run = steer(car, "chirp", ramp.speed, *_table(amplitude, low, high, settings["duration"]), Pedals.HOLD_SPEED)
-        progress(0.95)
-        notes = [*ramp.notes, *filter(None, [given.note])]
-        if not run.whole:
-            notes.append(
-                f"The chirp ended after {run.time[-1] if len(run.time) else 0.0:.3g} s of {settings['duration']:g} s."
-            )
-        if len(run.time) and (drift := float(np.ptp(run.speed[run.time >= 0.0]))) > 0.05 * ramp.speed:
-            notes.append(f"The speed varied by {3.6 * drift:.3g} km/h during the chirp.")
-        found = {q: _response(run, q, low, high) for q in _QUANTITIES}
-        measures = [
-            Measure("speed", ramp.speed, "m/s", "speed that is held"),
-            Measure(
-                "steering_wheel_angle",
-                amplitude,
-                "rad" if given.is_angle else "1",
-                f"amplitude of the steering for {wanted:g} m/s²",
-            ),
-        ]
-        for q, response in found.items():
-            measures += _measures(q, response, given.is_angle)
-            if len(response.frequency) and (poor := float(response.coherence[response.frequency <= 2.0].min())) < _POOR:
-                notes.append(f"The coherence of the {q.word} falls to {poor:.2g} below 2 Hz: noise, or not linear.")
-        measures += _mode(found)
-        runs = {"ramp_left": ramp.run.thinned(), "chirp": run.thinned()}
-        return TestRecord(measures, _plots(run, found), runs, notes)
+    ]
+    for q, response in found.items():
+        measures += _measures(q, response, given.is_angle)
+        if len(response.frequency) and (poor := float(response.coherence[response.frequency <= 2.0].min())) < _POOR:
+            notes.append(f"The coherence of the {q.word} falls to {poor:.2g} below 2 Hz: noise, or not linear.")
+    measures += _mode(found)
+    runs = {"ramp_left": ramp.run.thinned(), "chirp": run.thinned()}
+    return TestRecord(measures, _plots(run, found), runs, notes)
 
 
-TEST = ChirpSteer()
+TEST = load_test("chirp_steer", perform, why_not)
 
 
 def _table(

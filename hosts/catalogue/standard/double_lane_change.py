@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
 from hosts.catalogue.preparation import RunUp, held, with_step_up_to
-from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
+from hosts.catalogue.record import TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.courses import course_of
@@ -25,19 +26,6 @@ from hosts.driving.planned_course import planned
 STEP = 0.005  # s, in which the driver holds the steering
 RUN_UP = 10.0  # m, from the front of the car to the first lane
 RELEASED_AFTER = 2.0  # m, into the first lane of ISO 3888-2
-ISO_3888_1 = Standard(
-    "ISO 3888-1:2018",
-    "Passenger cars: test track for a severe lane-change manoeuvre, part 1: double lane-change",
-    (Clause("", "lanes of 15, 25 and 30 m with 30 and 25 m between them, 3.5 m apart; the speed is held"),),
-)
-ISO_3888_2 = Standard(
-    "ISO 3888-2:2011",
-    "Passenger cars: test track for a severe lane-change manoeuvre, part 2: obstacle avoidance",
-    (
-        Clause("", "61 m: lanes of 12, 11 and 12 m with 13.5 and 12.5 m between them; widths from that of the car"),
-        Clause("", "the throttle is released 2 m after the first lane begins; the speed there is the entry speed"),
-    ),
-)
 
 
 @dataclass(frozen=True)
@@ -60,51 +48,34 @@ DRIVERS: dict[str, tuple[float, float, float]] = {
 """Drivers that try each speed, as people have several attempts: preview, horizon and lead of `LineFollower`, s."""
 
 
-class DoubleLaneChange:
-    """See `hosts.catalogue.record.StandardTest`."""
-
-    name = "double_lane_change"
-    title = "Double lane change"
-    standards = (ISO_3888_1, ISO_3888_2)
-    settings = (
-        Setting("course", 0.0, "1", "1: ISO 3888-1, 2: ISO 3888-2, 0: both", 0.0, 2.0),
-        Setting("lowest", 40.0, "km/h", "first speed", 10.0, 200.0),
-        Setting("highest", 160.0, "km/h", "no speed above it is tried", 20.0, 300.0),
-        Setting("increment", 10.0, "km/h", "by which the speed grows until a cone is hit", 1.0, 50.0),
-        Setting("resolution", 1.0, "km/h", "to which the limit is then bisected", 0.05, 10.0),
-    )
-    needs = (
-        *("steering", "throttle", "brake", "chassis.x", "chassis.y", "chassis.yaw", "speed"),
-        *("vehicle.wheelbase", "vehicle.front_wheel_angle_max", "vehicle.length", "vehicle.width"),
-    )
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        if settings["course"] not in (0.0, 1.0, 2.0):
-            raise HostError(f"The course is {settings['course']:g}; it must be 0 (both), 1 or 2.")
-        if settings["lowest"] >= settings["highest"]:
-            raise HostError(
-                f"The lowest speed is {settings['lowest']:g} km/h and the highest {settings['highest']:g} km/h; it "
-                "must be less."
-            )
-        car, notes = with_step_up_to(car, STEP, "the steering of the driver")
-        notes += (
-            f"The result depends on the driver: it is that of the best of {len(DRIVERS)}; another one may be faster.",
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    if settings["course"] not in (0.0, 1.0, 2.0):
+        raise HostError(f"The course is {settings['course']:g}; it must be 0 (both), 1 or 2.")
+    if settings["lowest"] >= settings["highest"]:
+        raise HostError(
+            f"The lowest speed is {settings['lowest']:g} km/h and the highest {settings['highest']:g} km/h; it "
+            "must be less."
         )
-        chosen = _LAYOUTS if settings["course"] == 0.0 else (_LAYOUTS[int(settings["course"]) - 1],)
-        measures, plots, runs = [], [], {}
-        for k, layout in enumerate(chosen):
+    car, notes = with_step_up_to(car, STEP, "the steering of the driver")
+    notes += (
+        f"The result depends on the driver: it is that of the best of {len(DRIVERS)}; another one may be faster.",
+    )
+    chosen = _LAYOUTS if settings["course"] == 0.0 else (_LAYOUTS[int(settings["course"]) - 1],)
+    measures, plots, runs = [], [], {}
+    for k, layout in enumerate(chosen):
 
-            def part(done: float, k: int = k) -> None:
-                progress((k + done) / len(chosen))
+        def part(done: float, k: int = k) -> None:
+            progress((k + done) / len(chosen))
 
-            passed, failed, more = limit(car, layout, settings, part)
-            notes += more
-            measures += measures_of(layout.name, passed, failed, settings["resolution"])
-            plots += plots_of(layout.name, passed, failed)
-            for name, passage in (("passed", passed), ("failed", failed)):
-                if passage is not None:
-                    runs[f"{layout.name}_{name}"] = passage.result
-        return TestRecord(measures, plots, runs, notes)
+        passed, failed, more = limit(car, layout, settings, part)
+        notes += more
+        measures += measures_of(layout.name, passed, failed, settings["resolution"])
+        plots += plots_of(layout.name, passed, failed)
+        for name, passage in (("passed", passed), ("failed", failed)):
+            if passage is not None:
+                runs[f"{layout.name}_{name}"] = passage.result
+    return TestRecord(measures, plots, runs, notes)
 
 
 def limit(
@@ -205,4 +176,4 @@ def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage
     return Passage(speed, result, driver, course, (length, width), pilot.pose, after, ends.reason, layout.release)
 
 
-TEST = DoubleLaneChange()
+TEST = load_test("double_lane_change", perform)

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.definition import load_test
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
-from hosts.catalogue.record import Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.impact import fall_time, first_contact, rebound, settling_time, weight_from_momentum
@@ -21,28 +22,15 @@ STEP = 0.002  # s; a peak of the load lasts some 10 ms
 BALANCE = Limit("balance of forces at rest", -1e-3, 1e-3)
 
 
-class Drop:
-    """See `hosts.catalogue.record.StandardTest`."""
-
-    name = "drop"
-    title = "Drop"
-    standards: tuple[Standard, ...] = ()
-    settings = (
-        Setting("height", 0.5, "m", "height of the fall", 0.001, 5.0),
-        Setting("duration", 6.0, "s", "time from the start of the fall", 1.0, 60.0),
-        Setting("band", 0.05, "1", "of the weight, in which the load must stay to be settled", 0.001, 0.5),
-        Setting("gravity", 9.81, "m/s2", "with which the fall is compared", 0.1, 30.0),
-    )
-    needs = ("initial.z", *(f"wheel_{wheel}.Fz" for wheel in WHEELS))
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        car, notes = with_step_up_to(car, STEP, "the peak of the load")
-        inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.3}
-        manoeuvre = held(car, self.name, settings["duration"], inputs, {"initial.z": settings["height"]})
-        result = car.drive(manoeuvre)
-        progress(1.0)
-        notes += early_end("drop", result)
-        return TestRecord(measures_of(result, settings), plots_of(result), {"drop": result}, notes)
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    car, notes = with_step_up_to(car, STEP, "the peak of the load")
+    inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.3}
+    manoeuvre = held(car, "drop", settings["duration"], inputs, {"initial.z": settings["height"]})
+    result = car.drive(manoeuvre)
+    progress(1.0)
+    notes += early_end("drop", result)
+    return TestRecord(measures_of(result, settings), plots_of(result), {"drop": result}, notes)
 
 
 def total_load(result: Result) -> NDArray[np.float64]:
@@ -171,4 +159,4 @@ def plots_of(result: Result) -> list[Plot]:
     return plots
 
 
-TEST = Drop()
+TEST = load_test("drop", perform)

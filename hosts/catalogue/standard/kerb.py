@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.definition import load_test
 from hosts.catalogue.preparation import early_end, held, with_step_up_to
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.common.numbers import Value
-from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
 from hosts.measures.vibration import LONGEST_STEP, largest_running_rms, vibration_dose, weighted
@@ -20,62 +20,45 @@ from hosts.measures.wheels import at_wheels, duration, lifted_wheels
 
 STEP = 0.002  # s; a wheel passes the edge within some 10 ms
 AFTER = 3.0  # s, beyond the edge
-ISO_2631 = Standard(
-    "ISO 2631-1:1997",
-    "Mechanical vibration and shock: evaluation of human exposure to whole-body vibration",
-    (Clause("", "vertical acceleration weighted with Wk; running RMS over 1 s, vibration dose value"),),
-)
 
 
-class Kerb:
-    """See `hosts.catalogue.record.StandardTest`."""
-
-    name = "kerb"
-    title = "Kerb"
-    standards = (ISO_2631,)
-    settings = (
-        Setting("height", 0.08, "m", "height of the kerb", 0.001, 0.5),
-        Setting("speed", 18.0, "km/h", "with which the car rolls, the pedals free", 2.0, 100.0),
-        Setting("ahead", 7.5, "m", "from the origin of the car's drawing to the edge", 0.0, 1000.0),
-    )
-    needs = ("initial.speed", "road.kerb_x", "road.kerb_height", *(f"wheel_{wheel}.Fz" for wheel in WHEELS))
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        car, notes = with_step_up_to(car, STEP, "the passage of an edge")
-        down: dict[str, Value] = {
-            "initial.speed": settings["speed"] / 3.6,
-            "road.kerb_height": settings["height"],
-            "road.kerb_x": settings["ahead"],
-        }
-        # Upwards the car comes from the low side: turned round, and lower by the kerb.
-        up = down | {
-            "road.kerb_x": 0.0,
-            "initial.x": settings["ahead"],
-            "initial.yaw": math.pi,
-            "initial.z": -settings["height"],
-        }
-        ways = {"down": down, "up": up}
-        missing = [n for n in up if n not in car.facts.parameters]
-        if missing:
-            del ways["up"]
-            notes += (f"Not driven up the kerb: that needs {missing[0]}, which the FMU does not have.",)
-        if settings["ahead"] <= 0.5:
-            notes += (f"The edge is {settings['ahead']:g} m from where the drawing begins: wheels may start on it.",)
-        # In neutral and without a torque that creeps the car rolls.
-        inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "selector": 0.0}
-        stop_time = settings["ahead"] / settings["speed"] * 3.6 + AFTER
-        runs = {}
-        for k, (way, start) in enumerate(ways.items()):
-            runs[way] = car.drive(held(car, f"kerb_{way}", stop_time, inputs, start))
-            notes += early_end(way, runs[way])
-            notes += _not_passed(way, runs[way], settings["height"])
-            progress((k + 1) / len(ways))
-        measures = [
-            replace(m, text=f"{way} the kerb: {m.text}")
-            for way, result in runs.items()
-            for m in measures_of(result, f"{way}.")
-        ]
-        return TestRecord(measures, plots_of(runs), runs, notes)
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    car, notes = with_step_up_to(car, STEP, "the passage of an edge")
+    down: dict[str, Value] = {
+        "initial.speed": settings["speed"] / 3.6,
+        "road.kerb_height": settings["height"],
+        "road.kerb_x": settings["ahead"],
+    }
+    # Upwards the car comes from the low side: turned round, and lower by the kerb.
+    up = down | {
+        "road.kerb_x": 0.0,
+        "initial.x": settings["ahead"],
+        "initial.yaw": math.pi,
+        "initial.z": -settings["height"],
+    }
+    ways = {"down": down, "up": up}
+    missing = [n for n in up if n not in car.facts.parameters]
+    if missing:
+        del ways["up"]
+        notes += (f"Not driven up the kerb: that needs {missing[0]}, which the FMU does not have.",)
+    if settings["ahead"] <= 0.5:
+        notes += (f"The edge is {settings['ahead']:g} m from where the drawing begins: wheels may start on it.",)
+    # In neutral and without a torque that creeps the car rolls.
+    inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "selector": 0.0}
+    stop_time = settings["ahead"] / settings["speed"] * 3.6 + AFTER
+    runs = {}
+    for k, (way, start) in enumerate(ways.items()):
+        runs[way] = car.drive(held(car, f"kerb_{way}", stop_time, inputs, start))
+        notes += early_end(way, runs[way])
+        notes += _not_passed(way, runs[way], settings["height"])
+        progress((k + 1) / len(ways))
+    measures = [
+        replace(m, text=f"{way} the kerb: {m.text}")
+        for way, result in runs.items()
+        for m in measures_of(result, f"{way}.")
+    ]
+    return TestRecord(measures, plots_of(runs), runs, notes)
 
 
 def _not_passed(way: str, result: Result, height: float) -> tuple[str, ...]:
@@ -201,4 +184,4 @@ def plots_of(runs: Mapping[str, Result]) -> list[Plot]:
     return plots
 
 
-TEST = Kerb()
+TEST = load_test("kerb", perform)

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.definition import load_test
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.steady_map import map_at_reachable_speed
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
-from hosts.catalogue.steering import NEED, SteeringInput
+from hosts.catalogue.steering import SteeringInput
 from hosts.catalogue.two_sides import asymmetry, mean_of_sides
 from hosts.measures.measure import Measure
 from hosts.measures.one_period import NOTHING, OnePeriod, one_period
@@ -21,75 +22,50 @@ _AFTER = 2.0
 _POINTS = 400
 
 
-class SineSteer:
-    """See `hosts.catalogue.record.StandardTest`."""
-
-    name = "sine_steer"
-    title = "One period of sinusoidal steering"
-    standards = (
-        Standard(
-            "ISO 7401:2011",
-            "Road vehicles: lateral transient response test methods, open-loop test methods",
-            (
-                Clause(
-                    "11", "One period of a sine of 0.5 Hz from straight driving, first to one side, then to the other."
-                ),
-                Clause("11", "Speed of 100 km/h; the pedals are held as they are."),
-                Clause("11", "Amplitude: that of a steady lateral acceleration of 4 m/s² at this speed."),
-                Clause("11", "Lags and ratios of the first and of the second peak."),
-            ),
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    given = SteeringInput.of(car.facts)
+    speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
+    ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
+    progress(0.4)
+    amplitude = ramp.need_angle_at(wanted)
+    period = 1.0 / settings["frequency"]
+    t = np.linspace(0.0, period, _POINTS + 1)
+    sine = np.append(np.sin(2.0 * math.pi * t / period), 0.0)
+    sides: list[SteeredRun] = []
+    for n, side in enumerate((1.0, -1.0)):
+        name = f"sine {'left' if side > 0.0 else 'right'}"
+        time = np.append(t, period + _AFTER)
+        sides.append(steer(car, name, ramp.speed, time, side * amplitude * sine, Pedals.FIXED))
+        progress(0.4 + 0.3 * (n + 1))
+    notes = [*ramp.notes, *filter(None, [given.note])]
+    for run, side_name in zip(sides, ("left", "right"), strict=True):
+        if not run.whole:
+            notes.append(f"The run that begins to the {side_name} ended early; what needs all of it is missing.")
+    notes += sorted(set(filter(None, [run.shortfall(amplitude) for run in sides])))
+    angle_unit = "rad" if given.is_angle else "1"
+    measures = [
+        Measure("speed", ramp.speed, "m/s", "speed at the beginning"),
+        Measure(
+            "steering_wheel_angle", amplitude, angle_unit, f"amplitude of the steering for a steady {wanted:g} m/s²"
         ),
+    ]
+    measures += _measures(
+        "yaw_rate", "yaw rate", sides, lambda r: r.yaw_rate, "1/s" if given.is_angle else "rad/s", period
     )
-    settings = (
-        Setting("speed", 100.0, "km/h", "at the beginning; 80 km/h for a car that cannot hold it", 20.0, 300.0),
-        Setting("frequency", 0.5, "Hz", "of the steering", 0.1, 4.0),
-        Setting("lateral_acceleration", 4.0, "m/s2", "steady, that belongs to the amplitude", 0.2, 20.0),
+    measures += _measures(
+        "lateral_acceleration",
+        "lateral acceleration",
+        sides,
+        lambda r: r.acceleration,
+        "m/(s2.rad)" if given.is_angle else "m/s2",
+        period,
     )
-    needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        given = SteeringInput.of(car.facts)
-        speed, wanted = settings["speed"] / 3.6, settings["lateral_acceleration"]
-        ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), wanted)
-        progress(0.4)
-        amplitude = ramp.need_angle_at(wanted)
-        period = 1.0 / settings["frequency"]
-        t = np.linspace(0.0, period, _POINTS + 1)
-        sine = np.append(np.sin(2.0 * math.pi * t / period), 0.0)
-        sides: list[SteeredRun] = []
-        for n, side in enumerate((1.0, -1.0)):
-            name = f"sine {'left' if side > 0.0 else 'right'}"
-            time = np.append(t, period + _AFTER)
-            sides.append(steer(car, name, ramp.speed, time, side * amplitude * sine, Pedals.FIXED))
-            progress(0.4 + 0.3 * (n + 1))
-        notes = [*ramp.notes, *filter(None, [given.note])]
-        for run, side_name in zip(sides, ("left", "right"), strict=True):
-            if not run.whole:
-                notes.append(f"The run that begins to the {side_name} ended early; what needs all of it is missing.")
-        notes += sorted(set(filter(None, [run.shortfall(amplitude) for run in sides])))
-        angle_unit = "rad" if given.is_angle else "1"
-        measures = [
-            Measure("speed", ramp.speed, "m/s", "speed at the beginning"),
-            Measure(
-                "steering_wheel_angle", amplitude, angle_unit, f"amplitude of the steering for a steady {wanted:g} m/s²"
-            ),
-        ]
-        measures += _measures(
-            "yaw_rate", "yaw rate", sides, lambda r: r.yaw_rate, "1/s" if given.is_angle else "rad/s", period
-        )
-        measures += _measures(
-            "lateral_acceleration",
-            "lateral acceleration",
-            sides,
-            lambda r: r.acceleration,
-            "m/(s2.rad)" if given.is_angle else "m/s2",
-            period,
-        )
-        runs = {"ramp_left": ramp.run.thinned(), "sine_left": sides[0].thinned(), "sine_right": sides[1].thinned()}
-        return TestRecord(measures, _plots(sides[0]), runs, notes)
+    runs = {"ramp_left": ramp.run.thinned(), "sine_left": sides[0].thinned(), "sine_right": sides[1].thinned()}
+    return TestRecord(measures, _plots(sides[0]), runs, notes)
 
 
-TEST = SineSteer()
+TEST = load_test("sine_steer", perform)
 
 
 def _relative(

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_run import CONSTANT_ANGLE, CONSTANT_RADIUS, CONSTANT_SPEED, CircleRun, drive_circle
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
-from hosts.catalogue.steering import NEED
+from hosts.catalogue.definition import load_test
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.steering_ratio import RATIO, WHEELS, steering_ratio
 from hosts.driving.pilots.circle_follower import SENSES
 from hosts.measures.gradient import Gradient, gradient
@@ -24,70 +24,40 @@ _Signal: TypeAlias = Callable[[CircleRun], NDArray[np.float64]]
 _WHEELBASE = "vehicle.wheelbase"
 
 
-class SteadyCircle:
-    """See `hosts.catalogue.record.StandardTest`."""
+def why_not(car: TestedCar, settings: Mapping[str, float]) -> str | None:
+    """See `StandardTest`."""
+    if settings["method"] not in (CONSTANT_RADIUS, CONSTANT_ANGLE, CONSTANT_SPEED):
+        return f"The setting method of steady_circle is {settings['method']:g}; it must be 1, 2 or 3."
+    if settings["fit_to"] < settings["fit_from"] + 0.5:
+        return (
+            f"The regression of steady_circle is to go from {settings['fit_from']:g} to {settings['fit_to']:g} m/s2; "
+            "fit_to must be at least 0.5 m/s2 above fit_from."
+        )
+    missing = [name for name in SENSES if name not in car.outputs]
+    if settings["method"] == CONSTANT_RADIUS and missing:
+        return (
+            f"To hold a circle needs the outputs {', '.join(missing)}, which {car.path.name} does not have; "
+            f"--test-setting steady_circle.method=2 does without."
+        )
+    if settings["method"] != CONSTANT_SPEED and not {RATIO, *WHEELS} & {*car.constants, *car.outputs}:
+        return (
+            f"To drive a circle needs the constant {RATIO} or the angles of the front wheels, which "
+            f"{car.path.name} does not tell; an alias file can give it (--aliases)."
+        )
+    return None
 
-    name = "steady_circle"
-    title = "Steady circle"
-    standards = (
-        Standard(
-            "ISO 4138:2021",
-            "Passenger cars: steady-state circular driving behaviour, open-loop test methods",
-            (
-                Clause("8.3", "Both directions are driven; steps of lateral acceleration are at most 0.5 m/s²."),
-                Clause(
-                    "8.4", "Method 1: a circle of constant radius, 100 m recommended, at a speed that rises slowly."
-                ),
-                Clause("8.5", "Method 2: a constant angle of the steering wheel at a speed that rises slowly."),
-                Clause("8.6", "Method 3: a constant speed, the steering wheel is turned slowly."),
-                Clause("", "Gradients are slopes over the lateral acceleration; understeer gradient of ISO 8855."),
-            ),
-        ),
-    )
-    settings = (
-        Setting("method", 1.0, "1", "1 constant radius, 2 constant steering-wheel angle, 3 constant speed", 1.0, 3.0),
-        Setting("radius", 100.0, "m", "of the circle; in method 2 that of slow driving", 30.0, 1000.0),
-        Setting("speed_rise", 0.3, "m/s2", "rate of the speed in methods 1 and 2", 0.02, 1.0),
-        Setting("speed", 80.0, "km/h", "in method 3", 20.0, 250.0),
-        Setting("steering_rate", 2.0, "deg/s", "of the steering wheel in method 3", 0.1, 30.0),
-        Setting("fit_from", 1.0, "m/s2", "lateral acceleration where the regression begins", 0.1, 20.0),
-        Setting("fit_to", 4.0, "m/s2", "lateral acceleration where it ends", 0.5, 30.0),
-        Setting("tolerance", 1.0, "m", "distance from the circle at which method 1 ends", 0.1, 10.0),
-    )
-    needs = ("chassis.ay", "speed", "throttle", _WHEELBASE, NEED)
 
-    def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
-        """See `hosts.catalogue.perform.missing_for`."""
-        if settings["method"] not in (CONSTANT_RADIUS, CONSTANT_ANGLE, CONSTANT_SPEED):
-            return f"The setting method of {self.name} is {settings['method']:g}; it must be 1, 2 or 3."
-        if settings["fit_to"] < settings["fit_from"] + 0.5:
-            return (
-                f"The regression of {self.name} is to go from {settings['fit_from']:g} to {settings['fit_to']:g} m/s2; "
-                "fit_to must be at least 0.5 m/s2 above fit_from."
-            )
-        missing = [name for name in SENSES if name not in car.outputs]
-        if settings["method"] == CONSTANT_RADIUS and missing:
-            return (
-                f"To hold a circle needs the outputs {', '.join(missing)}, which {car.path.name} does not have; "
-                f"--test-setting {self.name}.method=2 does without."
-            )
-        if settings["method"] != CONSTANT_SPEED and not {RATIO, *WHEELS} & {*car.constants, *car.outputs}:
-            return (
-                f"To drive a circle needs the constant {RATIO} or the angles of the front wheels, which "
-                f"{car.path.name} does not tell; an alias file can give it (--aliases)."
-            )
-        return None
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        ratio = steering_ratio(car)
-        progress(0.04)
-        runs: dict[str, CircleRun] = {}
-        for k, (side, sign) in enumerate(_SIDES.items()):
-            runs[side] = drive_circle(car, sign, settings, ratio, part_of(progress, k))
-        notes = [f"To the {side} {run.end}" for side, run in runs.items() if run.end]
-        notes += [runs["left"].steering_note] if runs["left"].steering_note else []
-        measures = _measures(car.constants[_WHEELBASE], ratio, runs, settings)
-        return TestRecord(measures, _plots(runs), {side: run.result for side, run in runs.items()}, notes)
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    ratio = steering_ratio(car)
+    progress(0.04)
+    runs: dict[str, CircleRun] = {}
+    for k, (side, sign) in enumerate(_SIDES.items()):
+        runs[side] = drive_circle(car, sign, settings, ratio, part_of(progress, k))
+    notes = [f"To the {side} {run.end}" for side, run in runs.items() if run.end]
+    notes += [runs["left"].steering_note] if runs["left"].steering_note else []
+    measures = _measures(car.constants[_WHEELBASE], ratio, runs, settings)
+    return TestRecord(measures, _plots(runs), {side: run.result for side, run in runs.items()}, notes)
 
 
 def part_of(progress: Callable[[float], None], run: int) -> Callable[[float], None]:
@@ -200,4 +170,4 @@ def _plots(runs: Mapping[str, CircleRun]) -> list[Plot]:
     return made
 
 
-TEST = SteadyCircle()
+TEST = load_test("steady_circle", perform, why_not)

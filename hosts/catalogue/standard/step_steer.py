@@ -8,10 +8,11 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.definition import load_test
+from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.steady_map import SteadyMap, map_at_reachable_speed
 from hosts.catalogue.steered_run import Pedals, steer
-from hosts.catalogue.steering import NEED, SteeringInput
+from hosts.catalogue.steering import SteeringInput
 from hosts.catalogue.stepped_run import SteppedRun, measures_of_step, remarks, stepped
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
@@ -19,87 +20,57 @@ from hosts.measures.measure import Measure
 _LEVELS = ("level_1", "level_2", "level_3")
 _CLOSE = 0.02
 _MOST_RUNS = 4
-_LEVEL = "steady lateral acceleration; 0: left out"
 
 
-class StepSteer:
-    """See `hosts.catalogue.record.StandardTest`."""
+def why_not(car: TestedCar, settings: Mapping[str, float]) -> str | None:
+    """See `StandardTest`."""
+    begin, end = settings["steady_from"], settings["steady_to"]
+    if end <= begin:
+        return (
+            f"The window of the steady state begins at steady_from = {begin:g} s and ends at steady_to = {end:g} "
+            "s; it must end later."
+        )
+    if not any(settings[name] > 0.0 for name in _LEVELS):
+        return "level_1, level_2 and level_3 are all 0; one of them must be above 0 m/s²."
+    return None
 
-    name = "step_steer"
-    title = "Step steer"
-    standards = (
-        Standard(
-            "ISO 7401:2011",
-            "Road vehicles: lateral transient response test methods, open-loop test methods",
-            (
-                Clause("10", "Step of the steering wheel within 0.15 s from straight driving, to both sides."),
-                Clause("10", "Speed of 100 km/h, others in steps of 20 km/h; the pedals are held as they are."),
-                Clause("10", "Amplitude for a steady lateral acceleration of 4 m/s²; further levels are 2 and 6 m/s²."),
-                Clause("10", "Times count from half of the steering angle; the response time is that to 90 %."),
-                Clause("10", "TB: peak response time of the yaw rate times the steady sideslip angle."),
-            ),
-        ),
-    )
-    settings = (
-        Setting("speed", 100.0, "km/h", "at the step; 80 km/h for a car that cannot hold it", 20.0, 300.0),
-        Setting("level_1", 2.0, "m/s2", _LEVEL, 0.0, 20.0),
-        Setting("level_2", 4.0, "m/s2", _LEVEL, 0.0, 20.0),
-        Setting("level_3", 6.0, "m/s2", _LEVEL, 0.0, 20.0),
-        Setting("steering_rate", 500.0, "deg/s", "of the steering wheel in the step", 50.0, 2000.0),
-        Setting(
-            "steady_from", 3.0, "s", "start of the window of the steady state, after the start of the step", 0.5, 30.0
-        ),
-        Setting("steady_to", 4.0, "s", "its end", 0.6, 40.0),
-    )
-    needs = ("chassis.wz", "chassis.ay", "speed", "throttle", NEED)
 
-    def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
-        """Why the test cannot be done with these settings; None if it can."""
-        begin, end = settings["steady_from"], settings["steady_to"]
-        if end <= begin:
-            return (
-                f"The window of the steady state begins at steady_from = {begin:g} s and ends at steady_to = {end:g} "
-                "s; it must end later."
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    levels = {name: settings[name] for name in _LEVELS if settings[name] > 0.0}
+    given = SteeringInput.of(car.facts)
+    speed = settings["speed"] / 3.6
+    ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), max(levels.values()))
+    progress(0.2)
+    notes = [*ramp.notes, *filter(None, [given.note])]
+    runs: dict[str, Result] = {"ramp_left": ramp.run.thinned()}
+    measures = [Measure("speed", ramp.speed, "m/s", "speed at the beginning of the step")]
+    driven: list[tuple[float, SteppedRun]] = []
+    share = 0.8 / len(levels)
+    for k, (name, wanted) in enumerate(levels.items()):
+        begin = 0.2 + k * share
+
+        def part(done: float, begin: float = begin) -> None:
+            progress(begin + share * done)
+
+        if math.isnan(ramp.angle_at(wanted)):
+            notes.append(
+                f"At {3.6 * ramp.speed:g} km/h the car reaches {ramp.largest:.3g} m/s² in a slow ramp of the "
+                f"steering, not {wanted:g} m/s²: {name} is left out."
             )
-        if not any(settings[name] > 0.0 for name in _LEVELS):
-            return "level_1, level_2 and level_3 are all 0; one of them must be above 0 m/s²."
-        return None
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        levels = {name: settings[name] for name in _LEVELS if settings[name] > 0.0}
-        given = SteeringInput.of(car.facts)
-        speed = settings["speed"] / 3.6
-        ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), max(levels.values()))
-        progress(0.2)
-        notes = [*ramp.notes, *filter(None, [given.note])]
-        runs: dict[str, Result] = {"ramp_left": ramp.run.thinned()}
-        measures = [Measure("speed", ramp.speed, "m/s", "speed at the beginning of the step")]
-        driven: list[tuple[float, SteppedRun]] = []
-        share = 0.8 / len(levels)
-        for k, (name, wanted) in enumerate(levels.items()):
-            begin = 0.2 + k * share
-
-            def part(done: float, begin: float = begin) -> None:
-                progress(begin + share * done)
-
-            if math.isnan(ramp.angle_at(wanted)):
-                notes.append(
-                    f"At {3.6 * ramp.speed:g} km/h the car reaches {ramp.largest:.3g} m/s² in a slow ramp of the "
-                    f"steering, not {wanted:g} m/s²: {name} is left out."
-                )
-                nothing = stepped(ramp.run, (math.inf, math.inf))
-                found = measures_of_step(name, wanted, nothing, nothing, "rad" if given.is_angle else "1")
-                measures += [Measure(m.name, m.value, m.unit, m.text, m.limit, notes[-1]) for m in found]
-                continue
-            left, right = _both_sides(car, ramp, wanted, settings, part)
-            measures += measures_of_step(name, wanted, left, right, "rad" if given.is_angle else "1")
-            runs |= {f"{name}_left": left.run.thinned(), f"{name}_right": right.run.thinned()}
-            notes += remarks(wanted, left, right)
-            driven.append((wanted, left))
-        return TestRecord(measures, _plots(driven), runs, notes)
+            nothing = stepped(ramp.run, (math.inf, math.inf))
+            found = measures_of_step(TEST.measures, name, wanted, nothing, nothing, given.is_angle)
+            measures += [Measure(m.name, m.value, m.unit, m.text, m.limit, notes[-1]) for m in found]
+            continue
+        left, right = _both_sides(car, ramp, wanted, settings, part)
+        measures += measures_of_step(TEST.measures, name, wanted, left, right, given.is_angle)
+        runs |= {f"{name}_left": left.run.thinned(), f"{name}_right": right.run.thinned()}
+        notes += remarks(wanted, left, right)
+        driven.append((wanted, left))
+    return TestRecord(measures, _plots(driven), runs, notes)
 
 
-TEST = StepSteer()
+TEST = load_test("step_steer", perform, why_not)
 
 
 def _both_sides(

@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 from hosts.catalogue.braking_measures import measures_of, plots_of
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import RunUp, early_end, held, with_step_up_to
-from hosts.catalogue.record import Clause, Setting, Standard, TestRecord
+from hosts.catalogue.record import TestRecord
 from hosts.common.wheels import WHEELS
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.speed_holder import SpeedHolder
@@ -20,66 +21,31 @@ from hosts.measures.measure import Measure
 
 STEP = 0.005  # s; the pedal rises in a multiple of it
 RESOLUTION = 0.01  # of the pedal without locked wheels
-ISO_21994 = Standard(
-    "ISO 21994:2022",
-    "Passenger cars: stopping distance at straight-line braking with ABS, open-loop test method",
-    (
-        Clause("", "from 100 km/h to rest, steering held straight, the pedal pressed quickly and fully"),
-        Clause(
-            "", "stopping distance from the first movement of the pedal, corrected to the nominal speed by its square"
-        ),
-    ),
-)
-UN_R13H = Standard(
-    "UN Regulation No. 13-H",
-    "Braking of passenger cars",
-    (
-        Clause("Annex 3", "mean fully developed deceleration over the way from 80 % to 10 % of the initial speed"),
-        Clause(
-            "Annex 3",
-            "cold brakes, engine disconnected, from 100 km/h: at least 6.43 m/s2, at most 0.1 v + 0.006 v2, "
-            "no locked wheel above 15 km/h",
-        ),
-    ),
-)
 
 
-class StraightBraking:
-    """See `hosts.catalogue.record.StandardTest`."""
-
-    name = "straight_braking"
-    title = "Straight-line braking"
-    standards = (ISO_21994, UN_R13H)
-    settings = (
-        Setting("speed", 100.0, "km/h", "nominal initial speed", 5.0, 360.0),
-        Setting("pedal", 1.0, "1", "position of the brake pedal", 0.01, 1.0),
-        Setting("rise_time", 0.1, "s", "from the first movement of the pedal to its position", 0.0, 5.0),
-        Setting("neutral", 1.0, "1", "1: the selector goes to neutral with the brake; 0: it stays", 0.0, 1.0),
-    )
-    needs = ("steering", "throttle", "brake", "speed")
-
-    def perform(self, car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        car, notes = with_step_up_to(car, STEP, "the rise of the deceleration")
-        if settings["neutral"] >= 0.5 and "selector" not in car.facts.inputs:
-            notes += ("The car has no selector: it is braked in the gear it has.",)
-        result, onset, more = stop(car, settings)
-        notes += more
-        progress(0.2)
-        runs, measures = {"straight_braking": result}, measures_of(result, onset, settings)
-        locking = _locks(measures)
-        if locking:
-            notes += (
-                f"Wheels lock at a pedal of {settings['pedal']:g}: {', '.join(locking)}. ISO 21994 is for cars with an "
-                "anti-lock system; what the car reaches without a locked wheel is in the measures that begin with "
-                "unlocked.",
-            )
-            best, run = _best_unlocked(car, settings, progress)
-            runs |= {"unlocked": run[0]} if run is not None else {}
-        else:
-            best, run = settings["pedal"], (result, onset)
-        measures += _unlocked(best, run, settings)
-        progress(1.0)
-        return TestRecord(measures, plots_of(result, onset), runs, notes)
+def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    """See `StandardTest`."""
+    car, notes = with_step_up_to(car, STEP, "the rise of the deceleration")
+    if settings["neutral"] >= 0.5 and "selector" not in car.facts.inputs:
+        notes += ("The car has no selector: it is braked in the gear it has.",)
+    result, onset, more = stop(car, settings)
+    notes += more
+    progress(0.2)
+    runs, measures = {"straight_braking": result}, measures_of(result, onset, settings)
+    locking = _locks(measures)
+    if locking:
+        notes += (
+            f"Wheels lock at a pedal of {settings['pedal']:g}: {', '.join(locking)}. ISO 21994 is for cars with an "
+            "anti-lock system; what the car reaches without a locked wheel is in the measures that begin with "
+            "unlocked.",
+        )
+        best, run = _best_unlocked(car, settings, progress)
+        runs |= {"unlocked": run[0]} if run is not None else {}
+    else:
+        best, run = settings["pedal"], (result, onset)
+    measures += _unlocked(best, run, settings)
+    progress(1.0)
+    return TestRecord(measures, plots_of(result, onset), runs, notes)
 
 
 def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, tuple[str, ...]]:
@@ -163,4 +129,4 @@ def _unlocked(pedal: float, run: tuple[Result, float] | None, settings: Mapping[
     return rows
 
 
-TEST = StraightBraking()
+TEST = load_test("straight_braking", perform)

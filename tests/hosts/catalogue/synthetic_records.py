@@ -2,29 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, TestRecord
+from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, StandardTest, TestRecord
 from hosts.measures.measure import Limit, Measure
 
 EVIL = '<script>alert("x")</script> & "Ä"'
 
 
-@dataclass(frozen=True)
-class SyntheticTest:
-    name: str
-    title: str
-    standards: tuple = ()
-    settings: tuple = (Setting("speed", 100.0, "km/h", "of the test", 20.0, 200.0),)
-    needs: tuple = ("steering",)
-    __test__: bool = field(default=False, repr=False)
+def synthetic_test(name: str, title: str, standards: tuple[Standard, ...] = ()) -> StandardTest:
+    """A test whose records are made, and which is not driven."""
+    settings = (Setting("speed", 100.0, "km/h", "of the test", 20.0, 200.0),)
+    return StandardTest(name, title, _undriven, standards, settings, ("steering",))
 
-    def perform(self, car, settings, progress):
-        raise NotImplementedError  # its records are made, and none is driven
+
+def _undriven(*_: object) -> TestRecord:
+    raise NotImplementedError
 
 
 def standard():
@@ -66,7 +62,7 @@ def synthetic(fmu: Path, cars: int = 3, tests: int = 10, points: int = 20_000):
     labels = ["as built", EVIL, "with $stiff$ springs", "fourth", "fifth"][:cars]
     starts = [{}, {"front.spring.stiffness": 15_000.0}, {"initial.x": 0.0}, {}, {}]
     the_cars = [TestedCar(label, fmu, start=start) for label, start in zip(labels, starts, strict=False)]
-    the_tests = [SyntheticTest(f"test_{k}", f"Test {k} of steering", (standard(),)) for k in range(tests)]
+    the_tests = [synthetic_test(f"test_{k}", f"Test {k} of steering", (standard(),)) for k in range(tests)]
     records = {t.name: {label: record(k, points) for k, label in enumerate(labels)} for t in the_tests}
     if tests > 1:
         records["test_1"][labels[-1]] = f"The FMU has no variable steering; {EVIL}."

@@ -9,7 +9,7 @@ import pytest
 
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.kept import keep, kept
+from hosts.catalogue.kept import KeptTests
 from hosts.catalogue.output import measures_csv
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
@@ -17,6 +17,11 @@ from hosts.catalogue.registry import standard_test
 from hosts.catalogue.task import Task, do, write_runs
 
 SETTINGS = {"height": 0.05, "duration": 4.0}
+
+
+def kept(task: Task, out: Path) -> TestRecord | None:
+    with KeptTests(out) as tests:
+        return tests.find(task)
 
 
 @pytest.mark.slow
@@ -29,7 +34,8 @@ def test_what_is_kept_is_what_was_done(
     record = do(task, lambda part: None)
     assert isinstance(record, TestRecord)
     write_runs(task, record)
-    keep(task, record, tmp_path)
+    with KeptTests(tmp_path) as tests:
+        tests.add(task, record)
     again = kept(task, tmp_path)
     assert again is not None
     assert measures_csv([drop], {"drop": {"p": again}}) == measures_csv([drop], {"drop": {"p": record}})
@@ -44,7 +50,6 @@ def test_what_is_kept_is_what_was_done(
         yield from (pytest.fail("it was done again") for _ in tasks)
 
     monkeypatch.setattr(command, "_done", undone)
-    monkeypatch.setattr(command, "_report", lambda *_: [])
     given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
     told = capsys.readouterr().out
@@ -54,10 +59,10 @@ def test_what_is_kept_is_what_was_done(
     assert kept(replace(task, settings={**task.settings, "height": 0.06}), tmp_path) is None
     assert kept(replace(task, car=replace(task.car, start={"front.tyre.grip": 0.9})), tmp_path) is None
     assert kept(task, tmp_path) is not None
-    (file,) = (tmp_path / "kept").rglob("*.json")
-    text = file.read_text()
-    file.write_text(text[:-9])
+    file = tmp_path / "done"
+    content = file.read_bytes()
+    file.write_bytes(content[:-9])
     assert kept(task, tmp_path) is None
-    file.write_text(text)
+    file.write_bytes(content)
     next((tmp_path / "runs" / "drop").glob("*.csv")).unlink()
     assert kept(task, tmp_path) is None

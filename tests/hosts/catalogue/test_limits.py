@@ -13,7 +13,7 @@ import hosts.catalogue
 from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.kept import keep
+from hosts.catalogue.kept import KeptTests
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
@@ -108,8 +108,8 @@ def test_the_command_says_which_measure_is_outside(
     prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     task = Task("drop", TestedCar(prototype_fmu.stem, prototype_fmu), settings_of_test(standard_test("drop"), {}))
-    keep(task, record(2001.0), tmp_path)
-    monkeypatch.setattr(command, "_report", lambda *_: [])
+    with KeptTests(tmp_path) as kept:
+        kept.add(task, record(2001.0))
     file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"kerb.peak" = {max = 1}').file
     drop = [str(prototype_fmu), "--tests", "drop", "--no-runs", "--out", str(tmp_path)]
     assert command.main(drop) == 0

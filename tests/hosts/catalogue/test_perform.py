@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from hosts.catalogue.perform import missing_for, perform, settings_of_test
-from hosts.catalogue.record import Setting, TestRecord
+from hosts.catalogue.record import Setting, StandardTest, TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
@@ -19,18 +20,19 @@ def result(*messages: str) -> Result:
     return Result(["a"], {"a": "1"}, np.zeros(1), np.zeros((1, 1)), 0.0, 0.0, 0, list(messages))
 
 
-class Talking:
-    name, title, standards = "talking", "Talking", ()
-    settings = (Setting("count", 2.0, "1", "runs", 1.0, 9.0),)
-    needs = ("speed", "nothing | throttle")
+def talk(car: object, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+    runs = {f"run_{k}": result("The step is\n too long.", *(["Once."] if k else [])) for k in range(2)}
+    return TestRecord([], [], runs, ["Noted."])
 
-    def perform(self, car: BicycleCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-        runs = {f"run_{k}": result("The step is\n too long.", *(["Once."] if k else [])) for k in range(2)}
-        return TestRecord([], [], runs, ["Noted."])
+
+TALKING = StandardTest(
+    "talking", "Talking", talk, settings=(Setting("count", 2.0, "1", "runs", 1.0, 9.0),),
+    needs=("speed", "nothing | throttle"),
+)  # fmt: skip
 
 
 def test_what_the_fmu_says_is_noted_once() -> None:
-    record = perform(Talking(), BicycleCar())
+    record = perform(TALKING, BicycleCar())
     assert record.notes == [
         "Noted.",
         "The FMU said in every run: The step is too long.",
@@ -39,20 +41,19 @@ def test_what_the_fmu_says_is_noted_once() -> None:
 
 
 def test_one_of_several_names_suffices() -> None:
-    test = Talking()
-    assert missing_for(test, BicycleCar(), {}) is None
-    test.needs = ("speed", "nothing | nowhere")
+    assert missing_for(TALKING, BicycleCar(), {}) is None
+    test = replace(TALKING, needs=("speed", "nothing | nowhere"))
     assert "has no nothing or nowhere; where it has" in str(missing_for(test, BicycleCar(), {}))
     aliases = Aliases(missing={"nothing": "The file takes it from X."})
     assert str(missing_for(test, BicycleCar(aliases=aliases), {})).endswith("; The file takes it from X.")
 
 
 def test_settings_are_completed_and_checked() -> None:
-    assert settings_of_test(Talking(), {}) == {"count": 2.0}  # type: ignore[arg-type]
+    assert settings_of_test(TALKING, {}) == {"count": 2.0}
     for given, words in (
         ({"count": 10.0}, "it must be from 1 to 9"),
         ({"count": float("nan")}, "is nan"),
         ({"n": 1.0}, "no setting 'n'"),
     ):
         with pytest.raises(HostError, match=words):
-            settings_of_test(Talking(), given)  # type: ignore[arg-type]
+            settings_of_test(TALKING, given)

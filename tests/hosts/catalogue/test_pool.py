@@ -11,10 +11,10 @@ import psutil
 import pytest
 
 from ali3.isolated import Lost
-from ali3.shared_tasks import as_completed
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, do, write_runs
+from hosts.experiment.pool import Pool
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 from tests.hosts.catalogue.crashing_car import CrashingCar, FaultyCar
 
@@ -27,7 +27,8 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
     cars = [CrashingCar(label="a"), BicycleCar(label="b"), FaultyCar(label="c"), BicycleCar(label="d", ratio=20.0)]
     tasks = [Task("steady_circle", car, FAST, tmp_path) for car in cars]  # type: ignore[arg-type]
     heard: list[tuple[int, float]] = []
-    outcomes = dict(as_completed(do, TestRecord | str, tasks, 2, lambda place, part: heard.append((place, part))))
+    with Pool(do, TestRecord | str, 2) as pool:
+        outcomes = dict(pool.results(tasks, lambda place, part: heard.append((place, part))))
     assert set(outcomes) == {0, 1, 2, 3}
     assert isinstance(outcomes[0], Lost)
     assert outcomes[0].how.startswith("was killed (SIGKILL)")
@@ -51,7 +52,7 @@ def test_processes_and_what_they_unpacked_go_with_the_iteration(
     others = psutil.Process().children()
     slow = Task("steady_circle", TestedCar("slow", prototype_fmu), {"speed_rise": 0.02})
     tasks = [slow, Task("steady_circle", FaultyCar(), FAST)]  # type: ignore[arg-type]
-    iteration = as_completed(do, TestRecord | str, tasks, 2, lambda place, part: None)
+    iteration = Pool(do, TestRecord | str, 2).results(tasks)
     assert next(iteration)[0] == 1
     end = time.monotonic() + 30.0
     while not any("modelDescription.xml" in files for _, _, files in os.walk(tmp_path)) and time.monotonic() < end:

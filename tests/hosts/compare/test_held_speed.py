@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hosts.compare.loaded_fmu import _holder
 from hosts.compare.log import Signal
+from hosts.compare.stretch_fmu import _holder
 
 
 @pytest.mark.parametrize("step", [0.01, 0.05, 0.1])

@@ -32,7 +32,8 @@ def folder(study_file: Callable[..., Path], spring: Path, tmp_path: Path) -> Pat
     record = json.loads(json.dumps(plan.record))
     begin_study(tmp_path / "out", record, content, spring)
     writer = PartWriter(tmp_path / "out", record)
-    writer.add(plan.chunk(range(plan.runs)), [Outcome(measures={"highest": 0.1 * k}) for k in range(plan.runs)])
+    for k, run in enumerate(plan.runs_at(range(plan.runs))):
+        writer.add(run, Outcome(measures={"highest": 0.1 * k}))
     writer.flush()
     return tmp_path / "out"
 

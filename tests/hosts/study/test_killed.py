@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import signal
 import subprocess
@@ -21,12 +20,13 @@ from distributed import Client
 from distributed.comm import CommClosedError
 
 from hosts.common.errors import HostError
+from hosts.experiment.journal import Journal
 from hosts.study.cluster import bring
+from hosts.study.cluster_runs import ClusterRuns
 from hosts.study.command import main
-from hosts.study.execution import Execution
 from hosts.study.parts import part_files
 from hosts.study.store import read_study
-from hosts.study.work import Outcome
+from hosts.study.work import Outcome, Run
 
 ROOT = Path(__file__).parents[3]
 RUNS = 140
@@ -43,7 +43,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 NOT_ENCRYPTED = (
     "note: The scheduler {} is used without TLS: whoever reaches it or its workers can run programs as their user. "
-    "The page on studies of the documentation says how certificates are set.\n"
+    "The page on studies of the documentation says how certificates are set."
 )
 
 
@@ -64,6 +64,11 @@ def command(*arguments: object) -> subprocess.Popen[str]:
         cwd=ROOT,
         start_new_session=True,
     )
+
+
+def said(error: str) -> list[str]:
+    """Lines but those of the progress bar."""
+    return [line for line in error.splitlines() if not line.startswith("study: ")]
 
 
 def wait_for_part(folder: Path, process: subprocess.Popen[str], parts: int) -> None:
@@ -100,14 +105,56 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
     process.send_signal(signal.SIGKILL)
     process.communicate()
     before = rows(out)
+    made = len(before) + len(Journal[Outcome](out / "runs" / "journal", Outcome).read())
     assert 0 < len(before) < RUNS
     assert psutil.wait_procs(children, timeout=30.0)[1] == []  # the workers end with the command
     process = command(slow_study, "--out", out, "--jobs", 2)
     told, error = process.communicate(timeout=120.0)
-    assert (process.returncode, error) == (0, "")
-    assert f"{len(before)} of {RUNS} runs are there" in told
+    assert (process.returncode, said(error)) == (0, [])
+    assert f"{made} of {RUNS} runs are there" in told
     now = rows(out)
     assert {index: now[index] for index in before} == before
+    check_complete(out)
+
+
+@pytest.mark.slow
+def test_a_kill_loses_only_the_runs_in_hand(
+    slow_study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The command is killed before a part is written: the journal has the runs, which are not made again."""
+    out, journal = tmp_path / "out", tmp_path / "out" / "runs" / "journal"
+    process = command(slow_study, "--out", out, "--jobs", 2)
+    while not journal.is_file() or journal.stat().st_size < 1000:
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    process.kill()
+    process.communicate()
+    made = len(Journal[Outcome](journal, Outcome).read()) + len(rows(out))
+    assert made > 0
+    assert main([str(slow_study), "--out", str(out), "--jobs", "2", "--no-report"]) == 0
+    told = capsys.readouterr().out
+    assert f"{made} of {RUNS} runs are there" in told
+    assert f"{RUNS - made} runs in " in told
+    assert not journal.exists()
+    check_complete(out)
+
+
+@pytest.mark.slow
+def test_a_run_whose_process_is_killed_is_a_row(slow_study: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    process = command(slow_study, "--out", out, "--jobs", 2)
+    wait_for_part(out, process, 1)
+    psutil.Process(process.pid).children(recursive=True)[-1].kill()
+    told, error = process.communicate(timeout=120.0)
+    assert (process.returncode, said(error)) == (0, [])
+    assert f"{RUNS} runs in " in told
+    assert "1 failed" in told
+    found = [row for row in rows(out).values() if "failed" in row]
+    assert len(found) == 1
+    assert any("killed (SIGKILL)" in str(value) for value in found[0])
+    process = command(slow_study, "--out", out, "--jobs", 2, "--again")
+    process.communicate(timeout=120.0)
+    assert process.returncode == 0
     check_complete(out)
 
 
@@ -119,7 +166,7 @@ def test_a_worker_is_killed(slow_study: Path, tmp_path: Path, scheduler: str) ->
     with Client(scheduler, set_as_default=False) as client:
         os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
     _, error = process.communicate(timeout=120.0)
-    assert (process.returncode, error) == (0, NOT_ENCRYPTED.format(scheduler))
+    assert (process.returncode, said(error)) == (0, [NOT_ENCRYPTED.format(scheduler)])
     check_complete(out)
 
 
@@ -178,35 +225,10 @@ def test_the_scheduler_is_killed(slow_study: Path, tmp_path: Path) -> None:
     with own_scheduler(tmp_path) as (address, _):
         process = command(slow_study, "--out", out, "--scheduler", address)
         _, error = process.communicate(timeout=120.0)
-    assert (process.returncode, error) == (0, NOT_ENCRYPTED.format(address))
+    assert (process.returncode, said(error)) == (0, [NOT_ENCRYPTED.format(address)])
     now = rows(out)
     assert {index: now[index] for index in before} == before
     check_complete(out)
-
-
-def spawned(process: subprocess.Popen[str]) -> list[psutil.Process]:
-    """Processes that the command has started for workers."""
-    found = []
-    for child in psutil.Process(process.pid).children(recursive=True):
-        with contextlib.suppress(psutil.Error):  # it may end meanwhile
-            found += [child] if "spawn_main" in " ".join(child.cmdline()) else []
-    return found
-
-
-@pytest.mark.slow
-def test_a_worker_is_killed_while_the_cluster_starts(slow_study: Path, tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    process = command(slow_study, "--out", out, "--jobs", 2)
-    while not (workers := spawned(process)):
-        assert process.poll() is None, process.communicate()
-        time.sleep(0.01)
-    workers[0].kill()
-    _, error = process.communicate(timeout=120.0)
-    assert process.returncode == 1
-    assert error == (
-        f"The workers of this machine have gone (Nanny failed to start). 0 of {RUNS} runs are written and stay; the "
-        "same command makes the others.\n"
-    )
 
 
 @pytest.mark.parametrize("count", [9, 16])
@@ -220,15 +242,14 @@ def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
     def broken(*_: object) -> Iterator[SimpleNamespace]:
         yield SimpleNamespace(nthreads=lambda: {"a": 1})
 
-    def run(self: Execution, _: object) -> None:
-        chunk = self._plan.chunk(range(count))
-        self._take(chunk, [Outcome(measures={"lowest": 0.1, "highest": 0.2}) for _ in chunk.indices])
-        self.keep()
+    def outcomes(self: ClusterRuns, _: object) -> Iterator[tuple[Run, Outcome]]:
+        for run in self._plan.runs_at(range(count)):
+            yield run, Outcome(measures={"lowest": 0.1, "highest": 0.2})
         raise CommClosedError("in <TCP local=...>: Stream is closed")
 
     monkeypatch.setattr("hosts.study.cluster.connected", broken)
     monkeypatch.setattr("hosts.study.cluster.bring", lambda *_: None)
-    monkeypatch.setattr(Execution, "run", run)
+    monkeypatch.setattr(ClusterRuns, "outcomes", outcomes)
     code = main([str(study_file()), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9", "--no-report"])
     assert len(read_study(tmp_path / "out")) == count
     assert code == (0 if count == 16 else 1)
@@ -238,7 +259,8 @@ def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("number", "name"), [("SIGINT", "Ctrl-C"), pytest.param("SIGHUP", "SIGHUP", marks=pytest.mark.proof)]
+    ("number", "name"),
+    [("SIGINT", "Ctrl-C"), ("SIGTERM", "SIGTERM"), pytest.param("SIGHUP", "SIGHUP", marks=pytest.mark.proof)],
 )
 def test_ctrl_c_keeps_what_has_come(number: str, name: str, slow_study: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"

@@ -1,4 +1,4 @@
-"""An FMU that is loaded once and drives stretches of a log as often as wanted."""
+"""An FMU that drives stretches of a log."""
 
 from __future__ import annotations
 
@@ -13,12 +13,10 @@ from hosts.common.numbers import Value
 from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
 from hosts.driving.co_simulation import run
-from hosts.driving.derived_columns import derive_columns
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.fmu import Fmu
+from hosts.fmu.loaded_fmu import LoadedFmu
 
 _GAINS = 4.0, 4.0  # pedal per m/s and per m: the speed is to be as measured, not comfortable
 _ACCELERATION_GAIN = 0.1  # pedal per m/s2
@@ -54,24 +52,17 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal)
 
 
-class LoadedFmu:
-    """An FMU and our names for its variables.
+class StretchFmu(LoadedFmu):
+    """An FMU that drives stretches of a log.
 
     `step`: communication step, s. `can_reset`: whether it repeats itself after a reset; else it is loaded again for
     each drive. None: not known.
     """
 
     def __init__(self, path: Path, aliases: Aliases, step: float) -> None:
-        self._path, self._aliases, self._step = path, aliases, step
-        self._fmu: Fmu | None = None
-        self._driven = False
+        super().__init__(path, aliases)
+        self._step = step
         self.can_reset: bool | None = None
-
-    def close(self) -> None:
-        """Unload it."""
-        if self._fmu is not None:
-            self._fmu.close()
-            self._fmu = None
 
     def drive(
         self,
@@ -80,20 +71,9 @@ class LoadedFmu:
         progress: Callable[[int], None] = lambda done: None,
     ) -> Result:
         """Drive one stretch. `values`: start values by our names, in place of those of the stretch."""
-        if self._fmu is not None and self.can_reset is False:
+        if self.can_reset is False:
             self.close()
-        if self._fmu is None:
-            self._fmu = Fmu(self._path)
-        elif self._driven:
-            self._fmu.reset()
-        self._driven = True
-        manoeuvre = stretch.manoeuvre
-        if values:
-            manoeuvre = replace(manoeuvre, start={**manoeuvre.start, **values})
-        fmu = AliasedFmu(self._fmu, self._aliases)
+        manoeuvre = replace(stretch.manoeuvre, start={**stretch.manoeuvre.start, **(values or {})})
         # A pilot has a memory: each run has its own.
         driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
-        self._fmu.messages.clear()
-        result = run(fmu, manoeuvre, self._step, driver, progress)
-        derive_columns(result, self._aliases)
-        return result
+        return run(self.fresh(), manoeuvre, self._step, driver, progress)

@@ -1,0 +1,69 @@
+"""Results of runs in a file from the moment they are there, so that a kill loses only the runs in hand."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from io import BytesIO
+from pathlib import Path
+from typing import IO, Any, Generic, TypeVar
+
+from ali3.errors import FileError, reason
+from ali3.files import make_folder, whole_file
+from ali3.frames import FrameError, read_frame, write_frame
+from ali3.reading import read_bytes
+from hosts.common.closing import Closing
+
+_MOST = 8_000_000_000  # bytes
+
+R = TypeVar("R")
+
+
+class Journal(Closing, Generic[R]):
+    """A file of results, each with its key; of several with the same key the last counts.
+
+    `kind`: type of the results, which is one that passes between processes (`ali3.frames`). One program at a time
+    writes to a journal.
+    """
+
+    def __init__(self, file: Path, kind: Any) -> None:
+        self._file, self._types = file, {0: tuple[str, kind]}
+        self._stream: IO[bytes] | None = None
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._stream is not None:
+            self._stream.close()
+            self._stream = None
+
+    def read(self) -> dict[str, R]:
+        """All results by their keys. What is cut or damaged, and what comes after it, is left out and goes."""
+        if not self._file.is_file():
+            return {}
+        stream = BytesIO(read_bytes(self._file, _MOST))
+        found: dict[str, R] = {}
+        end = count = 0
+        with suppress(EOFError, FrameError):
+            while True:
+                key, result = read_frame(stream, self._types)[1]
+                found[key] = result
+                end, count = stream.tell(), count + 1
+        if end < len(stream.getbuffer()) or len(found) < count:
+            with whole_file(self._file) as made, made.open("wb") as whole:
+                for item in found.items():
+                    write_frame(whole, 0, item)
+        return found
+
+    def add(self, key: str, result: R) -> None:
+        """Write a result. Raises `FileError`: it cannot be written."""
+        try:
+            if self._stream is None:
+                make_folder(self._file.parent)
+                self._stream = self._file.open("ab")
+            write_frame(self._stream, 0, (key, result))
+        except OSError as error:
+            raise FileError(f"{self._file} cannot be written: {reason(error)}.") from None
+
+    def clear(self) -> None:
+        """Forget all results."""
+        self.close()
+        self._file.unlink(missing_ok=True)

@@ -1,0 +1,96 @@
+"""Worker pools of this machine: processes that make runs and stay for the next ones."""
+
+from __future__ import annotations
+
+import queue
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from ali3.isolated import Isolated, Lost, Tell
+from hosts.common.closing import Closing
+from hosts.fmu.own_process import PATIENCE
+
+_LOOK = 0.5  # s after which Ctrl-C is noticed where nothing arrives
+_AHEAD = 2  # runs that are prepared for each process before the first is done
+_ONE_THREAD = {"OMP_NUM_THREADS": "1"}  # the same numbers beside any number of other processes
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+
+class Pool(Closing, Generic[T, R]):
+    """Processes that make runs, one at a time each; one that a run takes down is replaced.
+
+    `work`, `answer`, `reads`: see `Isolated`; `jobs`: how many; `limit`: in s without a word, after which the process
+    of a run is ended. An iteration that is left early, as by Ctrl-C or an error, closes the pool.
+    """
+
+    def __init__(
+        self,
+        work: Callable[[T, Tell], R],
+        answer: Any,
+        jobs: int = 1,
+        reads: Iterable[Path] = (),
+        limit: float = PATIENCE,
+    ) -> None:
+        reads, self._limit = list(reads), limit
+        self._workers: list[Isolated[T, R]] = [
+            Isolated(work, answer, reads=reads, environment=_ONE_THREAD) for _ in range(max(1, jobs))
+        ]
+
+    def __len__(self) -> int:
+        return len(self._workers)
+
+    def close(self) -> None:
+        """End the processes, also in the middle of runs."""
+        for worker in self._workers:
+            worker.close()
+
+    def run(self, task: T) -> R | Lost:
+        """Make a run, each time by the same process."""
+        return self._workers[0].do(task, limit=self._limit)
+
+    def results(
+        self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, word: None
+    ) -> Generator[tuple[int, R | Lost]]:
+        """Make runs; give each result with the number of its task, from 0, as soon as it is there.
+
+        `tasks`: is read as processes become free; `told`: called with the number of a task and what its work tells.
+        Raises `UserError`: the work of a task has raised one; no further task is begun.
+        """
+        idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()
+        arrived: queue.SimpleQueue[tuple[int, Any]] = queue.SimpleQueue()
+        for worker in self._workers:
+            idle.put(worker)
+
+        def one(number: int, task: T) -> R | Lost:
+            worker = idle.get()
+            try:
+                return worker.do(task, lambda word: arrived.put((number, word)), self._limit)
+            finally:
+                idle.put(worker)
+
+        waiting, flying = enumerate(tasks), 0
+        with ThreadPoolExecutor(len(self._workers)) as threads:
+            try:
+                while True:
+                    while flying < _AHEAD * len(self._workers) and (task := next(waiting, None)) is not None:
+                        flying += 1
+                        future = threads.submit(one, *task)
+                        future.add_done_callback(lambda future, number=task[0]: arrived.put((number, future)))  # type: ignore[misc]
+                    if not flying:
+                        return
+                    with suppress(queue.Empty):
+                        number, word = arrived.get(timeout=_LOOK)
+                        if isinstance(word, Future):
+                            flying -= 1
+                            yield number, word.result()
+                        else:
+                            told(number, word)
+            except BaseException:
+                threads.shutdown(wait=False, cancel_futures=True)
+                self.close()
+                raise

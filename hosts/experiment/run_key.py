@@ -1,0 +1,32 @@
+"""What the outcome of a run depends on, as a key under which it is kept."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+from ali3.archives import LARGEST_ARCHIVE
+from ali3.reading import is_file, read_bytes
+from hosts.common.errors import HostError
+from hosts.common.program import program_digest
+
+
+def run_key(fmu: Path, *told: object, files: Iterable[Path] = ()) -> str:
+    """A hash of the content of an FMU, of what a run is told, by its `repr`, and of the program.
+
+    `files`: whose content counts too, such as roads; those that are not there count by their names in `told` alone.
+    """
+    contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in _there(fmu, files)]
+    return hashlib.sha256(f"{contents} {told!r} {program_digest()}".encode()).hexdigest()
+
+
+def _there(fmu: Path, files: Iterable[Path]) -> list[Path]:
+    return [fmu, *(file for file in files if is_file(file))]
+
+
+@cache
+def _file_hash(path: Path, size: int, changed: int) -> str:
+    """Once for all runs of an FMU; its size and the time of its last change, ns, tell another file of its name."""
+    return hashlib.sha256(read_bytes(path, LARGEST_ARCHIVE, HostError)).hexdigest()

@@ -1,0 +1,66 @@
+"""Processes that make runs stay for the next ones, and end where an iteration is left."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import psutil
+import pytest
+
+from ali3.errors import UserError
+from ali3.isolated import Lost
+from hosts.experiment.pool import Pool
+from tests.commands.test_isolated import Counter
+
+Tell = Callable[[Any], None]
+
+
+def slow(task: int, tell: Tell) -> int:
+    if task == 0:
+        raise UserError("The first cannot begin.")
+    time.sleep(1000.0)
+    return task
+
+
+def test_an_error_ends_the_others_at_once() -> None:
+    begin = time.monotonic()
+    with pytest.raises(UserError, match="The first cannot begin"), Pool(slow, int, 2) as pool:
+        list(pool.results(range(4)))
+    assert time.monotonic() - begin < 60.0
+
+
+def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_left() -> None:
+    pool: Pool[str, tuple[int, int]] = Pool(Counter(), tuple[int, int])
+    rounds = [[result for _, result in pool.results(["", ""])] for _ in range(2)]
+    counts, ids = zip(*(result for found in rounds for result in found if not isinstance(result, Lost)), strict=True)
+    assert sorted(counts) == [1, 2, 3, 4]
+    assert len(set(ids)) == 1
+    with pytest.raises(UserError, match="The value is 3"):
+        list(pool.results(["wrong", "hang"]))
+    assert not psutil.pid_exists(ids[0])
+
+
+def threads(task: int, tell: Tell) -> int:
+    tell(task)
+    return int(os.environ["OMP_NUM_THREADS"])
+
+
+def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And each process computes with one thread, whatever the environment says."""
+    monkeypatch.setenv("OMP_NUM_THREADS", "7")
+    asked, told = [0], []
+
+    def tasks() -> Iterator[int]:
+        for k in range(12):
+            asked[0] += 1
+            yield k
+
+    with Pool(threads, int, 2) as pool:
+        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: told.append(word))):
+            assert asked[0] <= count + 4
+            assert result == 1
+            assert (number, float(number)) in told
+    assert asked[0] == 12
