@@ -100,13 +100,26 @@ def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(
         amplitudes(part, run)
 
 
-def test_colours_end_at_twice_the_stress_of_the_standing_car_and_the_yield_strength_is_marked(
+def test_colours_end_at_the_stress_of_the_standing_car_and_the_yield_strength_is_marked(
     part: dict[str, Any],
 ) -> None:
     at_rest = stress(part, np.array([part["start"]])).max()
     assert at_rest == pytest.approx(26.5e6, abs=0.1e6)
-    assert part["stress"]["range"] == 55e6
+    assert part["stress"]["range"] == 30e6
     assert part["stress"]["limit"] == 235e6
+
+
+def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any]) -> None:
+    """Nodes of the part and the place between them against the tube that the file names."""
+    frame, tubes = TUBULAR.frame()
+    assert [g["name"] for g in part["gauges"]] == list(TUBULAR.section.gauges) == ["SG1", "SG2", "SG3", "SG4"]
+    joints, shift = TUBULAR.joint_places(), prototype_car.car().vehicle.reference_point
+    for found in part["gauges"]:
+        given = TUBULAR.section.gauges[found["name"]]
+        start, end = (joints[joint] for joint in given.tube)
+        at, to = (np.array(part["nodes"][k]) + shift for k in found["nodes"])
+        np.testing.assert_allclose(at + found["along"] * (to - at), start + given.place * (end - start), atol=1e-6)
+        assert found["value"] == f"stress.{found['name']}"
 
 
 def test_a_car_without_a_frame_has_no_flexible_part() -> None:

@@ -53,7 +53,7 @@ export class Player {
     this.look = {
       arrows: this.options.arrows ?? false,
       arrowScale: this.options.arrow_scale ?? 1,
-      stress: this.options.stress ?? true,
+      stress: this.options.stress ?? false,
       deformation: this.options.deformation ?? 1,
       path: this.options.path ?? true,
       closed: this.options.closed ?? true,
@@ -153,6 +153,7 @@ export class Player {
 
   /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number, path?: boolean, closed?: boolean}} look */
   set(look) {
+    if (look.stress && this.look.closed && look.closed === undefined && this.has.closed) look.closed = false; // what has the colours is within
     Object.assign(this.look, look);
     this.view?.set?.(look);
     if (look.deformation !== undefined && this.solid >= 0) {

@@ -30,6 +30,13 @@ export class FrameTubes {
     this.coarse = new THREE.BufferAttribute(Uint32Array.from(this.#triangles(nodes.length, COARSE, kept)), 1);
   }
 
+  /** The beam that a triangle is of; -1: of a ball at a node. @param {number} face */
+  beamAt(face) {
+    const sides = this.geometry.getIndex() === this.coarse ? Math.ceil(AROUND / COARSE) : AROUND;
+    const beam = Math.floor(face / (2 * sides));
+    return beam < this.beams.length ? beam : -1;
+  }
+
   #triangles(nodes, every, ball) {
     const list = [];
     this.beams.forEach((_, b) => {

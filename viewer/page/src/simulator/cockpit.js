@@ -208,7 +208,7 @@ export class Cockpit {
       levers: () => this._root.classList.toggle("a3-touching"),
       arrows: () => this._flip("arrows", "This car has no forces to be drawn."),
       closed: () => this._flip("closed", "This car has no body that could be opened."),
-      stress: () => this._flip("stress", "The FMU draws no stress: ali3 build CAR --poses all makes one that does."),
+      stress: () => this._flip("stress", "The FMU draws no stress: it has no flexible frame, or was built with --poses wheels."),
     };
   }
 
