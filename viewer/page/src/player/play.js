@@ -65,6 +65,7 @@ export class Player {
     if (this.options.controls !== false) this.#controls();
     else if (this.ghosts.length > 0) this.viewBox.append(el("div.ali3-head", {}, ...this.#names())); // pictures and films
     this.theme(this.themeName);
+    document.addEventListener("visibilitychange", () => (this.last = undefined), { signal: this.listeners.signal }); // nobody has seen what passed
     this.observer = new ResizeObserver(() => this.#shape());
     this.observer.observe(this.root);
     this.#shape();
@@ -130,7 +131,7 @@ export class Player {
 
   /** @param {number} speed from 0.05 to 10 */
   speed(speed) {
-    this.clock.faster(Math.min(10, Math.max(0.05, speed)));
+    this.clock.speed = Math.min(10, Math.max(0.05, speed));
     this.bar?.speeds(this.clock.speed);
     this.changed();
   }
@@ -243,7 +244,7 @@ export class Player {
     this.has = {};
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
-    this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false });
+    this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false, driven: this.options.controls !== false, quality: this.options.quality });
     this.view.set?.(this.look);
     this.#scan();
     const has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };

@@ -102,10 +102,11 @@ export class SceneView {
   scan(lookupAt, count) {
     const { parts } = this;
     const every = Math.max(1, Math.floor(count / 40));
+    const grounded = (this.scene.roads ?? []).length > 0; // roads are the floor
     let [box, floor] = [null, Infinity];
     for (let i = 0; i < count; i++) {
       parts.update(lookupAt(i));
-      if (i % every !== 0 && i !== count - 1) continue;
+      if ((this.scene.focus && grounded) || (i % every !== 0 && i !== count - 1)) continue;
       const [low, high] = parts.bounds() ?? this.bounds;
       floor = Math.min(floor, this.#lowest([low, high]));
       if (this.scene.focus) continue;
