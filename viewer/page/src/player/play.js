@@ -4,6 +4,7 @@ import { el } from "../common/dom.js";
 import { fullScreen } from "../common/full_screen.js";
 import { Help } from "../common/help.js";
 import { keys } from "../common/keys.js";
+import { Instruments } from "../instruments/index.js";
 import { SceneView } from "../scene/scene_view.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
@@ -293,6 +294,11 @@ export class Player {
 
   #controls() {
     this.#head();
+    const names = new Set(Object.keys(this.runs[Math.max(0, this.solid)].columns));
+    if (this.solid >= 0 && !this.problem && Instruments.of(names)) {
+      this.instruments = new Instruments(names, { scene: this.runs[this.solid].scene });
+      this.viewBox.append(this.instruments.element);
+    }
     this.barBox = el("div.ali3-bar");
     this.foot.append(this.barBox);
     this.bar = new Bar(this.barBox, this);
@@ -349,6 +355,7 @@ export class Player {
       this.view.update(this.samplers[this.solid].lookup);
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
       for (const { traces, sampler } of this.drawnRuns) traces.update(this.clock.time, sampler.place[0]);
+      this.instruments?.show(this.samplers[this.solid].lookup);
       this.view.render();
     }
     this.bar?.now();
