@@ -9,7 +9,7 @@ from ali3.scene.scene_parts import GROUND, frames_of
 
 
 def columns_of(part: Mapping[str, Any]) -> list[str]:
-    """Columns that a frame, an arrow or a flexible part reads. `part`: of a scene that was checked."""
+    """Columns that a frame, an arrow, a gauge or a flexible part without its gauges reads. `part`: of a scene that was checked."""
     found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
     found += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
     found += [name for name in part.get("vector", ()) if name is not None]
@@ -26,9 +26,9 @@ def pose_columns(scene: Mapping[str, Any]) -> list[str]:
 
 def all_columns(scene: Mapping[str, Any]) -> list[str]:
     """Columns that any part of a scene reads, each once."""
-    return list(
-        dict.fromkeys([*pose_columns(scene), *(name for a in scene.get("arrows") or [] for name in columns_of(a))])
-    )
+    gauges = [gauge for part in scene.get("flexible") or [] for gauge in part.get("gauges") or []]
+    read = [name for part in (*(scene.get("arrows") or []), *gauges) for name in columns_of(part)]
+    return list(dict.fromkeys([*pose_columns(scene), *read]))
 
 
 def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tuple[dict[str, Any], dict[str, str]]:

@@ -159,6 +159,10 @@ def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str
     for k, beam in enumerate(part["beams"]):
         if max(beam) >= nodes:
             yield f"{place((*path, 'beams', k))} names node {max(beam)}; there are {nodes} from 0 on."
+    for k, gauge in enumerate(part.get("gauges") or []):
+        if max(gauge["nodes"]) >= nodes:
+            where = place((*path, "gauges", k, "nodes"))
+            yield f"{where} names node {max(gauge['nodes'])}; there are {nodes} from 0 on."
     stress = part.get("stress")
     if stress is not None:
         if stress.get("rule") == "round" and stress["fibres"] != 3:

@@ -36,6 +36,7 @@ _OF_KEY: dict[str, type[BaseModel]] = {
     "flexible": types.Flexible,
     "missing": types.Missing,
     "stress": types.Stress,
+    "gauges": types.Gauge,
     "tyre": types.Tyre,
     "patches": road_types.Patch,
     "surface": road_types.SurfaceMap,

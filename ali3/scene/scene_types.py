@@ -248,6 +248,17 @@ class Stress(Part):
     """What the limit is, such as yield stress."""
 
 
+class Gauge(Part):
+    """A strain gauge on the line between two nodes, and the column that it gives."""
+
+    name: Title
+    value: Name
+    unit: Unit = "Pa"
+    nodes: tuple[Whole, Whole]
+    along: Annotated[float, Field(ge=0.0, le=1.0)]
+    """Place from the first node to the second."""
+
+
 class Flexible(Part):
     """A framework of beams whose nodes move by modes."""
 
@@ -271,6 +282,7 @@ class Flexible(Part):
     note: Text | None = None
     """A sentence to be shown."""
     stress: Stress | None = None
+    gauges: list[Gauge] | None = None
 
 
 class Arrow(Part):

@@ -68,8 +68,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument(
         "--poses",
         choices=("wheels", "all"),
-        help="poses as outputs, for hosts that draw: wheels, those of the wheels of a car, which are always there; "
-        "all, of every body too, after all other outputs; default: wheels where they are enough to draw it, else all",
+        help="what draws as outputs, after all others: wheels, the poses of the wheels of a car, which are always "
+        "there; all, those of every body too and what bends; default: what bends, and all poses where it needs them",
     )
     parser.add_argument(
         "--ports",

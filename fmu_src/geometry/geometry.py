@@ -13,7 +13,6 @@ from fmu_src.geometry.binding import bind
 from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.variables.variables import Variable
-from mbs.kernel.header.enumerations import ElementType
 
 FRAME_TUBE = "frame tube"
 """Name of shapes that a flexible part draws too."""
@@ -72,20 +71,16 @@ def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def lost_frames(system: mbs.System) -> list[str]:
-    """Frames of a drawing that carry shapes and that no output of the System moves, or that bend without an output.
-
-    What bends is enough as it is drawn where the outputs are those of wheels.
+    """Frames of a drawing that carry shapes and that no output of the System moves.
 
     `system`: without a drawing it has none.
     """
     if system.drawing is None:
         return []
     scene = system.drawing.scene
-    bound = bind(system, scene["frames"], system.drawing.shared)
+    lost = bind(system, scene["frames"], system.drawing.shared).lost
     drawn = {frame for part in (*scene["shapes"], *scene["flexible"]) for frame in frames_of(part)}
-    wheels = int(ElementType.SPIN_ANGLE) in system.arrays["el_type"]
-    stiff = [p["frame"] for p in scene["flexible"] if not (wheels or set(p["amplitudes"]) <= set(bound.amplitudes))]
-    return [frame for frame in bound.frames | bound.lost if frame in drawn and (frame in bound.lost or frame in stiff)]
+    return [frame for frame in lost if frame in drawn]
 
 
 def geometry_file(scene: Mapping[str, Any]) -> bytes:

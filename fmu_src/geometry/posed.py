@@ -1,4 +1,4 @@
-"""Systems of an FMU with the poses of all their bodies as outputs, where these are asked for or needed to draw them."""
+"""Systems of an FMU with what draws them as outputs: what bends, and the poses of all bodies where they are needed."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from typing import Any
 
 import mbs
 from fmu_src.geometry.geometry import lost_frames
-from mbs.shapes.pose_outputs import pose_outputs
+from mbs.shapes.pose_outputs import bending_outputs, pose_outputs
 
 POSES = ("wheels", "all")
-"""What `--poses` may be: of the wheels of a car only, which are always there, or of all bodies."""
+"""What `--poses` may be: of the wheels of a car only, which are always there, or of all bodies and what bends."""
 
 Maker = Callable[[], "mbs.Model"] | Callable[[], "mbs.Model | mbs.System"]
+Outputs = Callable[["mbs.Model"], None]
 
 
 class PosesError(ValueError):
@@ -29,8 +30,8 @@ def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) 
     default : int
         The fidelity that is drawn.
     poses : {"wheels", "all"} or None
-        "all": with the pose of every body, after all other outputs; None: where something would not be drawn
-        without them.
+        After all other outputs, "all": the pose of every body and the amplitudes of what bends; None: these
+        amplitudes, and poses where something would not be drawn without them.
 
     Returns
     -------
@@ -44,23 +45,23 @@ def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) 
     """
     if poses is not None and poses not in POSES:
         raise PosesError(f"There are no poses '{poses}'; they are {' or '.join(POSES)}.")
-    everything = poses == "all"
-    first = _compiled(makers[default](), everything, needed=poses is not None)
+    outputs: Outputs | None = {"wheels": None, None: bending_outputs, "all": pose_outputs}[poses]
+    needed = poses == "all"
+    first = _compiled(makers[default](), outputs, needed)
     if poses is None and lost_frames(first):
-        posed = _compiled(makers[default](), True, needed=False)
-        everything, first = len(posed.meta["sensors"]) > len(first.meta["sensors"]), posed
-    return {
-        k: first if k == default else _compiled(make(), everything, needed=everything) for k, make in makers.items()
-    }
+        posed = _compiled(makers[default](), pose_outputs, needed=False)
+        needed = len(posed.meta["sensors"]) > len(first.meta["sensors"])
+        outputs, first = pose_outputs, posed
+    return {k: first if k == default else _compiled(make(), outputs, needed) for k, make in makers.items()}
 
 
-def _compiled(made: mbs.Model | mbs.System, everything: bool, needed: bool) -> mbs.System:
+def _compiled(made: mbs.Model | mbs.System, outputs: Outputs | None, needed: bool) -> mbs.System:
     if isinstance(made, mbs.System):
-        if everything and needed:
+        if needed:
             raise PosesError(
                 "The scene returns a System, whose outputs are what they are; for --poses all it must return the Model."
             )
         return made
-    if everything:
-        pose_outputs(made)
+    if outputs is not None:
+        outputs(made)
     return mbs.compile(made)

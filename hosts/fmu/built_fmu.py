@@ -25,7 +25,7 @@ _IN_USE = 86400.0  # s since an FMU was asked for, in which a command may still 
 _LARGEST = 500_000_000  # bytes of a car's folder
 
 
-def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None, ports: str | None = None) -> Path:
+def fmu_of_car(car: str, tell: Callable[[str], None], ports: str | None = None) -> Path:
     """The FMU of a car for this machine; built once for each content of its files and each version of the program.
 
     Parameters
@@ -34,8 +34,6 @@ def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None, 
         A car of the package by its name, a folder with a file ``car.toml``, or such a file.
     tell : callable
         Takes sentences.
-    poses : str, optional
-        As ``ali3 build --poses`` takes them.
     ports : str, optional
         As ``ali3 build --ports`` takes them.
 
@@ -44,8 +42,7 @@ def fmu_of_car(car: str, tell: Callable[[str], None], poses: str | None = None, 
     HostError
         It cannot be built; with the words of the build.
     """
-    chosen = {"--poses": poses, "--ports": ports}
-    options = tuple(word for option, value in chosen.items() if value is not None for word in (option, value))
+    options = () if ports is None else ("--ports", ports)
     name = "-".join([car_digest(car), *(word.replace(",", "_") for word in options[1::2])])
     return _kept_fmu(f"the car {car}", name, ("--car", car, *options), tell)
 

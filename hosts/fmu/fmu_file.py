@@ -25,12 +25,11 @@ class FoundFmu:
     """Seconds that its build took; 0: it was there."""
 
 
-def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None = None) -> FoundFmu:
+def find_fmu(given: Path | None, tell: Callable[[str], None]) -> FoundFmu:
     """The FMU that a command takes.
 
     `given`: of the command line: an FMU; or a car by its name, its folder or its file; `tell`: takes the sentences that
-    are said while a car is built; `poses`: of a car, as ``ali3 build --poses`` takes them. Raises `HostError`: the car
-    cannot be built; with the words of the build.
+    are said while a car is built. Raises `HostError`: the car cannot be built; with the words of the build.
     """
     if given is None and DIST.is_file():
         return FoundFmu(DIST)
@@ -45,7 +44,7 @@ def find_fmu(given: Path | None, tell: Callable[[str], None], poses: str | None 
         built.append(line)
         tell(line)
 
-    path = fmu_of_car(CAR if given is None else str(given), said, poses)
+    path = fmu_of_car(CAR if given is None else str(given), said)
     return FoundFmu(path, time.monotonic() - begin if built else 0.0)
 
 

@@ -101,7 +101,7 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         check_world(asked.world)
     with ThreadPoolExecutor() as pool:
         ahead = None if asked.fmu is not None else pool.submit(_wanted_world, asked, tell)  # both may take a while
-        fmu = find_fmu(asked.fmu, tell, "all")
+        fmu = find_fmu(asked.fmu, tell)
         description = described(fmu.path)
         check_co_simulation(fmu.path, description)
         variables = Variables(description)

@@ -19,7 +19,7 @@ from hosts.common.options import add_setting_options
 
 _OF_LIVE = ("title", "name", "paused", "world")
 _OF_SHOWN = (
-    *("geometry", "begin", "end", "most", "camera", "at", "arrows", "deformation", "png", "mp4", "gltf", "size"),
+    *("geometry", "begin", "end", "most", "camera", "at", "arrows", "stress", "deformation", "png", "mp4", "gltf", "size"),
     *("stop_time", "confined"),
 )
 
@@ -64,6 +64,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     shown.add_argument("--camera", metavar="NAME", help="camera at the start, and of pictures")
     shown.add_argument("--at", type=quantity("s"), metavar="T", help="time at the start, and of the picture, s")
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")
+    shown.add_argument("--stress", action="store_true", help="colour flexible frames by their stress")
     shown.add_argument("--deformation", type=number, metavar="N", help="deformations are drawn N times; default: 1")
     shown.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at, and no page")
     shown.add_argument("--mp4", type=Path, metavar="FILE", help="write a film, and no page")

@@ -76,7 +76,7 @@ def _page(options: argparse.Namespace) -> Path | None:
 def _look(options: argparse.Namespace) -> dict[str, Any]:
     """How things are drawn."""
     factor = {} if options.deformation is None else {"deformation": options.deformation}
-    return {"arrows": options.arrows} | factor
+    return {"arrows": options.arrows, "stress": options.stress} | factor
 
 
 def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict[str, Any]:

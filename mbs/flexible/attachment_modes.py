@@ -28,8 +28,8 @@ def inertia_relief(
         Origin of the body axes; held while the deformation is computed.
     interfaces : sequence of str or int
         Nodes where forces act.
-    rows : ndarray or sparse array, shape (n_outputs, n_dof)
-        Outputs per unit nodal displacement, e.g. of `recovery.gauge_rows`.
+    rows : ndarray or sparse array, shape (n_outputs, n_dof) or (n_outputs, n_dof + 3 n)
+        Outputs per unit nodal displacement, e.g. of `recovery.gauge_rows`; n nodes.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def inertia_relief(
     fixed = FixedInterface(model, reference, ())
     if not isinstance(interfaces, (list, tuple)):
         raise ModelError(f"The interfaces must be a list of nodes, not {shown(interfaces)}.")
-    if rows.shape[1] != model.n_dof:
+    if rows.shape[1] not in (model.n_dof, model.n_dof + 3 * len(model.positions)):
         raise ModelError(f"The output rows have {rows.shape[1]} columns; the model has {model.n_dof} freedoms.")
     loads = np.zeros((model.n_dof, 3 * len(interfaces)))
     numbers = np.concatenate([model.freedoms(node) for node in interfaces]) if interfaces else np.zeros(0, int)
@@ -53,8 +53,17 @@ def inertia_relief(
         field[:, i, 3 + 3 * i : 6 + 3 * i] = x
     inertia = -np.asarray(points.interpolation.T @ (points.masses[:, None, None] * field).reshape(-1, 12))
 
-    to_forces = np.asarray(rows @ fixed.solve(loads))
-    to_motion = np.asarray(rows @ fixed.solve(inertia))
+    nodes = np.zeros((len(model.positions), 3, 12))  # the same of the nodes, whose inertia loads the beams between them
+    if model.mass_along_beams:
+        nodes[:, range(3), range(3)] = -1.0
+        for i in range(3):
+            nodes[:, i, 3 + 3 * i : 6 + 3 * i] = origin - model.positions
+
+    def outputs(forces: np.ndarray, accelerations: np.ndarray) -> np.ndarray:
+        return np.asarray(rows @ np.vstack([fixed.solve(forces), accelerations])[: rows.shape[1]])
+
+    to_forces = outputs(loads, np.zeros((nodes.shape[0] * 3, loads.shape[1])))
+    to_motion = outputs(inertia, nodes.reshape(-1, 12))
     R = model.rigid_motions(origin)
     # unit angular accelerations as columns of W
     turn = np.zeros((12, 6))

@@ -88,6 +88,7 @@ def craig_bampton(
         node_translations=modes[model.dof[:, :3]],
         node_rotations=rotations,
         modes=modes,
+        accelerations=_accelerations(fixed, modes),
         mass_positions=model.mass.positions - origin,
         masses=model.mass.masses,
         mass_shapes=mass_shapes,
@@ -100,6 +101,17 @@ def craig_bampton(
         frequencies=hertz,
         frame=model.frame,
     )
+
+
+def _accelerations(fixed: FixedInterface, modes: np.ndarray) -> np.ndarray | None:
+    """Of the nodes, whose inertia is the load of the inner nodes in each mode: of rigid motions and of the modes."""
+    model = fixed.model
+    if not model.mass_along_beams:
+        return None
+    motions = np.hstack([model.rigid_motions(model.origin(fixed.reference)), modes])
+    inertia = np.asarray(model.mass_matrix() @ motions)[fixed.inner]
+    shares = np.linalg.lstsq(inertia, np.asarray(model.K @ modes)[fixed.inner], rcond=None)[0]
+    return np.asarray((motions @ shares)[model.dof[:, :3].ravel()])
 
 
 def _dynamic_modes(

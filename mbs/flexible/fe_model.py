@@ -35,6 +35,8 @@ class FiniteElementModel:
     mass: MassPoints
     frame: BeamFrame | None = None
     """Beams it was made of, with its nodes; None for models of other programs."""
+    mass_along_beams: bool = False
+    """Whether the beams have their mass between their ends: its inertia loads them there."""
 
     @property
     def n_dof(self) -> int:

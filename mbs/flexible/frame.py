@@ -59,7 +59,7 @@ class Frame(BeamFrame):
             points = nodal_mass_points(self.positions, nodal, dof[:, :3], 6 * n)
         else:
             points = points.merged(nodal_mass_points(self.positions, self.masses, dof[:, :3], 6 * n))
-        model = FiniteElementModel(self.positions, self.names, dof, K, points, self)
+        model = FiniteElementModel(self.positions, self.names, dof, K, points, self, mass == "consistent")
         check_units(model)
         check_free(model)
         return model

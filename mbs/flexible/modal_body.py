@@ -42,6 +42,9 @@ class ModalBody:
     amplitude; zero rotations where a node has none."""
     modes: np.ndarray
     """Shape (d, m): the same over the degrees of freedom of the finite-element model."""
+    accelerations: np.ndarray | None = None
+    """Shape (3 n, m): of the nodes, whose inertia loads the beams between their ends in each mode, m/s2; None: the body
+    has no beams with mass along them."""
     mass_positions: np.ndarray
     """Shape (p, 3): mass points from the reference node, m."""
     masses: np.ndarray
@@ -61,11 +64,11 @@ class ModalBody:
         return int(self.K.shape[0])
 
     def recovery(self, rows: np.ndarray | Sparse) -> np.ndarray:
-        """Outputs per unit amplitude from outputs per nodal displacement.
+        """Outputs per unit amplitude from outputs per nodal displacement and per acceleration of the nodes.
 
         Parameters
         ----------
-        rows : ndarray or sparse array, shape (k, d)
+        rows : ndarray or sparse array, shape (k, d) or (k, d + 3 n)
             Such as `section_forces` gives.
 
         Returns
@@ -73,4 +76,7 @@ class ModalBody:
         ndarray, shape (k, m)
             For `FlexibleBody.combination`, row by row.
         """
-        return np.asarray(rows @ self.modes)
+        if rows.shape[1] == len(self.modes):
+            return np.asarray(rows @ self.modes)
+        loads = np.zeros((rows.shape[1] - len(self.modes), self.n_modes))
+        return np.asarray(rows @ np.vstack([self.modes, loads if self.accelerations is None else self.accelerations]))

@@ -1,4 +1,9 @@
-"""Section forces and stresses of a frame as constant rows on its nodal displacements."""
+"""Section forces and stresses of a frame as constant rows on its nodal displacements and on what loads its beams.
+
+Rows have 9 n columns for n nodes: the 6 n degrees of freedom, then three components a node of the acceleration (of
+weight: of free fall) whose inertia forces the beams carry between their ends. `ModalBody.recovery` and `inertia_relief`
+know both; a frame that is loaded at its nodes only needs the first 6 n.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +15,8 @@ import scipy.sparse as sp
 from mbs.common.checks import instance_of, is_finite, shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
+from mbs.flexible.beam_mass import beam_mass_points
+from mbs.flexible.beam_stiffness import shear_parameters
 
 FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")
 
@@ -27,7 +34,8 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     """Section forces at ``x = xi * length`` per unit nodal displacement.
 
     They act on the face whose normal is +x: N pulls, T twists about x, positive My stretches the fibres at +z,
-    positive Mz those at -y. Loads between the ends of the element (its own weight) are not counted.
+    positive Mz those at -y. What loads the element between its ends is its consistent mass times an acceleration that
+    is linear along it, such as its own weight.
 
     Parameters
     ----------
@@ -36,8 +44,8 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
 
     Returns
     -------
-    sparse array, shape (6, n_dof)
-        Rows N, Vy, Vz (N), T, My, Mz (N m).
+    sparse array, shape (6, 9 n)
+        Rows N, Vy, Vz (N), T, My, Mz (N m), per m and rad, then per m/s2.
 
     Raises
     ------
@@ -48,18 +56,39 @@ def section_forces(frame: BeamFrame, element: int, xi: float) -> sp.csr_array:
     if not is_finite(xi) or not 0.0 <= xi <= 1.0:
         raise ModelError(f"The place {shown(xi)} on beam {element} is outside the beam: 0 is its start and 1 its end.")
     length, _ = frame.element_axes(element)
-    end = end_forces(frame, element)[6:]
+    to_nodes, between = _inertia(frame, element, xi)
     shift = np.eye(6)
     arm = (1 - xi) * length  # moment about the section: M_j + arm e_x cross F_j
     shift[4, 2], shift[5, 1] = -arm, arm
-    rows = shift @ end
-    dof = frame.element_freedoms(element)
-    indices = (np.repeat(np.arange(6), 12), np.tile(dof, 6))
-    return sp.csr_array(sp.coo_array((rows.ravel(), indices), shape=(6, 6 * len(frame.positions))))
+    rows = np.hstack([shift @ end_forces(frame, element)[6:], between - shift @ to_nodes[6:]])
+    n, beam = len(frame.positions), frame.beams[int(element)]
+    loaded = [6 * n + 3 * node + axis for node in (beam.i, beam.j) for axis in range(3)]
+    columns = np.concatenate([frame.element_freedoms(element), loaded])
+    indices = (np.repeat(np.arange(6), 18), np.tile(columns, 6))
+    return sp.csr_array(sp.coo_array((rows.ravel(), indices), shape=(6, 9 * n)))
+
+
+def _inertia(frame: BeamFrame, element: int, xi: float) -> tuple[np.ndarray, np.ndarray]:
+    """Forces per acceleration of both ends, earth axes: of the whole beam on its ends, and of its part beyond xi.
+
+    Shapes (12, 6), as the mass of `beam_mass_points` has them, and (6, 6): force and moment about the section, local.
+    """
+    beam = frame.beams[int(element)]
+    length, R = frame.element_axes(element)
+    shear = shear_parameters(beam.section, beam.material, length, frame.theory)
+    places, masses, shapes = beam_mass_points(beam.section, beam.material, length, shear, "consistent", False)
+    share = places[:, 0] / length
+    moved = np.stack([np.hstack([(1.0 - s) * R, s * R]) for s in share])
+    to_nodes = np.einsum("p,pij,pik->jk", masses, shapes, moved)
+    rest, whole = 1.0 - xi, beam.material.rho * beam.section.area * length
+    force = whole * np.hstack([rest**2 / 2 * R, (1.0 - xi**2) / 2 * R])
+    lever = whole * length * np.hstack([rest**3 / 6 * R, ((1.0 - xi**3) / 3 - xi * (1.0 - xi**2) / 2) * R])
+    return to_nodes, np.vstack([force, np.zeros(6), -lever[2], lever[1]])
 
 
 def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray | None = None) -> sp.csr_array:
-    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, n_dof), Pa per m and rad.
+    """Normal stress at points of a section, N/A + My z/Iy - Mz y/Iz, shape (n_fibres, 9 n), Pa per m
+    and rad, and per m/s2.
 
     `fibres`: points (y, z) of the section, m, shape (n_fibres, 2); by default those of `Section.fibres` (highest and
     lowest first).
@@ -77,7 +106,7 @@ def fibre_stresses(frame: BeamFrame, element: int, xi: float, fibres: np.ndarray
 class StrainGauge:
     """Strain gauges on a beam, as single ones or joined to bridges.
 
-    What they read are rows of shape (1, n_dof), in N, N m or Pa per m and rad of the nodes.
+    What they read are rows of shape (1, 9 n), in N, N m or Pa per m, rad and m/s2 of the nodes.
     """
 
     name: str
@@ -139,8 +168,8 @@ def gauge_rows(frame: BeamFrame, gauges: tuple[StrainGauge, ...]) -> tuple[np.nd
 
     Returns
     -------
-    moments, bridges : ndarray, shape (n_gauges, n_dof)
-        N m and Pa per m and rad.
+    moments, bridges : ndarray, shape (n_gauges, 9 n)
+        N m and Pa per m and rad, and per m/s2.
     """
     moments = np.vstack([g.bending_moment(frame).toarray() for g in gauges])
     bridges = np.vstack([g.half_bridge(frame).toarray() for g in gauges])
@@ -148,7 +177,7 @@ def gauge_rows(frame: BeamFrame, gauges: tuple[StrainGauge, ...]) -> tuple[np.nd
 
 
 def section_force_field(frame: BeamFrame) -> sp.csr_array:
-    """Section forces at both ends of every element, shape (12 n_elements, n_dof): six at the start, six at the end."""
+    """Section forces at both ends of every element, shape (12 n_elements, 9 n): six at the start, six at the end."""
     parts = [section_forces(frame, e, xi) for e in range(len(frame.beams)) for xi in (0.0, 1.0)]
     return sp.csr_array(sp.vstack(parts))
 
@@ -158,8 +187,8 @@ def stress_field(frame: BeamFrame) -> tuple[sp.csr_array, np.ndarray]:
 
     Returns
     -------
-    rows : sparse array, shape (n_points, n_dof)
-        Pa per m and rad.
+    rows : sparse array, shape (n_points, 9 n)
+        Pa per m and rad, and per m/s2.
     where : ndarray of int, shape (n_points, 3)
         Element, end (0 or 1) and number of the fibre of each row.
     """

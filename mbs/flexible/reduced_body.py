@@ -96,6 +96,7 @@ class ReducedBody(ModalBody):
             node_translations=self.node_translations @ V,
             node_rotations=self.node_rotations @ V,
             modes=self.modes @ V,
+            accelerations=None if self.accelerations is None else self.accelerations @ V,
             mass_shapes=self.mass_shapes @ V,
             K=K,
             M=M,

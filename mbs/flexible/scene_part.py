@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ def flexible_parts(
     start: ArrayLike | None = None,
     computed: str = "",
     full_scale: float | None = None,
+    gauges: Sequence[Mapping[str, Any]] = (),
 ) -> list[dict[str, Any]]:
     """Entries of the list `flexible` of a scene, whose numbers are linear in the amplitudes.
 
@@ -56,6 +57,8 @@ def flexible_parts(
         Column that is 0 where the amplitudes are not computed; by default they always are.
     full_scale : float, optional
         Stress where the colours end, Pa; by default whoever draws chooses.
+    gauges : sequence of mapping
+        Entries of `gauges` of a scene, with names of nodes; each goes to the first part that has both of its nodes.
 
     Returns
     -------
@@ -88,7 +91,13 @@ def flexible_parts(
         return [entry(*_points(len(body.node_names)))]
     kinds = np.array([is_round(beam.section) for beam in beams.beams])
     groups = [(np.flatnonzero(kinds), "round"), (np.flatnonzero(~kinds), "fibres")]
-    return [_beams(body, beams, group, rule, entry, full_scale) for group, rule in groups if len(group)]
+    parts = [_beams(body, beams, group, rule, entry, full_scale) for group, rule in groups if len(group)]
+    for gauge in gauges:
+        part = next((part for part in parts if set(gauge["nodes"]) <= set(part["names"])), None)
+        if part is not None:
+            nodes = [part["names"].index(node) for node in gauge["nodes"]]
+            part.setdefault("gauges", []).append({**gauge, "nodes": nodes})
+    return parts
 
 
 def is_round(section: Section) -> bool:

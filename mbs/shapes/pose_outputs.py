@@ -14,8 +14,7 @@ def pose_outputs(model: Model) -> None:
 
     The names are `body.NAME.x` to `.z`, m, of the centre of mass as drawn, `body.NAME.qw` to `.qz`, scalar first, and
     `body.NAME.angle`; NAME is that in the model, with underscores for all but letters and digits. Planar bodies have
-    z = 0 and turn about z, particles do not turn. A flexible body adds its amplitudes, `body.NAME.mode_1` and on,
-    unless the model names others (`Model.more_poses`).
+    z = 0 and turn about z, particles do not turn. What bends adds those of `bending_outputs`.
 
     `model`: not compiled yet.
     """
@@ -31,6 +30,17 @@ def pose_outputs(model: Model) -> None:
         text = f"angle by which {spin.name} has turned on its carrier since the start, not wrapped"
         model.sense_angle(f"{stem}.angle", spin, description=text)
         sensed.add(f"{stem}.angle")
+    bending_outputs(model)
+
+
+def bending_outputs(model: Model) -> None:
+    """Add the amplitudes of every flexible body, by which its deformation and stress can be drawn.
+
+    The names are `body.NAME.mode_1` and on, unless the model names others (`Model.more_poses`).
+
+    `model`: not compiled yet.
+    """
+    sensed = {sensor.name for sensor in model.sensors}
     for more in model.more_poses:
         model.flexible_scene += more()
     if not model.more_poses:

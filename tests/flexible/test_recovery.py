@@ -27,11 +27,16 @@ ROUND_OFF = 1e-8
 
 
 def clamped(frame: Frame, tip: int, load: np.ndarray) -> np.ndarray:
-    """Displacements of a frame clamped at node 0 under a force and moment (6,) at node `tip`."""
+    """Displacements of a frame clamped at node 0 under a force and moment (6,) at node `tip`; no accelerations."""
     K = frame.finite_element_model().K
     F = np.zeros(K.shape[0])
     F[6 * tip : 6 * tip + 6] = load
-    return np.concatenate([np.zeros(6), spsolve(sp.csc_matrix(K[6:][:, 6:]), F[6:])])
+    return at_rest(np.concatenate([np.zeros(6), spsolve(sp.csc_matrix(K[6:][:, 6:]), F[6:])]))
+
+
+def at_rest(u: np.ndarray) -> np.ndarray:
+    """With the accelerations of the nodes, which are 0."""
+    return np.concatenate([u, np.zeros((len(u) // 2, *u.shape[1:]))])
 
 
 @pytest.mark.parametrize("theory", ["euler_bernoulli", "timoshenko"])
@@ -87,18 +92,18 @@ def test_ends_of_every_element_are_in_balance_and_rigid_motions_stress_nothing()
         np.testing.assert_allclose(f[:3] + f[6:9], 0.0, atol=1e-6 * np.abs(f).max())
         np.testing.assert_allclose(f[3:6] + f[9:] + np.cross([length, 0, 0], f[6:9]), 0.0, atol=1e-6 * np.abs(f).max())
     rows, _ = stress_field(frame)
-    assert np.abs(rows @ R).max() < 1e-6 * np.abs(rows.data).max()
+    assert np.abs(rows @ at_rest(R)).max() < 1e-6 * np.abs(rows.data).max()
 
 
 def test_stress_field_is_one_constant_matrix_on_the_amplitudes() -> None:
     frame = portal()
-    body = craig_bampton(frame.finite_element_model(), "N0", ["N3", "N7"], 3)
+    body = craig_bampton(frame.finite_element_model("lumped"), "N0", ["N3", "N7"], 3)
     rows, where = stress_field(frame)
-    assert rows.shape == (13 * 2 * 8, 54)
+    assert rows.shape == (13 * 2 * 8, 54 + 27)
     matrix = body.recovery(rows)
     eta = np.random.default_rng(4).normal(size=body.n_modes) * 1e-3
     stress = matrix @ eta
-    u = body.modes @ eta
+    u = at_rest(body.modes @ eta)
     for point in (0, 57, 207):
         e, end, fibre = where[point]
         assert stress[point] == pytest.approx((fibre_stresses(frame, e, float(end)) @ u)[fibre], rel=1e-9)
@@ -156,3 +161,40 @@ def test_a_beam_that_stands_upright_has_its_z_forward() -> None:
     frame = Frame([(0, 0, 0), (0, 0, 1.0)], [Beam(0, 1, TUBE, STEEL)])
     R = frame.element_axes(0)[1]
     np.testing.assert_allclose(R, [[0, 0, 1], [0, -1, 0], [1, 0, 0]], atol=1e-15)
+
+
+@pytest.mark.parametrize("theory", ["euler_bernoulli", "timoshenko"])
+@pytest.mark.parametrize("mass", ["consistent", "lumped"])
+def test_a_cantilever_under_its_own_weight_has_the_moments_of_statics_with_few_elements(mass: str, theory: str) -> None:
+    """Closed form: shear q (L - x) and moment q (L - x)2 / 2, also between the nodes where the mass is along the beam."""
+    L, n, g = 1.2, 3, np.array([0.4, -2.0, -9.5])
+    frame = straight(n, L, rectangle(0.03, 0.05), theory)
+    model = frame.finite_element_model(mass)
+    body = craig_bampton(model, 0, [], 0, inertia_modes=True)
+    weight = model.mass_matrix() @ model.rigid_motions()[:, :3] @ g
+    eta = np.linalg.solve(body.K, body.modes.T @ weight)
+    relief = inertia_relief(model, 0, [], section_force_field(frame))
+    field = body.recovery(section_force_field(frame)) @ eta
+    np.testing.assert_allclose(relief.outputs(np.zeros(0), -g, np.zeros((3, 3))), field, atol=1e-6 * np.abs(field).max())
+    q = STEEL.rho * 0.03 * 0.05 * g
+    for element, xi in ((0, 0.0), (1, 0.0), (1, 0.4), (2, 1.0)):
+        rest = L - (element + xi) * L / n
+        exact = np.array([q[0] * rest, q[1] * rest, q[2] * rest, 0.0, -q[2] * rest**2 / 2, q[1] * rest**2 / 2])
+        if mass == "lumped":  # at the nodes there is what they carry, and half of a beam less
+            if xi != 0.0:
+                continue
+            exact[:3] -= q * L / n / 2
+        found = body.recovery(section_forces(frame, element, xi)) @ eta
+        np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-6 * abs(q[2]) * L)
+
+
+def test_a_pendulum_of_few_elements_has_the_stress_of_its_inertia() -> None:
+    """Closed form of a rod that turns about one end: the pull q w2 (L2 - x2) / 2 of rows on W, at and between nodes."""
+    L, n, w = 1.0, 3, 20.0
+    frame = straight(n, L)
+    model = frame.finite_element_model()
+    spin = np.array([[0.0, -w, 0.0], [w, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    for element, xi in ((0, 0.0), (1, 0.5), (2, 0.0)):
+        x = (element + xi) * L / n
+        pull = inertia_relief(model, 0, [], section_forces(frame, element, xi)[[0]]).outputs(np.zeros(0), np.zeros(3), spin @ spin)
+        assert pull[0] == pytest.approx(STEEL.rho * TUBE.area * w**2 * (L**2 - x**2) / 2, rel=1e-6)

@@ -192,6 +192,20 @@ def test_without_poses_the_drawing_says_what_is_missing_and_what_to_do() -> None
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("name", ["prototype", "hatchback"])
+def test_a_car_is_drawn_with_its_stress_by_default_and_without_the_poses_of_its_arms(name: str) -> None:
+    made = load(name).model
+    systems = {poses: posed_systems({0: made}, 0, poses)[0] for poses in (None, "wheels")}
+    plain, names = ([entry["name"] for entry in systems[poses].meta["sensors"]] for poses in ("wheels", None))
+    scene = scene_of(systems[None])
+    (part,) = scene["flexible"]
+    assert names == plain + part["amplitudes"]
+    assert set(all_columns(scene)) <= set(names)
+    assert {gauge["value"] for gauge in part["gauges"]} <= set(plain)
+    assert scene_of(systems["wheels"])["flexible"] == []
+
+
+@pytest.mark.slow
 def test_all_poses_of_a_car_come_after_all_else_at_every_fidelity() -> None:
     made = load("prototype")
     plain = [entry["name"] for entry in car("prototype").meta["sensors"]]

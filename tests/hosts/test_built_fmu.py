@@ -64,7 +64,7 @@ def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_a_command_with_many_cars_loses_none(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(built_fmu, "_KEPT", 1)
-    made = [built_fmu.fmu_of_car(str(car), print, poses) for poses in ("1", "2", "3")]
+    made = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
     assert all(fmu.is_file() for fmu in made)
     for fmu in made:
         os.utime(fmu.parent, (0, 0))
@@ -73,7 +73,7 @@ def test_a_command_with_many_cars_loses_none(car: Path, monkeypatch: pytest.Monk
     assert [fmu.is_file() for fmu in made] == [True, False, False]
 
 
-def test_other_poses_are_another_fmu(car: Path) -> None:
+def test_other_ports_are_another_fmu(car: Path) -> None:
     first = built_fmu.fmu_of_car(str(car), print)
     assert built_fmu.fmu_of_car(str(car), print, "all") != first
     assert built_fmu.fmu_of_car(str(car), print) == first
@@ -92,7 +92,7 @@ def test_a_command_takes_an_fmu_or_a_car(
         (tmp_path / "cut").write_text("")
         assert fmu_file(Path(given)) == Path(given)
     built = []
-    monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell, poses: built.append(name) or made)
+    monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell: built.append(name) or made)
     assert fmu_file(Path("hatchback")) == fmu_file(None) == made
     assert built == ["hatchback", "prototype"]
     (tmp_path / "dist").mkdir()

@@ -18,6 +18,7 @@ from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turn
 
 NODES = ("TFL", "D3c", "S2R", "B3L")
 STRESS = 1e-6  # of the largest: the scene has 24 bits
+BETWEEN = 0.15e6  # Pa: of a half-bridge in the middle of an element, q L2/8 twice, beside a straight line; 0.143 is seen
 PLACE = 1e-9  # m
 TUBULAR = prototype_car.car().frame_section.tubular(prototype_car.car().folder)
 
@@ -41,7 +42,7 @@ def kerb_run(fidelity: int) -> Trajectory:
 
 
 def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
-    """Half-bridge on top of a tube, from the bending stresses at both ends of its element."""
+    """Half-bridge on top of a tube, from the bending stresses at both ends of its element, straight between them."""
     (found,) = [g for g in TUBULAR.strain_gauges(TUBULAR.frame()[1]) if g.name == name]
     y, z = np.array(found.fibre) / np.hypot(*found.fibre)
     _, about_y, about_z = np.moveaxis(rows_of_stress(part, eta)[:, found.element], -1, 0)
@@ -75,7 +76,7 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
         assert np.abs(undeformed[:, 0] - expected).max() > 1e-4, "the node moves against the frame"
     for name in ("SG1", "SG2", "SG3", "SG4"):
         largest = np.abs(run[f"stress.{name}"]).max()
-        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=STRESS * largest)
+        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=STRESS * largest + BETWEEN)
 
 
 @pytest.mark.slow
@@ -89,7 +90,7 @@ def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
     for name in ("SG1", "SG2", "SG3", "SG4"):
         largest = np.abs(run[f"stress.{name}"]).max()
         assert largest > 4e6
-        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=tolerance * largest)
+        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=tolerance * largest + BETWEEN)
 
 
 def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(part: dict[str, Any]) -> None:
@@ -100,13 +101,26 @@ def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(
         amplitudes(part, run)
 
 
-def test_colours_end_at_twice_the_stress_of_the_standing_car_and_the_yield_strength_is_marked(
+def test_colours_end_at_the_stress_of_the_standing_car_and_the_yield_strength_is_marked(
     part: dict[str, Any],
 ) -> None:
     at_rest = stress(part, np.array([part["start"]])).max()
     assert at_rest == pytest.approx(26.5e6, abs=0.1e6)
-    assert part["stress"]["range"] == 55e6
+    assert part["stress"]["range"] == 30e6
     assert part["stress"]["limit"] == 235e6
+
+
+def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any]) -> None:
+    """Nodes of the part and the place between them against the tube that the file names."""
+    frame, tubes = TUBULAR.frame()
+    assert [g["name"] for g in part["gauges"]] == list(TUBULAR.section.gauges) == ["SG1", "SG2", "SG3", "SG4"]
+    joints, shift = TUBULAR.joint_places(), prototype_car.car().vehicle.reference_point
+    for found in part["gauges"]:
+        given = TUBULAR.section.gauges[found["name"]]
+        start, end = (joints[joint] for joint in given.tube)
+        at, to = (np.array(part["nodes"][k]) + shift for k in found["nodes"])
+        np.testing.assert_allclose(at + found["along"] * (to - at), start + given.place * (end - start), atol=1e-6)
+        assert found["value"] == f"stress.{found['name']}"
 
 
 def test_a_car_without_a_frame_has_no_flexible_part() -> None:

@@ -122,6 +122,7 @@ def everything() -> dict[str, Any]:
                     "limit": 2.5e8,
                     "limit_name": "yield stress",
                 },
+                "gauges": [{"name": "SG1", "value": "stress.SG1", "unit": "Pa", "nodes": [0, 1], "along": 0.25}],
             }
         ],
         "arrows": [

@@ -67,7 +67,7 @@ def _is_a_line(drawn, seen, ends):
 
 
 def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_places(drawn, car):
-    drawn.show(car, camera="chase", quality="low")
+    drawn.show(car, camera="chase", quality="medium")
     fine, costs = drawn.picture(), _cost(drawn)
     drawn.ask("view.set({ quality: 'draft' })")
     draft, cheap = drawn.picture(), _cost(drawn)
@@ -114,7 +114,7 @@ def test_a_draft_looks_up_three_textures_a_pixel_of_the_ground_and_the_sky_only_
 def test_a_frame_that_bends_has_few_triangles_in_a_draft_and_all_of_them_again(drawn):
     scene = compile(load("prototype").model(fidelity="dynamic")).scene
     assert len(scene["flexible"][0]["nodes"]) > 100
-    drawn.show(scene | {"roads": [terrain()], "scenery": scenery()}, camera="chase", quality="low")
+    drawn.show(scene | {"roads": [terrain()], "scenery": scenery()}, camera="chase", quality="medium")
     fine = _cost(drawn)[1]
     drawn.ask("view.set({ quality: 'draft' })")
     drawn.picture()
@@ -196,7 +196,7 @@ def test_a_thin_beam_that_bends_is_drawn_without_gaps_in_a_draft(drawn):
     _is_a_line(drawn, np.abs(with_it - drawn.picture()).max(axis=2) > 12, ends)
 
 
-@pytest.mark.parametrize("quality", ["draft", pytest.param("low", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("quality", ["draft", pytest.param("medium", marks=pytest.mark.proof)])
 def test_a_wheel_throws_a_shadow_on_the_ground_below_it_and_less_when_it_is_above(drawn, car, quality):
     def darkness(lift, away=0.0):
         numbers = {}
@@ -234,9 +234,23 @@ def test_the_shadow_below_wheels_in_one_line_ends_below_them_and_that_of_a_car_b
         (compile(bicycle.build()).scene | {"roads": [{"kind": "flat"}]}, 0.5 * bicycle.WHEELBASE, 0.86),
         (car, 1.75, 2.5),
     ):
-        drawn.show(scene, camera="top", quality="low")
+        drawn.show(scene, camera="top", quality="medium")
         x = np.array(drawn.ask(corners))[::3]
         assert least < 0.5 * np.ptp(x) < most  # the front of the bicycle's larger wheel is 0.86 m ahead of its middle
+
+
+def test_a_lower_quality_has_fewer_calls_and_triangles_and_shows_the_same_place(drawn, car):
+    """Of a car in a world: each level below the finest two is at most 0.7 of the one above it."""
+    drawn.show(car | {"roads": [terrain()], "scenery": scenery()}, camera="chase", quality="high")
+    costs, pictures = [], []
+    for quality in ("high", "medium", "low", "draft"):
+        drawn.ask(f"view.set({{ quality: '{quality}' }})")
+        pictures.append(drawn.picture())
+        costs.append(_cost(drawn))
+    (high, medium, low, draft) = costs
+    assert medium == high
+    assert all(few < 0.7 * many for some, more in ((low, medium), (draft, low)) for few, many in zip(some, more))
+    assert np.abs(pictures[2] - pictures[1]).mean() < 20
 
 
 def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
@@ -244,12 +258,12 @@ def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):
     drawn.show(car, driven=True)
     assert drawn.ask("view.look.quality") == "draft"
     drawn.show(car)
-    assert drawn.ask("view.look.quality") == "low"
-    with pytest.raises(Exception, match="There is no quality 'ugly'; there are high, low, draft, auto"):
+    assert drawn.ask("view.look.quality") == "medium"
+    with pytest.raises(Exception, match="There is no quality 'ugly'; there are auto, high, medium, low, draft"):
         drawn.ask("view.set({ quality: 'ugly' })")
 
 
-@pytest.mark.parametrize("quality", ["low", "draft"])
+@pytest.mark.parametrize("quality", ["medium", "draft"])
 def test_a_closed_car_hides_its_frame_until_it_is_opened(drawn, hatchback, quality):
     drawn.show(hatchback, camera="side", quality=quality)
     closed = drawn.picture()

@@ -67,7 +67,7 @@ def tyre(x: float, **more: float) -> dict[str, float]:
     return numbers | at(x, 0, 0.3) | more
 
 
-def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0, quality: str = "low") -> int:
+def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0, quality: str = "medium") -> int:
     """Drive along x at 10 m/s; slip is a function of x."""
     drawn.show(tyre_scene(surface), tyre(0.0), camera="top", quality=quality)
     rows = [[x / 10.0, 1, tyre(float(x), **{"wheel.slip": slip(x)})] for x in np.arange(0.0, end, 0.1)]
@@ -76,7 +76,7 @@ def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0, quali
     return int(count)
 
 
-@pytest.mark.parametrize("quality", ["draft", pytest.param("low", marks=pytest.mark.proof)])  # low is drawn below
+@pytest.mark.parametrize("quality", ["draft", pytest.param("medium", marks=pytest.mark.proof)])  # low is drawn below
 def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn, quality):
     run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if x > 9.0 else 0.0, quality=quality)
     picture = drawn.picture()
@@ -103,7 +103,7 @@ def test_a_tyre_that_slides_on_what_is_slick_leaves_no_mark(drawn, factor, marks
     assert (count > 50) == marks
 
 
-@pytest.mark.parametrize("quality", ["draft", "low"])
+@pytest.mark.parametrize("quality", ["draft", "medium"])
 def test_ice_beside_dry_ground_has_no_dark_line(drawn, quality):
     """Its edge is nowhere darker than the darker side, which wet ground between them would be."""
     drawn.show(scene(focus="body", roads=[split_ground(0.15)], extent=1.0), at(0, 0, 0), camera="top", quality=quality)
@@ -120,7 +120,7 @@ def test_marks_of_a_draft_have_a_quarter_of_the_sections_and_the_same_ends(drawn
         run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if 2.0 < x < 8.0 or x > 10.0 else 0.0, 30.0, quality)
         return drawn.ask("effect.mesh.geometry.drawRange.count / 3")
 
-    fine, draft = span("low"), span("draft")
+    fine, draft = span("medium"), span("draft")
     assert fine > 250
     assert fine / 4 < draft < fine / 3.5
     picture = drawn.picture()

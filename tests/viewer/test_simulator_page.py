@@ -109,7 +109,7 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     wait_words(program.page, "events", "throttle let go.")
     wait_words(program.page, "events", "There is no command 'fly'.")
     program.page.keyboard.press("b")
-    assert "build CAR --poses all" in program.text("events")
+    assert "The FMU draws no stress: it has no flexible frame" in program.text("events")
     wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true")
     assert "this is the last that came" in program.text("flag stalled")
 

@@ -57,7 +57,7 @@ def stripes() -> dict[str, Any]:
     return made | {"surface": made["surface"] | surface}
 
 
-@pytest.mark.parametrize("quality", ["low", pytest.param("high", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("quality", ["medium", pytest.param("high", marks=pytest.mark.proof)])
 def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, quality):
     drawn.show(world(roads=[stripes()], extent=62.0), at(0, 0, 0), camera="top", quality=quality)
     picture = drawn.picture()
@@ -81,7 +81,7 @@ def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, qual
     assert blue["wet"] > blue["asphalt"] + 0.1
 
 
-@pytest.mark.parametrize("quality", ["draft", "low", pytest.param("high", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("quality", ["draft", "medium", pytest.param("high", marks=pytest.mark.proof)])
 def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
     grid = {"kind": "grid", "origin": [-30, -30], "spacing": [30, 30], "shape": [3, 3], "heights": floats(np.zeros(9))}
     kerb = {"kind": "profile", "stations": [0, 0.001], "heights": [0, -0.08], "origin": [1e6, 0, 0]}
@@ -100,7 +100,7 @@ def test_the_border_of_a_grid_goes_on_before_it_as_road_and_beside_it_as_grass(d
     """At its height, 2 m: of a ball below it nothing is seen, of one that lies on it the upper half."""
     grid = {"kind": "grid", "origin": [5, -3], "spacing": [10, 6], "shape": [3, 2], "heights": floats(np.full(6, 2.0))}
     made = world(roads=[grid], shapes=[ball(radius=0.5)], extent=12.0)
-    drawn.show(made, at(-4.0, 0.0, 1.4), camera="top", quality="low")
+    drawn.show(made, at(-4.0, 0.0, 1.4), camera="top", quality="medium")
     picture = drawn.picture()
     with pytest.raises(AssertionError, match="nothing red"):
         red(picture)
@@ -140,7 +140,7 @@ def edge(drawn: Any, quality: str, left: str, right: str) -> tuple[float, float]
     return float(half), float(high - low)
 
 
-@pytest.mark.parametrize("quality", ["draft", "low"])
+@pytest.mark.parametrize("quality", ["draft", "medium"])
 def test_an_edge_between_two_surfaces_of_one_channel_is_as_soft_as_others_and_where_they_are(drawn, quality):
     """Ice and wet share one, ice and asphalt do not."""
     (own, soft), (other, wanted) = (edge(drawn, quality, "ice", name) for name in ("wet", "asphalt"))
@@ -149,7 +149,7 @@ def test_an_edge_between_two_surfaces_of_one_channel_is_as_soft_as_others_and_wh
     assert 0.6 * wanted < soft < 1.6 * wanted
 
 
-@pytest.mark.parametrize("quality", ["draft", "low"])
+@pytest.mark.parametrize("quality", ["draft", "medium"])
 def test_where_four_surfaces_meet_there_is_no_fifth(drawn, quality):
     """Paint, ice and concrete, which share channels with three of the four, are brighter than all of these."""
     ground = level(0.0)
@@ -199,7 +199,7 @@ def test_there_are_no_cracks_between_patches(drawn):
         assert horizon < 80, f"magenta at row {horizon}"
 
 
-@pytest.mark.parametrize("quality", ["low", pytest.param("high", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("quality", ["medium", pytest.param("high", marks=pytest.mark.proof)])
 def test_lines_are_seen_all_of_their_way(drawn, quality):
     """A white line on dark ground from 6 to 60 m ahead, from near the ground: none of it is in the ground."""
     line = {"kind": "line", "points": [[a, -2.0, 0.0] for a in (0.0, 40.0, 90.0)], "width": 0.6, "colour": "white"}
@@ -301,7 +301,7 @@ def test_lanes_are_where_the_raster_has_them(drawn):
     assert wet < 0.85 * asphalt
 
 
-@pytest.mark.parametrize("quality", ["draft", "low", pytest.param("high", marks=pytest.mark.proof)])
+@pytest.mark.parametrize("quality", ["draft", "medium", pytest.param("high", marks=pytest.mark.proof)])
 def test_asphalt_keeps_its_contrast_to_the_distance_and_does_not_shimmer(drawn, quality):
     """Standard deviation of the luminance over its mean, without a gradient; 0.13 m on it is the same pattern."""
     drawn.show(world(), at(0, -3, 0.6), camera="chase", quality=quality)
@@ -330,5 +330,5 @@ def test_asphalt_keeps_its_contrast_to_the_distance_and_does_not_shimmer(drawn, 
     change = np.sqrt(((after - before)[y, x] ** 2).mean()) / before[y, x].mean()
     assert len(y) > 50
     assert contrasts[0] > 0.006
-    assert contrasts[1] > {"draft": 0.006, "low": 0.0085, "high": 0.0085}[quality]
+    assert contrasts[1] > {"draft": 0.006, "medium": 0.0085, "high": 0.0085}[quality]
     assert change < 0.3 * contrasts[1]

@@ -58,9 +58,11 @@ class FlexibleFrame:
 
     @cached_property
     def gauge_rows(self) -> np.ndarray:
-        """From nodal displacements to the readings of the gauges, in the order of the outputs."""
-        rows = [reading.row for reading in self.structure.readings]
-        return np.array(rows).reshape(len(rows), self.model.n_dof)
+        """From nodal displacements and accelerations (`recovery`) to the readings of the gauges, in their order."""
+        rows = np.zeros((len(self.structure.readings), self.model.n_dof + 3 * len(self.model.positions)))
+        for row, reading in zip(rows, self.structure.readings, strict=True):
+            row[: len(reading.row)] = reading.row
+        return rows
 
     def place(self, joint: str) -> np.ndarray:
         """Place of a joint, m."""
@@ -159,7 +161,7 @@ class FlexibleFrame:
 
     def _with_stretch(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
         model = self.model
-        stretch = np.zeros((len(self.stiff_pairs), model.n_dof))
+        stretch = np.zeros((len(self.stiff_pairs), outputs.shape[1]))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))
         for k, pair in enumerate(self.stiff_pairs):
             a, b = (model.node(name) for name in pair)

@@ -14,10 +14,12 @@ from mbs.model.mechanism import Mechanism
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.chassis.flexible_chassis import COMPUTED, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
+from mbs.vehicle.chassis.gauges.reading import STRESS
 from mbs.vehicle.side import Point
 
-OVER_REST = 2.0
-"""Colours end at the largest stress of the standing car times this, rounded up: kerbs and lane changes stay below."""
+ROUND = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+"""Colours end at the largest stress of the standing car, rounded up to one of these times a power of ten: so the tubes
+of a car that cruises differ. What is beyond has the last colour."""
 
 
 def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Point) -> list[dict[str, Any]]:
@@ -29,7 +31,7 @@ def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Po
     body, start, full_scale = flexible.drawn, _standing(flexible, model), None
     if body.frame is not None:
         largest = float(peak_tube_stress(body.frame, body.recovery(section_force_field(body.frame)) @ start).max())
-        full_scale = _rounded_up(OVER_REST * largest) if largest > 0.0 else None
+        full_scale = _rounded_up(largest) if largest > 0.0 else None
     return flexible_parts(
         body,
         "chassis",
@@ -38,6 +40,11 @@ def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Po
         start=start,
         computed=COMPUTED,
         full_scale=full_scale,
+        gauges=[
+            {"name": r.gauge, "value": r.name, "unit": r.unit, "nodes": r.between, "along": r.along}
+            for r in flexible.structure.readings
+            if r.quantity == STRESS and r.between is not None
+        ],
     )
 
 
@@ -50,6 +57,5 @@ def _standing(flexible: FlexibleFrame, model: Mechanism) -> np.ndarray:
 
 
 def _rounded_up(value: float) -> float:
-    """To one digit and a half: 1, 1.5, 2, 2.5 and so on."""
-    step = 0.5 * 10.0 ** math.floor(math.log10(value))
-    return math.ceil(value / step) * step
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(k for k in ROUND if k * power >= value * (1.0 - 1e-9)) * power

@@ -353,7 +353,7 @@ def test_without_an_fmu_one_is_built_and_kept(fmus, told, tmp_path, monkeypatch)
     assert "The car prototype is built for this machine" in out
     assert re.search(r"\(cold: the FMU was built in \d+\.\d s of it\)", out)
     assert "(warm: the FMU was there)" in told("--headless", "--stop-time", 0.1)[1]
-    assert built == [("--car", "prototype", "--poses", "all")]
+    assert built == [("--car", "prototype")]
     monkeypatch.setattr(built_fmu, "program_version", lambda: "other")
     assert "(cold: " in told("--headless", "--stop-time", 0.1)[1]
     (tmp_path / "dist").mkdir()

@@ -82,8 +82,9 @@ test("ground of more triangles than a picture may have is coarser where it is fa
 });
 
 test("a level that is too slow gets coarser, a draft that is quick gets finer; only what is driven is drafted", () => {
-  assert.equal(nextLevel("high", 100, false), "low");
-  assert.equal(nextLevel("low", 100, false), "low");
+  assert.equal(nextLevel("high", 100, false), "medium");
+  assert.equal(nextLevel("medium", 100, false), "medium");
+  assert.equal(nextLevel("medium", 100, true), "low");
   assert.equal(nextLevel("low", 100, true), "draft");
   assert.equal(nextLevel("draft", 100, true), "draft");
   assert.equal(nextLevel("draft", 5, true), "low");
@@ -145,6 +146,6 @@ test("a draft whose pictures are quick but seldom loses pixels too, and one that
 test("a quality that was chosen stays, and what stands still is measured once", (t) => {
   assert.deepEqual(paced(t, true, "low", () => 500)(500), ["low", 1, 0]);
   t.mock.restoreAll();
-  assert.deepEqual(paced(t, false, "auto", () => 500)(500), ["low", 1, 0]);
+  assert.deepEqual(paced(t, false, "auto", () => 500)(500), ["medium", 1, 0]);
   assert.deepEqual([nextShare(1, 41), nextShare(0.5, 90), nextShare(0.8, 20), nextShare(0.8, 10)], [0.8, 0.5, 0.8, 1]);
 });

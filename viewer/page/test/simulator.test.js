@@ -4,12 +4,11 @@ import { Blend, turnsOf } from "../src/live/blend.js";
 import { Hands } from "../src/live/hands.js";
 import { Trailing } from "../src/scene/trailing.js";
 import { Beat, Frames } from "../src/simulator/frames.js";
-import { Trail } from "../src/simulator/map.js";
-import { Numbers } from "../src/simulator/numbers.js";
+import { Trail } from "../src/instruments/map.js";
 import { Factor } from "../src/simulator/steps.js";
-import { Surfaces } from "../src/simulator/surfaces.js";
-import { useColour, wheelsOf } from "../src/simulator/tyres.js";
-import { besides } from "../src/simulator/map.js";
+import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
+import { useColour, wheelsOf } from "../src/instruments/tyres.js";
+import { besides } from "../src/instruments/map.js";
 import { cameraActs } from "../src/common/views.js";
 import { Views } from "../src/simulator/views.js";
 import { Wants } from "../src/simulator/wants.js";
@@ -199,15 +198,13 @@ test("friction of the ground where a world tells it", () => {
 
 test("what a tyre can hold: friction of the road, of its axle's curves on a road of friction 1, and its grip", () => {
   const variables = Object.entries({ "road.friction": 0.8, "road.friction_factor": 0.5, "rear.tyre.grip": 1.5 });
-  const description = { variables: variables.map(([name, start]) => ({ name, start })) };
   const constants = { "vehicle.tyre_friction_front": 1.25, "vehicle.tyre_friction_rear": 0.9 };
-  const hello = { scene: {}, columns: ["time"], description, constants };
+  const known = new Map([...variables, ...Object.entries(constants)]);
   const flat = new Surfaces([{ kind: "flat" }]);
   const near = (found, expected) => assert.ok(Math.abs(found - expected) < 1e-12, `${found} for ${expected}`);
-  near(new Numbers(hello, flat).friction(0, 0, "wheel_FL"), 0.8 * 0.5 * 1.25);
-  near(new Numbers(hello, flat).friction(0, 0, "wheel_RR"), 0.8 * 0.5 * 0.9 * 1.5);
-  near(new Numbers({ ...hello, constants: {} }, flat).friction(0, 0, "wheel_FR"), 0.8 * 0.5);
-  near(new Numbers({ scene: {}, columns: [] }, flat).friction(0, 0, "left"), 1);
+  near(frictionOf(flat, (name) => known.get(name), [0, 0], "wheel_FL"), 0.8 * 0.5 * 1.25);
+  near(frictionOf(flat, (name) => known.get(name), [0, 0], "wheel_RR"), 0.8 * 0.5 * 0.9 * 1.5);
+  assert.ok(Number.isNaN(frictionOf(flat, (name) => new Map(variables).get(name), [0, 0], "wheel_FR"))); // not known
 });
 
 test("a camera on a rope: it follows a turn in its time, stays level, and jumps where the car does", () => {

@@ -34,7 +34,7 @@ class NodePair(Section):
         if self.opposite is not None:
             row = row - self._strain(model, "opposite")
             text = f"half-bridge {name}, nodes {a} and {b} minus nodes {self.opposite[0]} and {self.opposite[1]}"
-        yield Reading(STRESS, name, "Pa", text, self.E * row)
+        yield Reading(STRESS, name, "Pa", text, self.E * row, self.nodes)
 
     def _strain(self, model: FiniteElementModel, field: str) -> np.ndarray:
         ends = getattr(self, field)

@@ -21,7 +21,11 @@ class Reading:
     unit: str
     description: str
     row: np.ndarray
-    """Shape (n_dof,): per nodal displacement, m and rad."""
+    """Shape (n_dof,) or that and three a node: per nodal displacement, m and rad, and per acceleration (`recovery`)."""
+    between: tuple[str, str] | None = None
+    """Nodes between which the gauge sits; None: it has no one place."""
+    along: float = 0.5
+    """Place from the first of them to the second, from 0 to 1."""
 
     @property
     def name(self) -> str:

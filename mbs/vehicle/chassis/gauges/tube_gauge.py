@@ -97,8 +97,10 @@ class TubeGauge(Section):
             "axial": (gauge.axial_force, gauge.axial_stress),
             "torsion": (gauge.torque, gauge.shear_stress),
         }[self.bridge]
+        beam = frame.beams[gauge.element]
+        ends = frame.names[beam.i], frame.names[beam.j]
         for (quantity, unit, text), matrix in zip(rows, matrices, strict=True):
-            yield Reading(quantity, name, unit, text, matrix(frame).toarray()[0])
+            yield Reading(quantity, name, unit, text, matrix(frame).toarray()[0], ends, gauge.xi)
 
     def _direction(self, axes: np.ndarray) -> tuple[float, float]:
         """Unit vector (y, z) of the section towards the fibre."""

@@ -284,6 +284,7 @@ class Drive {
       close: () => this.help.toggle(false),
       "full screen": () => fullScreen(this.root),
       ...cameraActs({ names: () => this.view.cameraNames, all: this.view.cameraNames, now: () => this.view.cameras?.name, choose: (name) => this._tell(this.camera(name), 3000) }),
+      ...(this.stage.parts.some(({ instruments }) => instruments) ? { instruments: () => this.stage.parts.forEach(({ instruments }) => instruments?.toggle()) } : {}),
       ...Object.fromEntries(shown.map((what) => [what, () => this._flip(what)])),
       ...(this.isCar ? { levers: flipLevers, mute: () => this._mute() } : {}),
     };

@@ -1,4 +1,5 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
+import { QUALITIES } from "../looks/pace.js";
 import { control } from "./controls.js";
 import { el, named, select, short } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
@@ -111,13 +112,19 @@ export function gamepadPanel(gamepad, inputs) {
  */
 export function picturePanel(has, set, quality = "auto") {
   const can = (what) => has.some((one) => one[what]);
-  const levels = ["auto", "high", "low", "draft"].map((level) => [level, `quality ${level}`]);
+  const levels = QUALITIES.map((level) => [level, `quality ${level}`]);
+  /** @type {Object<string, HTMLInputElement>} */
+  const boxes = {};
   /** @type {HTMLElement[]} */
   const lines = [select("quality", "how finely the picture is drawn", levels, (wish) => set({ quality: wish }), quality)];
   for (const what of ["arrows", "stress", "closed"]) {
     if (!can(what)) continue;
-    const box = el("input", { type: "checkbox", checked: what !== "arrows", data: `show ${what}` });
-    box.addEventListener("change", () => set({ [what]: box.checked }));
+    const box = el("input", { type: "checkbox", checked: what === "closed", data: `show ${what}` });
+    box.addEventListener("change", () => {
+      set({ [what]: box.checked });
+      if (what === "stress" && box.checked && boxes.closed?.checked) boxes.closed.click(); // what has the colours is within
+    });
+    boxes[what] = box;
     lines.push(el("label.a3-control", {}, box, hint(what)));
     set({ [what]: box.checked });
   }

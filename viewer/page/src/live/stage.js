@@ -3,6 +3,7 @@ import { SceneView } from "../scene/scene_view.js";
 import { Effects } from "../effects/driven.js";
 import { Blend, turnsOf } from "./blend.js";
 import { el } from "../common/dom.js";
+import { Instruments } from "../instruments/index.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
 import { movedRoads } from "./roads.js";
@@ -28,10 +29,13 @@ export class Stage {
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
       const notice = el("div.a3-notice", { data: "notice", hidden: true });
-      const hud = new Hud(item.variables ?? new Map(), item.title);
-      const element = el("div.a3-view", {}, holder, hud.element, notice);
+      const hud = new Hud(item.title);
+      const names = new Set(item.variables ? [...item.variables].filter(([, v]) => v.causality === "output").map(([name]) => name) : Object.keys(item.recording?.columns ?? {}));
+      const fixed = (name) => item.variables?.get(name)?.start;
+      const instruments = Instruments.of(names) ? new Instruments(names, { scene: item.scene, fixed }) : null;
+      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.element] : []), hud.element, notice);
       this.element.append(element);
-      return { ...item, holder, notice, hud, element };
+      return { ...item, holder, notice, hud, instruments, element };
     });
     this._options = { driven: !options.keep, ...options };
     this.dirty = true;
@@ -83,6 +87,7 @@ export class Stage {
   /** Another run, or an earlier instant: nothing goes on across it. */
   renew() {
     this._epoch += 1;
+    for (const { instruments } of this.parts) instruments?.plan.trail.lift();
   }
 
   _drawRoads(part, lookup) {
@@ -160,7 +165,8 @@ export class Stage {
       part.view.update(lookup);
       part.effects?.update(lookup, time, this._epoch);
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
-      part.hud.show(lookup, Math.min(time, end), part.recording ? null : pace);
+      part.hud.show(Math.min(time, end), part.recording ? null : pace);
+      part.instruments?.show(lookup);
       if (part.recording?.end) this.tell(part, time > end ? part.recording.end : "");
     }
     this.dirty = true;

@@ -17,18 +17,21 @@ const LAST = SURFACES.length - 1;
 export function shares(raster, most = MOST) {
   const factor = Math.max(1, Math.ceil(Math.max(...raster.shape) / most));
   const [height, width] = raster.shape.map((n) => Math.ceil(n / factor));
-  const places = raster.names.map((name) => Math.max(0, SURFACES.indexOf(name)));
-  const sums = new Float32Array(4 * width * height);
+  const { shape, classes } = raster;
   const one = 127 / (factor * factor);
+  const places = Array.from({ length: 256 }, (_, k) => Math.max(0, SURFACES.indexOf(raster.names[k])));
+  const channels = Uint8Array.from(places, (place) => Math.min(place, LAST - place));
+  const amounts = Float32Array.from(places, (place) => (2 * place < LAST ? one : -0.5 * one));
+  const sums = new Float32Array(4 * width * height).fill(128.5);
   for (let i = 0; i < height * factor; i++) {
+    const row = Math.min(i, shape[0] - 1) * shape[1];
+    const to = 4 * width * Math.floor(i / factor);
     for (let j = 0; j < width * factor; j++) {
-      const from = Math.min(i, raster.shape[0] - 1) * raster.shape[1] + Math.min(j, raster.shape[1] - 1);
-      const place = places[raster.classes[from]] ?? 0;
-      const to = 4 * (Math.floor(i / factor) * width + Math.floor(j / factor)) + Math.min(place, LAST - place);
-      sums[to] += 2 * place < LAST ? one : -0.5 * one;
+      const kind = classes[row + Math.min(j, shape[1] - 1)];
+      sums[to + 4 * Math.floor(j / factor) + channels[kind]] += amounts[kind];
     }
   }
-  const pixels = Uint8Array.from(sums, (value) => 128.5 + value);
+  const pixels = new Uint8Array(sums);
   for (const step of [1, width]) soften(pixels, width, height, step);
   return { width, height, factor, pixels };
 }

@@ -40,23 +40,34 @@ export class HeightField {
   }
 
   #cellOf(at) {
-    return at.map((value, k) => Math.min(TABLE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k]))));
+    return at.map((value, k) => this.#line(k, value));
   }
 
   /** The patches that a place lies in: two or more on an edge. @returns {Patch[]} */
   patchesAt(x, y) {
-    const [a, b] = this.#cellOf([x, y]);
+    return this.#candidates(x, y).filter((one) => this.#holds(one, x, y)).map(({ patch }) => patch);
+  }
+
+  #candidates(x, y) {
+    const [a, b] = [this.#line(0, x), this.#line(1, y)];
+    return this.table.get(a * TABLE + b) ?? [];
+  }
+
+  #line(k, value) {
+    return Math.min(TABLE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k])));
+  }
+
+  #holds({ patch, end }, x, y) {
+    const { origin } = patch;
     const near = 1e-6 * Math.max(this.cell[0], this.cell[1]);
-    const inside = (low, high, value) => value >= low - near && value <= high + near;
-    return (this.table.get(a * TABLE + b) ?? [])
-      .filter(({ patch, end }) => inside(patch.origin[0], end[0], x) && inside(patch.origin[1], end[1], y))
-      .map(({ patch }) => patch);
+    return x >= origin[0] - near && x <= end[0] + near && y >= origin[1] - near && y <= end[1] + near;
   }
 
   /** Height of the triangles that are drawn. @param {number} x @param {number} y */
   at(x, y) {
-    const [px, py] = [x, y].map((value, k) => Math.min(this.high[k], Math.max(this.low[k], value)));
-    const [patch] = this.patchesAt(px, py);
+    const px = Math.min(this.high[0], Math.max(this.low[0], x));
+    const py = Math.min(this.high[1], Math.max(this.low[1], y));
+    const patch = this.#candidates(px, py).find((one) => this.#holds(one, px, py))?.patch;
     return patch === undefined ? 0 : inPatch(patch, px, py);
   }
 
@@ -79,7 +90,8 @@ export class HeightField {
 
 /** Height in the two triangles of a cell. */
 function inPatch({ origin, spacing, shape, heights }, x, y) {
-  const [u, v] = [x, y].map((value, k) => Math.min(shape[k] - 1, Math.max(0, (value - origin[k]) / spacing[k])));
+  const u = Math.min(shape[0] - 1, Math.max(0, (x - origin[0]) / spacing[0]));
+  const v = Math.min(shape[1] - 1, Math.max(0, (y - origin[1]) / spacing[1]));
   const [i, j] = [Math.min(Math.floor(u), shape[0] - 2), Math.min(Math.floor(v), shape[1] - 2)];
   const [a, b] = [u - i, v - j];
   const k = i * shape[1] + j;

@@ -42,7 +42,7 @@ export function makeLook(view) {
     /** Pixels that are drawn for each of the page, by side. @param {number} area of the picture in the page */
     pixelRatio: (area) => {
       if (pace.level === "high") return Math.min(globalThis.devicePixelRatio || 1, 2);
-      return pace.level === "low" ? 1 : pace.share * draftRatio(area);
+      return pace.level === "draft" ? pace.share * draftRatio(area) : 1;
     },
     get quality() {
       return pace.level;

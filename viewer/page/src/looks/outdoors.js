@@ -62,7 +62,7 @@ export function outdoors(view, fine) {
   return {
     follow(origin) {
       draft.follow();
-      spots.follow(origin, draft.on);
+      spots.follow(origin, !sun.castShadow);
       for (const surface of [asphalt, road, grass]) surface.follow(origin);
       const eye = view.cameras.current.position.toArray();
       roads.follow(origin, eye);
@@ -70,9 +70,9 @@ export function outdoors(view, fine) {
     },
     quality(level) {
       sharpen(sun, level === "high" ? 2048 : 1024);
-      draft.set(level === "draft");
+      draft.set(level);
       dress(draft.on);
-      land?.show(draft.on ? draft.light : null);
+      land?.show(level, draft.light);
     },
     restore: bake,
     height: land?.height ?? null,

@@ -1,7 +1,12 @@
 // How finely a picture is drawn, by the measured time that the machine needs.
 
-/** From the coarsest; draft: see draft/index.js. */
-export const LEVELS = ["draft", "low", "high"];
+/**
+ * From the coarsest. draft: see draft/index.js; low: without shadows of the sun, a world's ground and scenery as coarse
+ * as in a draft; medium: all, with a pixel for each of the page and a smaller shadow map.
+ */
+export const LEVELS = ["draft", "low", "medium", "high"];
+/** What a person can choose, finest first. */
+export const QUALITIES = ["auto", ...[...LEVELS].reverse()];
 /** Milliseconds that a picture may take before it is drawn more coarsely, and below which a draft is drawn more finely. */
 const [SLOW, QUICK] = [40, 12];
 /** Milliseconds between two pictures of what is driven above which drafts have fewer pixels, and above which it stood still. */
@@ -20,7 +25,7 @@ const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
 export class Pace {
   /**
    * @param {import("three").WebGLRenderer} renderer
-   * @param {"high" | "low" | "draft" | "auto"} quality
+   * @param {string} quality
    * @param {{software: boolean, driven: boolean}} machine software: the processor draws; driven: pictures must keep up
    *   with something that moves now, so that they may be drafts
    */
@@ -32,10 +37,9 @@ export class Pace {
     this.choose(quality);
   }
 
-  /** @param {"high" | "low" | "draft" | "auto"} quality */
+  /** @param {string} quality */
   choose(quality) {
-    const all = [...LEVELS].reverse().concat("auto");
-    if (!all.includes(quality)) throw new Error(`There is no quality '${quality}'; there are ${all.join(", ")}.`);
+    if (!QUALITIES.includes(quality)) throw new Error(`There is no quality '${quality}'; there are ${QUALITIES.join(", ")}.`);
     const auto = quality === "auto";
     this.goes = auto && this.driven;
     /** Pixels of a draft by side, of those that it has at first. */
@@ -48,7 +52,7 @@ export class Pace {
 
   #first() {
     if (!this.software) return "high";
-    return this.driven ? "draft" : "low";
+    return this.driven ? "draft" : "medium";
   }
 
   #measure(wanted) {
@@ -114,6 +118,6 @@ export function nextShare(share, time) {
  */
 export function nextLevel(level, time, driven) {
   const at = LEVELS.indexOf(level);
-  if (time > SLOW) return LEVELS[Math.max(driven ? 0 : Math.min(at, 1), at - 1)];
+  if (time > SLOW) return LEVELS[Math.max(driven ? 0 : Math.min(at, LEVELS.indexOf("medium")), at - 1)];
   return level === "draft" && time < QUICK ? "low" : level;
 }

@@ -46,7 +46,7 @@ export function studio(view, fine) {
     },
     quality(level) {
       sharpen(sun, level === "high" ? 2048 : 1024);
-      draft.set(level === "draft");
+      draft.set(level);
     },
     restore: bake,
     tell: [],

@@ -16,12 +16,11 @@ const POINTS = 60000;
 const [LEAST, THIN, ERROR] = [2e-3, 150, 7e-4];
 
 /**
- * @param {Data} road an entry of a scene's `roads` of the kind terrain
  * @param {THREE.Material} material
  * @param {number[][]} axes x, y and up of the world
  * @param {HeightField} field
  */
-export function terrain(road, material, axes, field) {
+export function terrain(material, axes, field) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
   const pieces = bundles(parts(field.patches, CELLS), PIECES, POINTS).map((piece) => drawnPiece(piece, field, material));

@@ -121,9 +121,13 @@ function addPoints({ patch, i0, j0, n, m }, field, base, positions, normals, sta
   const { origin, spacing, shape, heights } = patch;
   const [dx, dy] = spacing;
   const put = (k, i, j, z, slope) => {
-    positions.set([origin[0] + (i0 + i) * dx - base[0], origin[1] + (j0 + j) * dy - base[1], z], 3 * k);
-    const size = Math.hypot(slope[0], slope[1], 1);
-    normals.set([-slope[0] / size, -slope[1] / size, 1 / size], 3 * k);
+    const size = Math.sqrt(slope[0] ** 2 + slope[1] ** 2 + 1);
+    positions[3 * k] = origin[0] + (i0 + i) * dx - base[0];
+    positions[3 * k + 1] = origin[1] + (j0 + j) * dy - base[1];
+    positions[3 * k + 2] = z;
+    normals[3 * k] = -slope[0] / size;
+    normals[3 * k + 1] = -slope[1] / size;
+    normals[3 * k + 2] = 1 / size;
   };
   const height = (a, b) => heights[a * shape[1] + b];
   const slopeAt = (a, b) => {

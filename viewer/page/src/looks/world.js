@@ -28,20 +28,18 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
   const group = new THREE.Group();
-  const full = () => {
-    const land = field === null ? null : terrain(roads[0], materials.ground, axes, field);
-    return versionOf(land, makeScenery(things, { axes, paint: materials.paint, ground: field }), [materials.ground, materials.paint]);
-  };
-  const coarse = (light) => {
-    const { ground, paint } = materials.drafted(light);
-    const land = field === null ? null : coarseTerrain(ground, axes, field);
-    return versionOf(land, makeScenery(things, { axes, paint, ground: field, drafted: true }), [ground, paint]);
+  const version = (level, light) => {
+    const { ground, paint } = level === "draft" ? materials.drafted(light) : materials;
+    const rough = level === "low" || level === "draft";
+    const land = field === null ? null : (rough ? coarseTerrain : terrain)(ground, axes, field);
+    return versionOf(land, makeScenery(things, { axes, paint, ground: field, drafted: rough }), level === "draft" ? [ground, paint] : []);
   };
   const made = {};
   let shown = null;
-  /** Show the world as it is, or its draft with a light; each is made when it is first seen. @param {Data | null} light */
-  const show = (light) => {
-    shown = light === null ? (made.full ??= full()) : (made.coarse ??= coarse(light));
+  /** Show the world at a level, each made when it is first seen. @param {string} level @param {Data} light of a draft */
+  const show = (level, light) => {
+    const like = level === "medium" ? "high" : level;
+    shown = made[like] ??= version(like, light);
     group.clear().add(shown.group);
   };
   return {
@@ -61,6 +59,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     },
     dispose() {
       for (const version of Object.values(made)) version.dispose();
+      for (const material of [materials.ground, materials.paint]) material.dispose();
       cover.texture.dispose();
     },
   };

@@ -22,7 +22,6 @@ export class Bar {
       oninput: () => player.seek(Number(this.slide.value)),
     });
     this.time = el("span.ali3-time");
-    this.rate = el("span.ali3-rate", { role: "status" });
     this.speed = el("select", { title: `speed: ${hint("faster")}, ${hint("slower")}`, "aria-label": "speed", onchange: () => player.speed(Number(this.speed.value)) });
     this.speeds(clock.speed);
     const moves = clock.end > clock.begin;
@@ -37,7 +36,7 @@ export class Bar {
       ),
       this.slide,
       this.time,
-      el("div.ali3-group", {}, this.speed, this.rate),
+      el("div.ali3-group", {}, this.speed),
       el("div.ali3-group", {}, ...this.#views()),
     );
     /** @type {NodeListOf<HTMLButtonElement>} */
@@ -81,11 +80,6 @@ export class Bar {
       this.shown = clock.playing;
       this.playing.replaceChildren(icon(clock.playing ? "pause" : "play"));
     }
-    const { rate, behind } = clock;
-    const text = rate === null ? "" : `${behind ? "only " : ""}${rate.toFixed(2)}×`;
-    if (this.rate.textContent !== text) this.rate.textContent = text;
-    this.rate.title = behind ? "drawing is slow here" : "";
-    this.rate.classList.toggle("ali3-behind", behind);
   }
 }
 

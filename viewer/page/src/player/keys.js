@@ -34,6 +34,7 @@ export function playerActs(player) {
     close: () => (player.settings.toggle(false), player.help.toggle(false)),
     "full screen": () => player.fullScreen(),
     ...cameraActs({ names: () => player.cameras, all: player.cameras, now: () => player.cameraName, choose: (name) => player.camera(name) }),
+    ...(player.instruments ? { instruments: () => player.instruments.toggle() } : {}),
     ...Object.fromEntries(switches.map((what) => [what, () => player.set({ [what]: !look[what] })])),
   };
 }

@@ -4,6 +4,7 @@ import { el } from "../common/dom.js";
 import { fullScreen } from "../common/full_screen.js";
 import { Help } from "../common/help.js";
 import { keys } from "../common/keys.js";
+import { Instruments } from "../instruments/index.js";
 import { SceneView } from "../scene/scene_view.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
@@ -53,7 +54,7 @@ export class Player {
     this.look = {
       arrows: this.options.arrows ?? false,
       arrowScale: this.options.arrow_scale ?? 1,
-      stress: this.options.stress ?? true,
+      stress: this.options.stress ?? false,
       deformation: this.options.deformation ?? 1,
       path: this.options.path ?? true,
       closed: this.options.closed ?? true,
@@ -65,6 +66,7 @@ export class Player {
     if (this.options.controls !== false) this.#controls();
     else if (this.ghosts.length > 0) this.viewBox.append(el("div.ali3-head", {}, ...this.#names())); // pictures and films
     this.theme(this.themeName);
+    document.addEventListener("visibilitychange", () => (this.last = undefined), { signal: this.listeners.signal }); // nobody has seen what passed
     this.observer = new ResizeObserver(() => this.#shape());
     this.observer.observe(this.root);
     this.#shape();
@@ -130,7 +132,7 @@ export class Player {
 
   /** @param {number} speed from 0.05 to 10 */
   speed(speed) {
-    this.clock.faster(Math.min(10, Math.max(0.05, speed)));
+    this.clock.speed = Math.min(10, Math.max(0.05, speed));
     this.bar?.speeds(this.clock.speed);
     this.changed();
   }
@@ -153,6 +155,7 @@ export class Player {
 
   /** @param {{arrows?: boolean, arrowScale?: number, stress?: boolean, deformation?: number, path?: boolean, closed?: boolean}} look */
   set(look) {
+    if (look.stress && this.look.closed && look.closed === undefined && this.has.closed) look.closed = false; // what has the colours is within
     Object.assign(this.look, look);
     this.view?.set?.(look);
     if (look.deformation !== undefined && this.solid >= 0) {
@@ -242,7 +245,7 @@ export class Player {
     this.has = {};
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
-    this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false });
+    this.view = new SceneView(this.viewBox, scene, { words: this.options.controls !== false, keep: this.options.controls === false, driven: this.options.controls !== false, quality: this.options.quality });
     this.view.set?.(this.look);
     this.#scan();
     const has = this.view.has ?? { arrows: scene.arrows?.length > 0, stress: scene.flexible?.some(({ stress }) => stress), deformation: scene.flexible?.length > 0 };
@@ -291,6 +294,11 @@ export class Player {
 
   #controls() {
     this.#head();
+    const names = new Set(Object.keys(this.runs[Math.max(0, this.solid)].columns));
+    if (this.solid >= 0 && !this.problem && Instruments.of(names)) {
+      this.instruments = new Instruments(names, { scene: this.runs[this.solid].scene });
+      this.viewBox.append(this.instruments.element);
+    }
     this.barBox = el("div.ali3-bar");
     this.foot.append(this.barBox);
     this.bar = new Bar(this.barBox, this);
@@ -347,6 +355,7 @@ export class Player {
       this.view.update(this.samplers[this.solid].lookup);
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
       for (const { traces, sampler } of this.drawnRuns) traces.update(this.clock.time, sampler.place[0]);
+      this.instruments?.show(this.samplers[this.solid].lookup);
       this.view.render();
     }
     this.bar?.now();

@@ -9,6 +9,8 @@ export class Bending {
     this.beams = body.beams;
     this.count = body.amplitudes.length;
     this.names = body.amplitudes;
+    this.nodeNames = body.names ?? [];
+    this.gauges = body.gauges ?? [];
     this.start = body.start ?? body.amplitudes.map(() => 0);
     this.modes = floats(body.modes);
     this.displaced = body.nodes.map((node) => [...node]);

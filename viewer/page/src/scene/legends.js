@@ -1,7 +1,7 @@
 // What colours, arrows and grid mean: small tables over the picture.
 import { gradient } from "../looks/colour_map.js";
 import { el } from "../common/dom.js";
-import { parted, worded } from "./forces.js";
+import { niceStep, parted, worded } from "./forces.js";
 
 const BOX = "background:#ffffffd9;border-radius:4px;padding:5px 8px;font-variant-numeric:tabular-nums";
 
@@ -33,19 +33,25 @@ export class Legends {
 }
 
 /**
- * The legend of stress colours.
- * @param {{known: boolean, computed: boolean, most: number, unit: string, limit: number | null, limitName: string, factor: number}} state
+ * The legend of stress colours; `ends`: what is beyond the scale has its last colour.
+ * @param {{known: boolean, computed: boolean, most: number, ends: boolean, unit: string, limit: number | null, limitName: string, factor: number}} state
  */
-export function stressLegend({ known, computed, most, unit, limit, limitName, factor }) {
+export function stressLegend({ known, computed, most, ends, unit, limit, limitName, factor }) {
   if (!known) return [computed ? "stress: no numbers" : "stress: not computed"];
   const [full, name] = parted(most, unit);
-  const ticks = [0, 0.25, 0.5, 0.75, 1].map((level) => el("span", {}, String(Number((level * full).toPrecision(3)))));
+  const ticks = ticksTo(full).map((value) => el("span", { style: `position:absolute;left:${(100 * value) / full}%;transform:translateX(-50%)` }, `${ends && value === full ? "\u2265" : ""}${value}`));
   return [
-    el("div", {}, `stress in ${name}, deformation \u00d7${Number(factor.toPrecision(3))}`),
-    el("div", { style: `width:190px;height:11px;margin:3px 0;background:${gradient()}` }),
-    el("div", { style: "display:flex;justify-content:space-between" }, ...ticks),
+    el("div", {}, `largest normal stress in ${name}, deformation \u00d7${Number(factor.toPrecision(3))}`),
+    el("div", { style: `height:11px;margin:3px 10px;background:${gradient()}` }),
+    el("div", { style: "position:relative;height:1.35em;margin:0 10px" }, ...ticks),
     ...(limit ? [el("div", {}, `${limitName}: ${worded(limit, unit)}`)] : []),
   ];
+}
+
+/** Round numbers from 0 to the end of a scale. @param {number} most */
+export function ticksTo(most) {
+  const step = niceStep(most / 3);
+  return Array.from({ length: Math.floor(most / step + 1e-9) + 1 }, (_, k) => Number((k * step).toPrecision(6)));
 }
 
 /** The legend of the arrows. @param {{unit: string, metres: number, value: number, colour: string}[]} scales */

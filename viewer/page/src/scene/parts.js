@@ -44,6 +44,8 @@ export class Parts {
     this.flexible = (scene.flexible ?? []).map((body) => this.#bend(body, options));
     /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
     this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
+    /** Whether what is beyond that end stays beyond it. */
+    this.bending.fixed = this.bending.most > 0;
     this.tyres = options.ghost ? [] : this.#tyres();
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
     this.group.add(this.arrows.group);
@@ -109,7 +111,7 @@ export class Parts {
       const absent = body.update(lookup, this.bending.factor);
       if (absent) this.tell(absent);
       this.moved = Math.max(this.moved, body.bending.largestMove() / (this.bending.factor || 1));
-      if (body.most > this.bending.most && !(body.bending.range > 0)) this.bending.most = niceAbove(body.most);
+      if (body.most > this.bending.most && !this.bending.fixed) this.bending.most = niceAbove(body.most);
     }
     for (const { tyre, frame, stand } of this.tyres) {
       stand(lookup === null ? null : roadUnder(tyre, lookup, this.frames.pose(frame)));

@@ -13,9 +13,10 @@ export const UNIT = /^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$/;
 export function wrongName(scene) {
   const { shapes = [], flexible = [], arrows = [] } = scene;
   const stresses = flexible.map(({ stress }) => stress).filter(Boolean);
-  const units = [...arrows, ...stresses].map(({ unit }) => unit);
+  const gauges = flexible.flatMap((part) => part.gauges ?? []);
+  const units = [...arrows, ...stresses, ...gauges].map(({ unit }) => unit);
   const names = [
-    ...[scene, ...shapes, ...flexible, ...arrows].map(({ name }) => name),
+    ...[scene, ...shapes, ...flexible, ...arrows, ...gauges].map(({ name }) => name),
     ...shapes.map(({ body }) => body),
     ...flexible.flatMap((part) => part.names ?? []),
     ...stresses.map((stress) => stress.limit_name),

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { Cameras } from "./cameras.js";
 import { add, dot, middle, rotate, subtract, transpose, unit } from "./math.js";
 import { Legends, arrowLegend, stressLegend } from "./legends.js";
+import { Marks } from "./marks.js";
 import { Notes } from "./notes.js";
 import { Parts } from "./parts.js";
 import { wrongName } from "./plain_names.js";
@@ -15,7 +16,7 @@ export class SceneView {
    * @param {HTMLElement} container an element with a size; the picture fills it
    * @param {Data} scene see viewer/scene.schema.json
    * @param {object} [options]
-   * @param {"high" | "low" | "draft" | "auto"} [options.quality] auto: by the measured time of a picture
+   * @param {string} [options.quality] of QUALITIES in looks/pace.js; auto: by the measured time of a picture
    * @param {boolean} [options.driven] pictures must keep up with what moves now: auto may choose a draft
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
@@ -61,6 +62,7 @@ export class SceneView {
     this.world = new THREE.Scene();
     this.world.add(this.parts.group);
     this.cameras = new Cameras(this, renderer.domElement);
+    this.marks = new Marks(this.notes.layer, this, renderer.domElement);
     this.look = makeLook(this);
     this.#watchContext();
     this.camera(options.camera ?? this.cameras.names[0]);
@@ -100,10 +102,11 @@ export class SceneView {
   scan(lookupAt, count) {
     const { parts } = this;
     const every = Math.max(1, Math.floor(count / 40));
+    const grounded = (this.scene.roads ?? []).length > 0; // roads are the floor
     let [box, floor] = [null, Infinity];
     for (let i = 0; i < count; i++) {
       parts.update(lookupAt(i));
-      if (i % every !== 0 && i !== count - 1) continue;
+      if ((this.scene.focus && grounded) || (i % every !== 0 && i !== count - 1)) continue;
       const [low, high] = parts.bounds() ?? this.bounds;
       floor = Math.min(floor, this.#lowest([low, high]));
       if (this.scene.focus) continue;
@@ -165,14 +168,14 @@ export class SceneView {
    * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
    * @param {boolean} [wish.closed] bodies hide what is within
    * @param {boolean} [wish.words] sentences over the picture
-   * @param {"high" | "low" | "draft" | "auto"} [wish.quality]
+   * @param {string} [wish.quality]
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, closed, words, quality }) {
     const { parts } = this;
     if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
     if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
     if (stress !== undefined) parts.bending.coloured = stress;
-    if (stressMost !== undefined) parts.bending.most = stressMost;
+    if (stressMost !== undefined) Object.assign(parts.bending, { most: stressMost, fixed: stressMost > 0 });
     if (deformation !== undefined) for (const { bending } of [parts, ...this.ghosts]) bending.factor = deformation;
     if (closed !== undefined) for (const each of [parts, ...this.ghosts]) each.close(closed);
     if (words !== undefined) this.notes.words(words);
@@ -187,7 +190,7 @@ export class SceneView {
     const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
     const known = stressed.some((body) => body.stressed);
     const computed = stressed.some(({ absent }) => absent !== null);
-    const state = { known, computed, most: bending.most || 1, unit: name, limit, limitName, factor: bending.factor };
+    const state = { known, computed, most: bending.most || 1, ends: bending.fixed, unit: name, limit, limitName, factor: bending.factor };
     this.legends.put("stress", stressed.length > 0 && bending.coloured && !this.parts.closed ? state : null, stressLegend);
     const units = [...new Set(arrows.now.map((force) => force.unit))];
     const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));
@@ -224,6 +227,7 @@ export class SceneView {
     this.look.follow();
     this.renderer.render(this.world, this.cameras.current);
     this.drawn = true;
+    this.marks.place();
     this.look.after();
   }
 
@@ -247,6 +251,18 @@ export class SceneView {
     if (camera instanceof THREE.PerspectiveCamera && seen.z >= 0) return null;
     seen.applyMatrix4(camera.projectionMatrix);
     return [((seen.x + 1) / 2) * this.size[0], ((1 - seen.y) / 2) * this.size[1]];
+  }
+
+  /**
+   * Name and numbers of what is drawn at a pixel, which stand over it from now on: of a tube its stress, of a body its
+   * place and the forces on it.
+   * @param {number} x @param {number} y pixels of the page from the top left corner of the container
+   * @returns {string[]} empty where nothing moves
+   */
+  pick(x, y) {
+    const words = this.problem ? [] : this.marks.pick(x, y);
+    this.marks?.place();
+    return words;
   }
 
   /** Width and height of what is drawn; the page stretches it to its picture. @returns {number[]} */

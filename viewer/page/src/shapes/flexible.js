@@ -32,6 +32,7 @@ export class Flexible {
     this.colours = !materials.options.ghost;
     this.absent = "";
     this.update(null, 1);
+    this.paint(false, 1);
   }
 
   /** Whether its stress is known now. */
@@ -47,7 +48,7 @@ export class Flexible {
   /** @param {((name: string) => number | undefined) | null} lookup @param {number} factor of the displacement @returns {string} what has no number */
   update(lookup, factor) {
     this.absent = this.bending.update(lookup, factor);
-    this.tubes.move(this.bending.displaced);
+    this.moved = true;
     if (this.absent === "") return "";
     const name = this.name;
     if (this.absent === null) return `Deformation and stresses of '${name}' are not computed where the column '${this.bending.computed}' is 0.`;
@@ -56,6 +57,8 @@ export class Flexible {
 
   /** @param {boolean} wanted colours of stress @param {number} most stress at the end of the map */
   paint(wanted, most) {
+    if (this.moved) this.tubes.move(this.bending.displaced);
+    this.moved = false;
     const coloured = wanted && this.colours && this.stressed;
     this.object.material = coloured ? this.coloured : this.plain;
     if (coloured) this.tubes.colour(this.bending.stress, most);

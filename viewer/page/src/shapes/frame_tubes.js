@@ -1,9 +1,10 @@
 // Tubes of a flexible body: one surface for all beams, with balls at the nodes.
 import * as THREE from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
-import { across, add, cross, scale, subtract, unit } from "../scene/math.js";
+import { across, cross, subtract, unit } from "../scene/math.js";
 
 const AROUND = 12;
+const CIRCLE = Array.from({ length: AROUND }, (_, j) => [Math.cos, Math.sin].map((of) => of((2 * Math.PI * j) / AROUND)));
 /** Every so many points around, and eight triangles of a ball, are drawn in a draft. */
 const COARSE = 3;
 
@@ -30,6 +31,13 @@ export class FrameTubes {
     this.coarse = new THREE.BufferAttribute(Uint32Array.from(this.#triangles(nodes.length, COARSE, kept)), 1);
   }
 
+  /** The beam that a triangle is of; -1: of a ball at a node. @param {number} face */
+  beamAt(face) {
+    const sides = this.geometry.getIndex() === this.coarse ? Math.ceil(AROUND / COARSE) : AROUND;
+    const beam = Math.floor(face / (2 * sides));
+    return beam < this.beams.length ? beam : -1;
+  }
+
   #triangles(nodes, every, ball) {
     const list = [];
     this.beams.forEach((_, b) => {
@@ -51,13 +59,14 @@ export class FrameTubes {
       const x = across(z);
       const y = cross(z, x);
       for (let j = 0; j < AROUND; j++) {
-        const angle = (2 * Math.PI * j) / AROUND;
-        const normal = add(scale(x, Math.cos(angle)), scale(y, Math.sin(angle)));
-        [from, to].forEach((node, end) => {
-          const k = 3 * (2 * AROUND * b + end * AROUND + j);
-          normals.array.set(normal, k);
-          positions.array.set(add(nodes[node], scale(normal, this.radii[b])), k);
-        });
+        const [cosine, sine] = CIRCLE[j];
+        const k = 3 * (2 * AROUND * b + j);
+        for (let i = 0; i < 3; i++) {
+          const normal = x[i] * cosine + y[i] * sine;
+          normals.array[k + i] = normals.array[k + i + 3 * AROUND] = normal;
+          positions.array[k + i] = nodes[from][i] + normal * this.radii[b];
+          positions.array[k + i + 3 * AROUND] = nodes[to][i] + normal * this.radii[b];
+        }
       }
     });
     nodes.forEach((node, i) => {

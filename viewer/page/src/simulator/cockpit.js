@@ -7,22 +7,21 @@ import { cameraActs } from "../common/views.js";
 import { Effects } from "../effects/driven.js";
 import { Hands, HANDS_MS } from "../live/hands.js";
 import { levers } from "../live/touch.js";
+import { Instruments } from "../instruments/index.js";
+import { WorldMap } from "../instruments/map.js";
 import { SceneView } from "../scene/scene_view.js";
-import { Cluster } from "./cluster.js";
 import { Controls, REWINDS } from "./controls.js";
 import { readByHost } from "./device_words.js";
 import { Beat } from "./frames.js";
-import { WorldMap, WorldPlan } from "./map.js";
 import { Notices } from "./notices.js";
 import { Numbers } from "./numbers.js";
 import { Panels } from "./panels.js";
 import { Steps } from "./steps.js";
-import { Tyres, wheelsOf } from "./tyres.js";
 import { Views } from "./views.js";
 import { Wants } from "./wants.js";
 
-/** Least time between two drawings of the small map and of the report on time, s. */
-const [MAP_EVERY, STEPS_EVERY] = [0.1, 0.1];
+/** Least time between two drawings of the report on time, s. */
+const STEPS_EVERY = 0.1;
 /** What L makes of the speed. */
 const SLOW = 0.25;
 /** The picture stands higher by this share, since instruments are below. */
@@ -47,9 +46,10 @@ export class Cockpit {
     this._beat = new Beat();
     this._hosts = []; // devices that the program reads itself
     this._refusal = { time: Infinity, text: "" }; // of the refused step at which the car stands
-    this.plan = new WorldPlan(scene, world);
-    this.numbers = new Numbers(hello, this.plan.surfaces);
+    this.numbers = new Numbers(hello);
     this.columns = this.numbers.columns;
+    this.instruments = new Instruments(new Set(hello.columns), { scene, world, fixed: (name) => this.numbers.fixed(name) });
+    this.plan = this.instruments.plan;
     this.notices = new Notices();
     this._layOut(root, hello.description?.variables ?? []);
     this.act = this._acts();
@@ -104,7 +104,7 @@ export class Cockpit {
     const { before, after, share, time, stalled } = shown;
     this._stalled = stalled;
     const lookup = this.numbers.lookup(shown);
-    const car = this.numbers.car(lookup);
+    const car = this.instruments.car(lookup);
     const still = before === this._before && after === this._after && share === this._share;
     this._before = before;
     this._after = after;
@@ -115,7 +115,6 @@ export class Cockpit {
   }
 
   _drawPicture(lookup, { time, car, epoch }) {
-    this.plan.trail.add(car.x, car.y);
     this.view.update(lookup);
     this.effects.update(lookup, time, epoch);
     if (this.views.name === "map") this.map.show(car);
@@ -139,21 +138,18 @@ export class Cockpit {
     const constants = inputs.includes("steering") ? (hello.constants ?? {}) : null;
     const pads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad && !readByHost(pad.id, this._hosts));
     this.hands = new Hands({ inputs, constants, pads, want });
-    const names = new Set(hello.columns);
-    this.cluster = new Cluster(names);
     this.steps = new Steps(hello.step);
-    this.tyres = new Tyres(wheelsOf(names), ([x, y], wheel) => this.numbers.friction(x, y, wheel));
     this._touched = new Set();
     this.levers = levers(inputs, (name, value) => {
       this._touched[value ? "add" : "delete"](name);
       want("touch", [[name, value]]);
     });
     this._picture = el("div.a3-picture");
-    this._inset = new WorldMap(this.plan);
     this.map = new WorldMap(this.plan, { whole: true, go: (place) => this.act.place(place.name), free: () => this._freeOfFigures() });
     this.map.element.hidden = true;
-    this._side = el("div.a3-left", {}, this.steps.element, this.tyres.element);
-    root.append(this._picture, this.map.element, this._side, this._inset.element, this.cluster.element, this.levers);
+    const { cluster, tyres, inset } = this.instruments;
+    this._side = el("div.a3-left", {}, this.steps.element, tyres.element);
+    root.append(this._picture, this.map.element, this._side, inset.element, cluster.element, this.levers);
     root.append(this.notices.element);
     this._inputs = inputs;
     this._root = root;
@@ -162,7 +158,7 @@ export class Cockpit {
   /** Left, top, right and bottom of the picture between the bar, the instruments and figures beside them. */
   _freeOfFigures() {
     const { left, top, width, height } = this._root.getBoundingClientRect();
-    const [bar, side, cluster] = [this.controls.element, this._side, this.cluster.element].map((part) => part.getBoundingClientRect());
+    const [bar, side, cluster] = [this.controls.element, this._side, this.instruments.cluster.element].map((part) => part.getBoundingClientRect());
     const beside = side.top - top < height / 2 ? side.right - left : 0; // in a small window it stands at the top
     return [beside, bar.bottom - top, width, cluster.top - top];
   }
@@ -206,9 +202,10 @@ export class Cockpit {
       close: () => this.help.toggle(false),
       "full screen": () => fullScreen(this._root),
       levers: () => this._root.classList.toggle("a3-touching"),
+      instruments: () => this.instruments.toggle(),
       arrows: () => this._flip("arrows", "This car has no forces to be drawn."),
       closed: () => this._flip("closed", "This car has no body that could be opened."),
-      stress: () => this._flip("stress", "The FMU draws no stress: ali3 build CAR --poses all makes one that does."),
+      stress: () => this._flip("stress", "The FMU draws no stress: it has no flexible frame, or was built with --poses wheels."),
     };
   }
 
@@ -243,13 +240,8 @@ export class Cockpit {
 
   _display(lookup, { frame, time, stalled, car, now }) {
     this._speed = Math.abs(lookup("speed")) || 0;
-    this.cluster.show(lookup);
-    this.tyres.show(lookup);
+    this.instruments.show(lookup, car);
     this.controls.show(frame);
-    if (now - (this._mapped ?? -Infinity) > MAP_EVERY) {
-      this._mapped = now;
-      if (this.views.name !== "map") this._inset.show(car);
-    }
     if (now - (this._timed ?? -Infinity) < STEPS_EVERY) return;
     this._timed = now;
     const warn = this.steps.show(frame, time, this.flow());
@@ -267,7 +259,7 @@ export class Cockpit {
     this._dirty = true;
     const map = name === "map";
     this.map.element.hidden = !map;
-    this._inset.element.hidden = map;
+    this.instruments.inset.element.hidden = map;
     this._picture.hidden = map;
     if (!map) this.view.camera(name);
     this.controls?.camera(name);

@@ -1,4 +1,5 @@
 // What one can do with the run: pause, step, slow motion, rewind, set upright, begin again, go to a place.
+import { QUALITIES } from "../looks/pace.js";
 import { button, el, select, write } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
@@ -21,7 +22,7 @@ export class Controls {
     this._saved.addEventListener("input", () => this._showFar());
     this._saved.addEventListener("change", () => this._rewind(act));
     this._camera = select("camera", `camera: ${hint("next camera")}`, cameras.map((name) => [name, name]), act.camera); // prettier-ignore
-    this._quality = select("quality", "how finely the picture is drawn", ["auto", "high", "low", "draft"].map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
+    this._quality = select("quality", "how finely the picture is drawn", QUALITIES.map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
     this._sound = button("mute", "Sound on", act.mute, hint("mute"));
     const spots = places.map(({ name }) => [name, name.replaceAll("_", " ")]);
     this._place = select("place", "begin at a place of the world", [["", "places …"], ...spots], (name) => this._go(act, name));

@@ -1,7 +1,7 @@
 // How the simulation keeps its time: the step against its deadline, simulated over wall time, frames of the page.
 import { el, short, write } from "../common/dom.js";
 import { paceWords } from "../live/hud.js";
-import { Gauge } from "./gauges.js";
+import { Gauge } from "../instruments/gauges.js";
 
 /** Span over which simulated time is compared with the clock, s. */
 const SPAN = 1.0;

@@ -19,11 +19,12 @@ export function makeDraft(view, sun) {
   return {
     light,
     on: false,
-    /** @param {boolean} on */
-    set(on) {
+    /** @param {string} level */
+    set(level) {
+      sun.castShadow = level === "high" || level === "medium";
+      const on = level === "draft";
       if (on === this.on) return;
       this.on = on;
-      sun.castShadow = !on;
       if (on) made ??= make();
       made.show(on);
     },

@@ -2,11 +2,27 @@
 
 /** @typedef {{positions: number[], normals: number[], colours: number[], index: number[]}} Surface */
 
+/** Lattice numbers of one axis are held within this: three of them make one whole number. */
+const LINES = 2 ** 17;
+/** A lattice and the next coarser one. */
+const COARSER = 1.3;
+
 /** Which of the six directions a normal is nearest to: the two sides of a sheet stay apart. */
 function side(normals, k) {
-  const sizes = [0, 1, 2].map((axis) => Math.abs(normals[3 * k + axis]));
-  const axis = sizes.indexOf(Math.max(...sizes));
+  let axis = 0;
+  for (const other of [1, 2]) if (Math.abs(normals[3 * k + other]) > Math.abs(normals[3 * k + axis])) axis = other;
   return 2 * axis + (normals[3 * k + axis] < 0 ? 1 : 0);
+}
+
+/** A map of numbers to numbers from 0 up, in the order in which they come. */
+function numbering() {
+  const known = new Map();
+  return (key) => {
+    const found = known.get(key);
+    if (found !== undefined) return found;
+    known.set(key, known.size);
+    return known.size - 1;
+  };
 }
 
 /**
@@ -15,38 +31,42 @@ function side(normals, k) {
  * @returns {Surface}
  */
 export function thinned({ positions, normals, colours, index }, cell) {
-  const [cells, points] = [new Map(), new Map()];
-  const [cellOf, pointOf] = [[], []];
-  const join = (map, key, values) => {
-    let held = map.get(key);
-    if (held === undefined) map.set(key, (held = { number: map.size, count: 0, sums: values.map(() => 0) }));
-    held.count += 1;
-    values.forEach((value, i) => (held.sums[i] += value));
-    return held;
-  };
-  const three = (list, k) => [list[3 * k], list[3 * k + 1], list[3 * k + 2]];
-  for (let k = 0; k < positions.length / 3; k++) {
-    const place = three(positions, k);
-    const key = place.map((value) => Math.round(value / cell)).join();
-    cellOf.push(join(cells, key, place));
-    const colour = three(colours, k);
-    pointOf.push(join(points, `${key} ${side(normals, k)} ${colour}`, [...three(normals, k), ...colour]));
-    pointOf[k].cell = cellOf[k];
+  const count = positions.length / 3;
+  const [cells, points, tints] = [numbering(), numbering(), numbering()];
+  const [cellOf, pointOf] = [new Uint32Array(count), new Uint32Array(count)];
+  const means = []; // of cells: sums of places, and how many
+  const looks = []; // of points: sums of normals and colours, how many, and their cell
+  const line = (k) => Math.round(positions[k] / cell) + LINES / 2;
+  for (let k = 0; k < count; k++) {
+    const at = (cellOf[k] = cells((line(3 * k) * LINES + line(3 * k + 1)) * LINES + line(3 * k + 2)));
+    const tint = tints(`${colours[3 * k]},${colours[3 * k + 1]},${colours[3 * k + 2]}`);
+    const point = (pointOf[k] = points((tint * 6 + side(normals, k)) * count + at));
+    means[at] ??= [0, 0, 0, 0];
+    looks[point] ??= [0, 0, 0, 0, 0, 0, 0, at];
+    for (let i = 0; i < 3; i++) {
+      means[at][i] += positions[3 * k + i];
+      looks[point][i] += normals[3 * k + i];
+      looks[point][3 + i] += colours[3 * k + i];
+    }
+    means[at][3] += 1;
+    looks[point][6] += 1;
   }
   const made = { positions: [], normals: [], colours: [], index: [] };
-  for (const { cell: held, count, sums } of points.values()) {
-    const size = Math.hypot(sums[0], sums[1], sums[2]) || 1;
-    made.positions.push(...held.sums.map((sum) => sum / held.count));
-    made.normals.push(...sums.slice(0, 3).map((sum) => sum / size));
-    made.colours.push(...sums.slice(3).map((sum) => sum / count));
+  for (const [x, y, z, red, green, blue, many, at] of looks) {
+    const size = Math.hypot(x, y, z) || 1;
+    const mean = means[at];
+    made.positions.push(mean[0] / mean[3], mean[1] / mean[3], mean[2] / mean[3]);
+    made.normals.push(x / size, y / size, z / size);
+    made.colours.push(red / many, green / many, blue / many);
   }
   const seen = new Set();
   for (let k = 0; k < index.length; k += 3) {
-    const corners = [index[k], index[k + 1], index[k + 2]];
-    const [a, b, c] = corners.map((point) => cellOf[point].number);
+    const [a, b, c] = [cellOf[index[k]], cellOf[index[k + 1]], cellOf[index[k + 2]]];
     if (a === b || b === c || c === a) continue;
-    const numbers = corners.map((point) => pointOf[point].number);
-    const key = [...numbers].sort((p, q) => p - q).join();
+    const numbers = [pointOf[index[k]], pointOf[index[k + 1]], pointOf[index[k + 2]]];
+    const low = Math.min(...numbers);
+    const high = Math.max(...numbers);
+    const key = (low * looks.length + (numbers[0] + numbers[1] + numbers[2] - low - high)) * looks.length + high;
     if (seen.has(key)) continue;
     seen.add(key);
     made.index.push(...numbers);
@@ -60,7 +80,19 @@ export function thinned({ positions, normals, colours, index }, cell) {
  */
 export function within(surfaces, most, finest) {
   const count = (list) => list.reduce((sum, { index }) => sum + index.length / 3, 0);
-  let made = surfaces;
-  for (let cell = finest; count(made) > most; cell *= 1.3) made = surfaces.map((surface) => thinned(surface, cell));
+  const lattice = (/** @type {number} */ k) => surfaces.map((surface) => thinned(surface, finest * COARSER ** k));
+  if (count(surfaces) <= most) return surfaces;
+  let [low, high] = [-1, 0]; // too fine, and to be tried
+  let made = lattice(high);
+  while (count(made) > most) {
+    [low, high] = [high, 2 * high + 1];
+    made = lattice(high);
+  }
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    const tried = lattice(middle);
+    if (count(tried) > most) low = middle;
+    else [high, made] = [middle, tried];
+  }
   return made;
 }

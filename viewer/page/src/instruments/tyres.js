@@ -1,13 +1,16 @@
 // The four tyres from above: load as the size of a circle, forces in the plane as an arrow, use of friction as colour.
-import { svg } from "../common/dom.js";
+import { svg, whole } from "../common/dom.js";
 
 /** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
 const [HALF, RADIUS] = [50, 13];
 /** Places by the last letters of a wheel's name; ahead is up. */
-const PLACES = { FL: [-26, -27], FR: [26, -27], RL: [-26, 27], RR: [26, 27] };
+const PLACES = { FL: [-26, -29], FR: [26, -29], RL: [-26, 21], RR: [26, 21] };
 /** From no use of friction to all of it. */
 /** @type {[number, number[]][]} */
 const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore
+
+/** Colour where the friction is not known. */
+const UNKNOWN = "#9aa4ad";
 
 /** Colour of a share of the friction. @param {number} use */
 export function useColour(use) {
@@ -39,11 +42,12 @@ export class Tyres {
       const arrow = svg("path", { stroke: "#fff", "stroke-width": 2.2, fill: "none", "stroke-linecap": "round", "stroke-linejoin": "round" });
       const ahead = `M${x - 4} ${y - RADIUS}v${2 * RADIUS}M${x + 4} ${y - RADIUS}v${2 * RADIUS}`;
       const tyre = svg("path", { d: ahead, stroke: "#fff6", "stroke-width": 1 });
-      return { name, x, y, circle, arrow, tyre, use: 0 };
+      const words = [0, 7].map((down) => svg("text", { x, y: y + RADIUS + 7 + down, "text-anchor": "middle", "font-size": 7, fill: "#fff", stroke: "#0d1318", "stroke-width": 1.6, "paint-order": "stroke" }));
+      return { name, x, y, circle, arrow, tyre, words, use: 0 };
     });
     const title = svg("title");
-    title.textContent = "tyres: size is load, arrow is force in the road's plane, colour is use of friction";
-    const drawn = this._items.flatMap(({ tyre, circle, arrow }) => [tyre, circle, arrow]);
+    title.textContent = "tyres: size is load in kN, arrow is force in the road's plane, colour is use of friction (grey: not known), below is slip";
+    const drawn = this._items.flatMap(({ tyre, circle, arrow, words }) => [tyre, circle, arrow, ...words]);
     this.element = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, class: "a3-tyres", "data-a3": "tyres" }, title, ...drawn);
     this.element.style.display = wheels.length ? "" : "none";
   }
@@ -62,7 +66,7 @@ export class Tyres {
   }
 
   _draw(item, load, lookup) {
-    const { name, x, y, circle, arrow } = item;
+    const { name, x, y, circle, arrow, words } = item;
     const [fx, fy] = [lookup(`${name}.Fx`) || 0, lookup(`${name}.Fy`) || 0];
     const size = Math.hypot(fx, fy);
     const at = ["x", "y", "z"].map((axis) => lookup(`${name}.contact_${axis}`));
@@ -70,7 +74,10 @@ export class Tyres {
     item.use = most > 0 ? size / most : 0;
     const ratio = this._mean > 0 ? load / this._mean : 0;
     circle.setAttribute("r", (RADIUS * Math.sqrt(Math.min(ratio, 3))).toFixed(1));
-    circle.setAttribute("fill", useColour(item.use));
+    circle.setAttribute("fill", Number.isFinite(most) ? useColour(item.use) : UNKNOWN);
+    const slip = lookup(`${name}.slip`);
+    words[0].textContent = `${(load / 1e3).toFixed(1)} kN`;
+    words[1].textContent = Number.isFinite(slip) ? `${whole(100 * slip)} %` : "";
     const scale = this._mean > 0 ? (1.6 * RADIUS) / this._mean : 0;
     const [dx, dy] = turned([-fy * scale, -fx * scale], lookup(`${name}.steer`) || 0);
     arrow.setAttribute("d", Math.hypot(dx, dy) < 1.5 ? "" : arrowPath(x, y, dx, dy));

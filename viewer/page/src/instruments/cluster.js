@@ -1,8 +1,10 @@
 // The instruments of the driver: speed, gear, revolutions, pedals, steering.
 import { el, whole, write } from "../common/dom.js";
-import { RPM, TURNS, gearWords } from "../live/hud.js";
 import { Gauge } from "./gauges.js";
 
+/** Outputs of the speed of what drives, the first that there is. */
+const TURNS = ["engine_speed", "motor_speed"];
+const RPM = 30 / Math.PI;
 /** Revolutions at the end of the bar before more was seen, rpm; and the share from which on it is red. */
 const [REVOLUTIONS, RED] = [6000, 0.92];
 const BARS = { brake: "#ff5a4d", throttle: "#59d07a", hand_brake: "#ffb03b" };
@@ -51,4 +53,14 @@ export class Cluster {
     }
     for (const { column, gauge } of this._pedals) gauge.show(lookup(column));
   }
+}
+
+/**
+ * The gear in a word: R, N, or its number.
+ * @param {(name: string) => number} lookup
+ * @param {{selector?: string, gear?: string}} columns - Those that the FMU has.
+ */
+function gearWords(lookup, { selector, gear }) {
+  if (selector && lookup(selector) < 1) return lookup(selector) < 0 ? "R" : "N";
+  return gear ? `gear ${lookup(gear)}` : "";
 }

@@ -9,6 +9,8 @@ const COLOURS = {
   dirt: [120, 98, 74], wet: [58, 84, 116], ice: [176, 208, 226], paint: [214, 214, 210],
 }; // prettier-ignore
 const OTHER = [128, 118, 128];
+/** Friction of a road that tells none, under a car without that parameter. */
+const FRICTION = 1.0;
 
 /** The surfaces of the roads of a scene, as they lie in it. */
 export class Surfaces {
@@ -30,6 +32,20 @@ export class Surfaces {
   pictures() {
     return this.grids.map(({ grid, colour }) => ({ image: painted(grid, colour), box: boxOf(grid) }));
   }
+}
+
+/**
+ * Largest longitudinal force of a wheel's tyre over its load on the road at a place of the earth; NaN where the car tells
+ * none.
+ * @param {Surfaces} surfaces @param {(name: string) => unknown} fixed constants and parameters of the car
+ * @param {number[]} at x and y @param {string} wheel its name, which ends as in wheel_FL
+ */
+export function frictionOf(surfaces, fixed, [x, y], wheel) {
+  const axle = wheel.at(-2) === "R" ? "rear" : "front";
+  const number = (/** @type {string} */ name, /** @type {number} */ other) => Number(fixed(name) ?? other);
+  const there = surfaces.friction(x, y);
+  const road = Number.isFinite(there) ? there : number("road.friction", FRICTION);
+  return road * number("road.friction_factor", 1) * number(`vehicle.tyre_friction_${axle}`, NaN) * number(`${axle}.tyre.grip`, 1);
 }
 
 function gridOf(road) {

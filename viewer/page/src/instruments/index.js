@@ -1,0 +1,74 @@
+// The instruments of a car, the same on every page: speed, gear, pedals, the four tyres, a map.
+import { el } from "../common/dom.js";
+import { styled } from "../styles.js";
+import { Cluster } from "./cluster.js";
+import { WorldMap, WorldPlan } from "./map.js";
+import style from "./style.css";
+import { frictionOf } from "./surfaces.js";
+import { Tyres, wheelsOf } from "./tyres.js";
+
+/** Least time between two drawings of the small map, s. */
+const MAP_EVERY = 0.1;
+
+/** What stands over the picture of a car; what there is no number for is left out. */
+export class Instruments {
+  /**
+   * @param {Set<string>} names - Of the numbers that there are.
+   * @param {object} given
+   * @param {Data} given.scene - With roads and scenery.
+   * @param {Data} [given.world] - Name, places and bounds.
+   * @param {(name: string) => unknown} [given.fixed] - Constants and parameters; undefined: not known.
+   */
+  constructor(names, { scene, world, fixed = () => undefined }) {
+    styled(style);
+    this.plan = new WorldPlan(scene, world);
+    this.cluster = new Cluster(names);
+    this.tyres = new Tyres(wheelsOf(names), (at, wheel) => frictionOf(this.plan.surfaces, fixed, at, wheel));
+    this.inset = new WorldMap(this.plan);
+    const { position, quaternion } = scene.frames?.[scene.focus] ?? {};
+    this._place = position ?? ["chassis.x", "chassis.y"];
+    this._quaternion = quaternion;
+  }
+
+  /** Whether numbers are those of a car. @param {Set<string>} names */
+  static of(names) {
+    return names.has("speed") && wheelsOf(names).length > 0;
+  }
+
+  /** All of them as a layer over a picture. */
+  get element() {
+    const { pictures, scenery } = this.plan;
+    const map = pictures.length + scenery.length > 0 ? [this.inset.element] : []; // of a bare road there is nothing to see
+    this._element ??= el("div.a3-instruments", { data: "instruments" }, ...map, this.tyres.element, this.cluster.element);
+    return this._element;
+  }
+
+  /** Place and heading of the car on a map, m and rad. @param {(name: string) => number} lookup */
+  car(lookup) {
+    const [x, y] = this._place.slice(0, 2).map(lookup);
+    return { x, y, yaw: this._heading(lookup) };
+  }
+
+  /** @param {(name: string) => number} lookup @param {Data} [car] its place, where it is known already */
+  show(lookup, car = this.car(lookup)) {
+    this.cluster.show(lookup);
+    this.tyres.show(lookup);
+    this.plan.trail.add(car.x, car.y);
+    const now = performance.now() / 1000;
+    if (now - (this._mapped ?? -Infinity) < MAP_EVERY || this.inset.element.hidden) return;
+    this._mapped = now;
+    this.inset.show(car);
+  }
+
+  /** Show or hide them. */
+  toggle() {
+    this._off = !this._off;
+    for (const { element } of [this.cluster, this.tyres, this.inset]) element.style.visibility = this._off ? "hidden" : "";
+  }
+
+  _heading(lookup) {
+    if (!this._quaternion) return lookup("chassis.yaw") || 0;
+    const [w, x, y, z] = this._quaternion.map(lookup);
+    return Math.atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z);
+  }
+}

@@ -1,0 +1,155 @@
+// Words at places of the picture: gauges with their values, the tube that is stressed most, what was clicked.
+import * as THREE from "three";
+import { el, write } from "../common/dom.js";
+import { forcesOf, worded } from "./forces.js";
+import { add, length, rotate, scale, subtract, transpose } from "./math.js";
+import { tyresOf } from "./tyres.js";
+
+const COLOURS = { gauge: "#1565c0", most: "#c62828", picked: "#111" };
+const BOX = "position:absolute;left:0;top:0;white-space:pre;will-change:transform";
+const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:50%;border:2px solid #fff;box-sizing:border-box";
+const WORDS = "position:absolute;left:8px;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
+/** Height of the words beside their place, pixels: the largest stress stands above gauges that are near. */
+const ABOVE = { gauge: -9, most: -30, picked: 10 };
+/** A press that moves the mouse farther than this turns the camera, pixels. */
+const STILL = 4;
+/** Lines of what was clicked at most. */
+const LINES = 7;
+
+/**
+ * What is marked where stress is coloured: places in the axes of the body's frame, with their words.
+ * @param {import("../shapes/flexible.js").Flexible} body
+ * @param {((name: string) => number | undefined) | null} lookup
+ * @returns {{kind: string, name: string, at: number[], text: string}[]}
+ */
+export function stressMarks({ bending, name: body }, lookup) {
+  const { displaced, gauges } = bending;
+  const found = gauges.map(({ name, value, unit, nodes: [from, to], along }) => {
+    const number = lookup?.(value);
+    const at = add(scale(displaced[from], 1 - along), scale(displaced[to], along));
+    return { kind: "gauge", name, at, text: Number.isFinite(number) ? `${name}: ${worded(number, unit ?? "Pa")}` : "" };
+  });
+  const most = bending.stress.reduce((best, value, k) => (value > bending.stress[best] ? k : best), 0);
+  const at = displaced[bending.beams[most >> 1]?.[most & 1] ?? 0];
+  return [...found.filter(({ text }) => text), { kind: "most", name: body, at, text: `largest: ${tubeWords(bending, most >> 1, [most & 1]).join(", ")}` }];
+}
+
+/**
+ * A tube with the stress at its ends.
+ * @param {import("./bending.js").Bending} bending @param {number} beam @param {number[]} ends 0, 1 or both
+ * @returns {string[]}
+ */
+export function tubeWords(bending, beam, ends) {
+  const [from, to] = bending.beams[beam].map((node) => bending.nodeNames[node] ?? `node ${node}`);
+  const stress = ends.map((end) => bending.stress?.[2 * beam + end]).filter((value) => value !== undefined);
+  const { limit, limitName, unit } = bending;
+  const share = limit ? [`${Number(((100 * Math.max(...stress)) / limit).toPrecision(2))} % of the ${limitName}`] : [];
+  return [`tube ${from} to ${to}`, ...(stress.length ? [stress.map((value) => worded(value, unit)).join(" and "), ...share] : [])];
+}
+
+/** The words over a picture. */
+export class Marks {
+  #made = new Map();
+  /** @type {{frame: string, at: number[], lines: () => string[]} | null} */
+  #picked = null;
+
+  /** @param {HTMLElement} layer takes the words @param {Data} view the SceneView @param {HTMLElement} canvas is clicked at */
+  constructor(layer, view, canvas) {
+    this.view = view;
+    this.layer = el("div", { style: "position:absolute;inset:0", "aria-live": "off" });
+    layer.append(this.layer);
+    let from = null;
+    canvas.addEventListener("pointerdown", ({ clientX, clientY }) => (from = [clientX, clientY]));
+    canvas.addEventListener("pointerup", ({ clientX, clientY }) => {
+      if (from === null || Math.hypot(clientX - from[0], clientY - from[1]) > STILL) return;
+      const { left, top } = canvas.getBoundingClientRect();
+      this.pick(clientX - left, clientY - top);
+      this.place();
+    });
+  }
+
+  /** Choose what is drawn at a pixel of the picture; nothing takes the words away. @returns {string[]} its name and numbers */
+  pick(x, y) {
+    this.#picked = this.#hit(x, y);
+    return this.#picked?.lines() ?? [];
+  }
+
+  /** Everything to its place. */
+  place() {
+    const { parts, lookup } = this.view;
+    const { frames, flexible, bending } = parts;
+    const wanted = [];
+    if (bending.coloured && !parts.closed) {
+      for (const body of flexible.filter(({ stressed }) => stressed)) {
+        for (const mark of stressMarks(body, lookup)) wanted.push({ ...mark, at: frames.point(body.frame, mark.at) });
+      }
+    }
+    if (this.#picked) {
+      const { frame, at, lines } = this.#picked;
+      wanted.push({ kind: "picked", name: "", at: frames.point(frame, at), text: lines().join("\n") });
+    }
+    this.#write(wanted);
+  }
+
+  #write(wanted) {
+    const kept = new Set();
+    for (const { kind, name, at, text } of wanted) {
+      const pixel = at && this.view.project(at);
+      if (!pixel) continue;
+      const key = `${kind} ${name}`;
+      kept.add(key);
+      if (!this.#made.has(key)) {
+        const words = el("span", { style: `${WORDS};top:${ABOVE[kind]}px` });
+        const box = el("div", { style: BOX }, el("span", { style: `${DOT};background:${COLOURS[kind]}` }), words);
+        box.dataset.mark = key.trim();
+        this.layer.append(box);
+        this.#made.set(key, { box, words });
+      }
+      const { box, words } = this.#made.get(key);
+      write(words, text);
+      box.style.transform = `translate(${pixel[0].toFixed(1)}px, ${pixel[1].toFixed(1)}px)`;
+    }
+    for (const [key, { box }] of this.#made) {
+      if (kept.has(key)) continue;
+      box.remove();
+      this.#made.delete(key);
+    }
+  }
+
+  /** The nearest solid thing under a pixel. */
+  #hit(x, y) {
+    const { view } = this;
+    const { parts, size, cameras } = view;
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((2 * x) / size[0] - 1, 1 - (2 * y) / size[1]), cameras.current);
+    const targets = [...parts.moving.map(([frame, object]) => ({ frame, object })), ...parts.shapes.filter((made) => made.update).map((made) => ({ made, object: made.object }))];
+    const solid = (/** @type {Data} */ object) => !object.material?.transparent && visible(object);
+    const hits = targets.flatMap((target) => ray.intersectObject(target.object, true).filter((hit) => solid(hit.object)).map((hit) => ({ ...target, hit })));
+    if (hits.length === 0) return null;
+    const { frame, made, hit } = hits.reduce((a, b) => (b.hit.distance < a.hit.distance ? b : a));
+    const point = add(hit.point.toArray(), view.origin);
+    if (made) return { frame: "ground", at: point, lines: () => [made.shape.name ?? made.shape.body ?? made.shape.kind] };
+    const at = rotate(transpose(parts.frames.pose(frame).rotation), subtract(point, parts.frames.pose(frame).position));
+    const body = parts.flexible.find(({ object }) => object === hit.object);
+    const beam = body?.tubes.beamAt(hit.faceIndex) ?? -1;
+    return { frame, at, lines: () => (beam >= 0 ? tubeWords(body.bending, beam, [0, 1]) : this.#bodyWords(frame)) };
+  }
+
+  /** A body with its place and the forces on it. */
+  #bodyWords(frame) {
+    const { scene, parts, lookup } = this.view;
+    const { position } = parts.frames.pose(frame);
+    const place = `at ${position.map((x) => x.toFixed(3)).join(", ")} m`;
+    if (lookup === null) return [frame, place];
+    const tyres = new Map(tyresOf(scene).map(({ tyre, shape }) => [tyre, shape?.frame]));
+    const acts = ({ at, between = [], tyre }) => at?.[0] === frame || between.some(([name]) => name === frame) || tyres.get(tyre) === frame;
+    const forces = (scene.arrows ?? []).filter(acts).flatMap((arrow) => {
+      const found = forcesOf(arrow, parts.frames, lookup);
+      return typeof found === "string" || found.length === 0 ? [] : [`${arrow.name}: ${worded(length(found[0].vector), arrow.unit ?? "N")}`];
+    });
+    return [frame, place, ...forces].slice(0, LINES);
+  }
+}
+
+/** @param {THREE.Object3D | null} object @returns {boolean} */
+const visible = (object) => object === null || (object.visible && visible(object.parent));
