@@ -214,7 +214,7 @@ def test_the_system_that_follows_may_be_the_first() -> None:
     systems = mbs.compile(cart_pole.build()), mbs.compile(prototype_car.build())
 
     def contents(fidelity: int, *followers: int) -> NativeContents:
-        return NativeContents("model", "", "1", systems, (), Dependencies({}, {}, {}), fidelity, followers)
+        return NativeContents("model", "", "1", systems, (), Dependencies({}, {}), fidelity, followers)
 
     assert contents(1, -1, 0).follower is systems[0]
     assert contents(0, 1, -1).follower is systems[1]
