@@ -13,6 +13,8 @@ from fmu_src.description.probe import Dependencies
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.units import DISPLAY_UNITS, QUANTITIES, parse_unit
 from fmu_src.variables.variables import Variable
+from mbs.elements.road import ANSWER
+from mbs.model.records import Role
 
 # Of this version: the same sources give the same bytes, so that no clock is read.
 RELEASE_DATE = "2026-11-20T00:00:00Z"
@@ -117,7 +119,7 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
     _types(root, table)
     categories_and_experiment(root, head)
     tool = ElementTree.SubElement(ElementTree.SubElement(root, "VendorAnnotations"), "Tool", name=DERIVATIVES)
-    tool.append(span_of_derivatives())
+    tool.append(span_of_derivatives(table))
     variables = ElementTree.SubElement(root, "ModelVariables")
     types = declared_types(table)
     for reference, v in enumerate(table):
@@ -138,9 +140,15 @@ def to_bytes(root: ElementTree.Element) -> bytes:
     return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
 
 
-def span_of_derivatives() -> ElementTree.Element:
-    """What directional derivatives after the initialisation are over, which FMI has no word for."""
-    return ElementTree.Element("DirectionalDerivatives", span="communicationStep")
+def span_of_derivatives(table: Sequence[Variable]) -> ElementTree.Element:
+    """What directional derivatives after the initialisation are over, which FMI has no word for.
+
+    `addedAlong`: inputs that a step reaches from their last values: derivatives by them are by what is added all along.
+    """
+    answers = [i for i, v in enumerate(table) if v.role == Role.ANSWER]
+    reached = " ".join(table[i + k].name for i in answers for k in range(len(ANSWER)))
+    more = {"addedAlong": reached} if reached else {}
+    return ElementTree.Element("DirectionalDerivatives", {"span": "communicationStep"} | more)
 
 
 def categories_and_experiment(root: ElementTree.Element, head: Description) -> None:

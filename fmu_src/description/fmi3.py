@@ -47,6 +47,8 @@ def model_description_fmi3(
         providesAdjointDerivatives="true",
         canHandleVariableCommunicationStepSize="true",
         maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        mightReturnEarlyFromDoStep="true",
     )
     units(root, table)
     types = declared_types(table)
@@ -69,7 +71,7 @@ def model_description_fmi3(
         ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
     _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
     annotation = ElementTree.SubElement(ElementTree.SubElement(root, "Annotations"), "Annotation", type=DERIVATIVES)
-    annotation.append(span_of_derivatives())
+    annotation.append(span_of_derivatives(table))
     return to_bytes(root)
 
 
@@ -219,6 +221,8 @@ def _variable(
     attributes["declaredType"] = declared_type(v, types)
     if v.causality == "parameter":
         attributes["initial"] = "exact"
+    if v.causality == "input" and not v.whole:
+        attributes["intermediateUpdate"] = "true"
     attributes |= variable_attributes(v)
     element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
     if len(array.items) > 1:
