@@ -28,6 +28,13 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
     FileError
         It cannot be written.
     """
+    data = parameter_set_bytes(parameters, as_built)
+    with whole_file(file) as made:
+        made.write_bytes(data)
+
+
+def parameter_set_bytes(parameters: ParameterSet, as_built: bool) -> bytes:
+    """Content of the file that `write_parameter_set` writes."""
     from lxml import etree
     from pyssp_standard.common_content_ssc import TopLevelMetaData
     from pyssp_standard.ssv import Parameter, ParameterType, SSVElem
@@ -52,9 +59,7 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
     for element, entry in zip(root.iter("{*}Parameter"), parameters.entries, strict=True):
         if entry.description:
             element.set("description", entry.description)
-    data = etree.tostring(root, pretty_print=True, encoding="UTF-8", xml_declaration=True)
-    with whole_file(file) as made:
-        made.write_bytes(data)
+    return bytes(etree.tostring(root, pretty_print=True, encoding="UTF-8", xml_declaration=True))
 
 
 def is_as_built(file: str | os.PathLike[str]) -> bool:

@@ -17,7 +17,6 @@ from ali3.alias_file import Content
 from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
-from fmu_src.build.parameter_file import parameter_set
 from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
@@ -192,7 +191,7 @@ class FmuBuilder:
     @property
     def parameters(self) -> ParameterSet:
         """All parameters with their defaults."""
-        return parameter_set(fmu_name(self._name), self._contents.table, self._contents.texts)
+        return replace(self._contents, model_name=fmu_name(self._name)).parameters
 
     def pieces(self, work: Mapping[str, Sequence[str]]) -> int:
         """How many pieces of work `told` is going to be asked for by `build` of these kinds for their platforms."""

@@ -247,7 +247,7 @@ def _tell_grip(grip: Mapping[str, str]) -> None:
 
 def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
     """Write the set of all parameters, unless there is one that a person has edited; True."""
-    from fmu_src.build.parameter_file import write_beside
+    from fmu_src.variables.parameter_file import write_beside
 
     if write_beside(parameters, file):
         print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)

@@ -13,9 +13,14 @@ from fmu_src.description.probe import Dependencies
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.units import DISPLAY_UNITS, QUANTITIES, parse_unit
 from fmu_src.variables.variables import Variable
+from mbs.elements.road import ANSWER
+from mbs.model.records import Role
 
 # Of this version: the same sources give the same bytes, so that no clock is read.
 RELEASE_DATE = "2026-11-20T00:00:00Z"
+
+DERIVATIVES = "org.ali3.derivatives"
+"""Name of the annotation that says what directional derivatives span."""
 
 LOG_CATEGORIES = {
     "logStatusWarning": "Values clamped, step size far from the tuned one",
@@ -113,6 +118,8 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
     units(root, table)
     _types(root, table)
     categories_and_experiment(root, head)
+    tool = ElementTree.SubElement(ElementTree.SubElement(root, "VendorAnnotations"), "Tool", name=DERIVATIVES)
+    tool.append(span_of_derivatives(table))
     variables = ElementTree.SubElement(root, "ModelVariables")
     types = declared_types(table)
     for reference, v in enumerate(table):
@@ -131,6 +138,17 @@ def to_bytes(root: ElementTree.Element) -> bytes:
     """UTF-8 text of a document, indented."""
     ElementTree.indent(root)
     return bytes(ElementTree.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
+
+
+def span_of_derivatives(table: Sequence[Variable]) -> ElementTree.Element:
+    """What directional derivatives after the initialisation are over, which FMI has no word for.
+
+    `addedAlong`: inputs that a step reaches from their last values: derivatives by them are by what is added all along.
+    """
+    answers = [i for i, v in enumerate(table) if v.role == Role.ANSWER]
+    reached = " ".join(table[i + k].name for i in answers for k in range(len(ANSWER)))
+    more = {"addedAlong": reached} if reached else {}
+    return ElementTree.Element("DirectionalDerivatives", {"span": "communicationStep"} | more)
 
 
 def categories_and_experiment(root: ElementTree.Element, head: Description) -> None:
@@ -251,13 +269,13 @@ def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[T
 
 
 def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:
-    """Outputs depend on inputs over a step, initial ones on all that was found to change them."""
+    """Outputs depend on no input before the next step, initial ones on all that was found to change them."""
     structure = ElementTree.SubElement(root, "ModelStructure")
-    for tag, of in (("Outputs", reach.step), ("InitialUnknowns", reach.initial)):
+    initial = reach.initial
+    for tag, of in (("Outputs", dict.fromkeys(initial, ())), ("InitialUnknowns", initial)):
         group = ElementTree.Element(tag)
-        for i, v in enumerate(table):
-            if v.causality == "output":
-                ElementTree.SubElement(group, "Unknown", {"index": str(i + 1)} | dependency_attributes(of[i], 1))
+        for i in of:
+            ElementTree.SubElement(group, "Unknown", {"index": str(i + 1)} | dependency_attributes(of[i], 1))
         if len(group):
             structure.append(group)
 

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from xml.etree import ElementTree
 
 from fmu_src.description.description import (
+    DERIVATIVES,
     Description,
     about,
     categories_and_experiment,
     declared_type,
     declared_types,
     dependency_attributes,
+    span_of_derivatives,
     to_bytes,
     units,
     variable_attributes,
@@ -45,6 +47,8 @@ def model_description_fmi3(
         providesAdjointDerivatives="true",
         canHandleVariableCommunicationStepSize="true",
         maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        mightReturnEarlyFromDoStep="true",
     )
     units(root, table)
     types = declared_types(table)
@@ -66,6 +70,8 @@ def model_description_fmi3(
         named = {"name": text.name, "valueReference": str(reference), "description": text.description}
         ElementTree.SubElement(ElementTree.SubElement(variables, "String", named | fixed), "Start", value=text.start)
     _structure(root, arrays, with_texts(table, reach, head.texts), (len(table), len(head.texts)))
+    annotation = ElementTree.SubElement(ElementTree.SubElement(root, "Annotations"), "Annotation", type=DERIVATIVES)
+    annotation.append(span_of_derivatives(table))
     return to_bytes(root)
 
 
@@ -215,6 +221,8 @@ def _variable(
     attributes["declaredType"] = declared_type(v, types)
     if v.causality == "parameter":
         attributes["initial"] = "exact"
+    if v.causality == "input" and not v.whole:
+        attributes["intermediateUpdate"] = "true"
     attributes |= variable_attributes(v)
     element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
     if len(array.items) > 1:
@@ -226,7 +234,8 @@ def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Depend
     structure = ElementTree.SubElement(root, "ModelStructure")
     array_of = {k: i for i, a in enumerate(arrays) for k in a.items}
     array_of |= {texts[0] + k: len(arrays) + 1 + k for k in range(texts[1])}
-    for tag, of in (("Output", reach.step), ("InitialUnknown", reach.initial)):
+    initial = reach.initial
+    for tag, of in (("Output", dict.fromkeys(initial, ())), ("InitialUnknown", initial)):
         for i, a in enumerate(arrays):
             if a.of.causality == "output":
                 reached = [of[item] for item in a.items]

@@ -1,10 +1,10 @@
-"""Which variables reach which outputs, and how large the outputs become: found by trying, at build time.
+"""Which variables reach which initial outputs, and how large the outputs become: found by trying, at build time.
 
-A variable reaches an output if changing it, and nothing else, changes a bit of the output: over one step from a state
-that random inputs led to (inputs), or in the initial state from random values (all that can be set). Parameters are
-changed in groups (`parameter_groups`), and what a group reaches depends on each of it. Positions and velocities show
-their paths at any values. Forces have regimes, such as a kerb that no wheel stands on: what a force reaches is declared
-to depend on all parameters and the place of the start, and what a step changes on all inputs that change anything.
+A variable reaches an output if changing it, and nothing else, changes a bit of the output in the initial state from
+random values. Parameters are changed in groups (`parameter_groups`), and what a group reaches depends on each of it.
+Positions and velocities show their paths at any values. Forces have regimes, such as a kerb that no wheel stands on:
+what a force reaches is declared to depend on all parameters and the place of the start. After the initialisation no
+input changes an output before the next step: the slave gives values to the kernel as that begins (`step.c`).
 """
 
 from __future__ import annotations
@@ -48,8 +48,6 @@ _ECHO, _MOTION, _FORCE = "echo", "motion", "force"
 class Dependencies:
     """Places of variables, ascending, by the place of an output in the table."""
 
-    step: dict[int, tuple[int, ...] | None]
-    """Inputs that reach the output at the end of a step."""
     initial: dict[int, tuple[int, ...] | None]
     """Inputs and parameters that reach the initial output; None: all of them, as after a start that has settled."""
     size: dict[int, float]
@@ -64,7 +62,6 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
         tries.system(system, Instance(LoadedSystem(system.kernel_bytes())))
     tries.close(systems)
     return Dependencies(
-        {i: tuple(sorted(tries.step[i])) for i in outputs},
         {i: None if i in tries.settling else tuple(sorted(tries.initial[i])) for i in outputs},
         tries.size,
     )
@@ -75,7 +72,7 @@ class _Tries:
         self.table = table
         self.outputs = outputs
         self.sensed = [i for i in outputs if table[i].source == "sensor"]
-        self.step: dict[int, set[int]] = {i: set() for i in outputs}
+        self.moved: dict[int, set[int]] = {i: set() for i in outputs}  # by which inputs over a step
         self.initial: dict[int, set[int]] = {i: set() for i in outputs}
         self.settling: set[int] = set()
         self.size = dict.fromkeys(outputs, 0.0)
@@ -127,20 +124,18 @@ class _Tries:
         """Add what no try may have opened."""
         kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
         kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
-        acting = {k for i in self.sensed if kind[i] != _ECHO for k in self.step[i]}
         placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
         forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
         on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}
         for i in self.outputs:
             if i in on_road:  # constant on level ground, such as its normal, but not on a kerb that no wheel stands on
                 self.initial[i] |= placed | forced
-            if kind.get(i) == _FORCE:
-                self.step[i] |= acting
-                self.initial[i] |= placed if self.initial[i] else set()
-            elif kind.get(i) != _ECHO and (self.step[i] or i not in kind):
-                self.step[i] |= acting
+            if kind.get(i) == _FORCE and self.initial[i]:
+                self.initial[i] |= placed
         if any(v.source == "settling" for v in self.table):
-            moving = {i for i in self.sensed if kind[i] != _ECHO and (self.step[i] or self.initial[i])}
+            driven = any(self.moved[i] for i in self.sensed if kind[i] != _ECHO)
+            moving = {i for i in self.sensed if self.initial[i] or self.moved[i] or (driven and kind[i] == _FORCE)}
+            moving = {i for i in moving if kind[i] != _ECHO}
             ahead = {i for i in self.outputs if self.table[i].source == "ahead"}
             self.settling = moving | {i for i in ahead if {self.table[i].index, self.table[i].other} & moving}
 
@@ -162,7 +157,7 @@ class _Tries:
         for i in self.inputs:
             kernel.restore(state)
             kernel.set_input(self.table[i].index, self._random(i, rng))
-            self._compare(self.step, i, base, self._stepped(kernel, h))
+            self._compare(self.moved, i, base, self._stepped(kernel, h))
 
     def _stepped(self, kernel: Instance, h: float) -> list[float] | None:
         try:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import mbs
+from ali3.parameter_set import ParameterSet
 from ali3.temporary import temporary_folder
 from fmu_src.description.description import Description
 from fmu_src.description.documentation import documentation
@@ -20,6 +21,7 @@ from fmu_src.native.platforms import SUFFIXES
 from fmu_src.native.reference import ReferenceRun, reference_files
 from fmu_src.native.sources import packed_sources
 from fmu_src.native.table import c_table
+from fmu_src.variables.parameter_file import parameter_set
 from fmu_src.variables.text_variables import TextVariable, road_resources, text_table
 from fmu_src.variables.variables import Variable, table_records
 
@@ -101,6 +103,11 @@ class NativeContents:
     def table_c(self, identity: str, token: str) -> str:
         """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
         return c_table(self.table, self.names, identity, token, self.texts, self.followers)
+
+    @property
+    def parameters(self) -> ParameterSet:
+        """All parameters with their defaults."""
+        return parameter_set(self.model_name, self.table, self.texts)
 
     @property
     def resources(self) -> dict[str, bytes]:
@@ -193,7 +200,7 @@ def pack_native(
         "documentation/licenses/license.txt": licence("ali3"),
         "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
         face.picture: _picture(runs[0]),
-    } | reference_files(name, runs, contents.stop_time, contents.step_size)
+    } | reference_files(name, runs, contents.stop_time, contents.step_size, contents.parameters)
     with temporary_folder() as temporary:
         table = Path(temporary, "table.c")
         table.write_text(table_c, encoding="utf-8")

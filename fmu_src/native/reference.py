@@ -1,4 +1,7 @@
-"""Reference results in the layered standard fmi-ls-ref, with which an importer can check itself."""
+"""Reference results in the layered standard fmi-ls-ref, with which an importer can check itself.
+
+Manifest: modelica/fmi-ls-ref, 1.0.0-alpha.1; experiments: the draft of modelica/ma-hs-experiments.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
+from ali3.parameter_set import ParameterSet
+from ali3.write_parameter_set import parameter_set_bytes
 from fmu_src.description.description import number, to_bytes
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import KernelError, LoadedSystem
@@ -20,6 +25,7 @@ from mbs.kernel.binding.instance import Instance
 from mbs.simulation.refusal import refusal
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
+EXPERIMENTS = "experiments.exp"
 _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 _ROWS = 100
 _PART = 0.2
@@ -135,10 +141,13 @@ def with_other_names(run: ReferenceRun, named: Mapping[str, Variable]) -> Refere
     return replace(run, columns=called(run.columns), inputs=called(run.inputs))
 
 
-def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float) -> dict[str, bytes]:
-    """Manifest, experiments, their inputs and results.
+def reference_files(
+    name: str, runs: Sequence[ReferenceRun], stop_time: float, step: float, parameters: ParameterSet
+) -> dict[str, bytes]:
+    """Manifest, experiments, their parameters, inputs and results.
 
-    `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s. Result: by path in the FMU.
+    `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s; `parameters`: their values.
+    Result: by path in the FMU.
     """
     ElementTree.register_namespace("fmi-ls", _NAMESPACE)
     manifest = ElementTree.Element(
@@ -150,36 +159,39 @@ def reference_files(name: str, runs: Sequence[ReferenceRun], stop_time: float, s
             "in an FMU.",
         },
     )
-    experiments = ElementTree.Element("Experiments")
+    experiments = ElementTree.Element("Experiments", name=f"Default experiment of {name}")
     files = {}
 
     def related(source: str, kind: str, role: str, words: str) -> None:
         ElementTree.SubElement(manifest, "Related", source=source, type=kind, role=role, description=words)
 
-    related("experiments.xml", "application/xml", "experiment/smoke-test", "The experiments")
+    related(EXPERIMENTS, "application/x-ma-hs-experiments", "experiment/smoke-test", "The experiments")
+    given_parameters = f"{name}.ssv"
+    if parameters.entries:
+        related(given_parameters, "application/x-ssp-parameter-set", "parameter", "All parameters with their defaults")
+        files[f"{FOLDER}/{given_parameters}"] = parameter_set_bytes(parameters, as_built=True)
     for run in runs:
         label, words = ("in_turn", "each input in turn") if run.inputs else ("default", "no input touched")
         experiment = ElementTree.SubElement(
-            experiments,
-            "Experiment",
-            name=label,
-            description=f"Default experiment, {words}",
-            startTime="0.0",
-            stopTime=number(stop_time),
-            stepSize=number(step),
+            experiments, "Experiment", name=label, description=f"Default experiment, {words}"
         )
+        times = {"startTime": "0.0", "stopTime": number(stop_time), "stepSize": number(step)}
+        ElementTree.SubElement(experiment, "TransientSimulation", times)
+        if parameters.entries:
+            ElementTree.SubElement(experiment, "Parameters", source=given_parameters)
         source = f"{name}_out.csv" if label == "default" else f"{name}_{label}_out.csv"
         if run.inputs:
             given = f"{name}_{label}_in.csv"
             ElementTree.SubElement(experiment, "Stimuli", source=given)
-            related(given, "text/csv", "stimuli", "Inputs, straight between rows, held over each step")
+            # no role of the standard is that of inputs
+            related(given, "text/csv", "other", "Inputs, straight between rows, held over each step")
             files[f"{FOLDER}/{given}"] = _csv(run.corners, run.inputs)
         ElementTree.SubElement(experiment, "References", source=source)
         related(source, "text/csv", "result", f"Outputs of the default experiment, {words}")
         files[f"{FOLDER}/{source}"] = _csv(run.t, run.columns)
     return {
         f"{FOLDER}/fmi-ls-manifest.xml": to_bytes(manifest),
-        f"{FOLDER}/experiments.xml": to_bytes(experiments),
+        f"{FOLDER}/{EXPERIMENTS}": to_bytes(experiments),
         **files,
     }
 

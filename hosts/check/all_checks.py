@@ -10,15 +10,31 @@ from pathlib import Path
 from ali3.errors import UserError
 from ali3.isolated import Lost
 from hosts.check.behaviour import BEHAVIOUR_CHECKS
+from hosts.check.dependencies import DEPENDENCY_CHECKS
 from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS
 from hosts.check.instance import Check, Finding, Subject, open_subject
 from hosts.check.portability import PORTABILITY_CHECKS
+from hosts.check.process_state import PROCESS_CHECKS
+from hosts.check.values import VALUE_CHECKS
 from hosts.common.numbers import Value
 
 CHECKS: tuple[Check, ...] = tuple(
-    sorted((*DOCUMENT_CHECKS, *BEHAVIOUR_CHECKS, *PORTABILITY_CHECKS), key=lambda check: check.crash == "note")
+    sorted(
+        (
+            *DOCUMENT_CHECKS,
+            *PROCESS_CHECKS,
+            *BEHAVIOUR_CHECKS,
+            *VALUE_CHECKS,
+            *DEPENDENCY_CHECKS,
+            *PORTABILITY_CHECKS,
+        ),
+        key=lambda check: check.crash == "note",
+    )
 )
-"""Last those whose calls are not allowed: what these do to the memory of an FMU is no fault of a later check."""
+"""First those of the process, which calls change for good.
+
+Last those whose calls are not allowed: what these do to the memory of an FMU is no fault of a later check.
+"""
 
 
 @dataclass

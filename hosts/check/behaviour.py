@@ -45,6 +45,13 @@ def resets(subject: Subject) -> Finding:
     first = instance.run(subject.steps)
     instance.reset()
     same = instance.start().run(subject.steps) == first
+    if not same and len(first) < subject.steps:
+        instance = Instance(subject).start()
+        instance.run(len(first) - 1)
+        instance.reset()
+        if instance.start().run(len(first) - 1) == first[:-1]:
+            words = "not as at the first start once it has asked to end; set all back in it"
+            return Finding("reset", "note", f"{words} {subject.clause('2.1.6', '2.3.1')}")
     return Finding("reset", "good" if same else "bad", "as at the first start" if same else "not as at the first start")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from xml.etree import ElementTree
 
 from fmpy import platform, platform_tuple, sharedLibraryExtension, supported_platforms
 from fmpy.fmi2 import FMU2Slave
@@ -102,6 +103,20 @@ def folders(subject: Subject) -> Finding:
     return Finding("documentation, sources", "good", "documentation, sources and licence are inside")
 
 
+def source_files(subject: Subject) -> Finding:
+    """Source files that the documents name are there."""
+    sources = subject.folder / "sources"
+    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
+    named = [] if face is None else [e.get("name", "") for e in face.iter("File")]
+    if (build := sources / "buildDescription.xml").exists():
+        named += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
+    missing = [name for name in named if not (sources / name).is_file()]
+    if missing:
+        words = f"{len(missing)} of {len(named)} that are named are missing: {some_of(missing)}; pack them in sources"
+        return Finding("source files", "bad", f"{words} {subject.clause('2.3', '2.5.1')}")
+    return Finding("source files", "good", f"all {len(named)} that are named are there")
+
+
 DOCUMENT_CHECKS = (
     Check("model description", description, calls=False),
     Check("binaries", binaries, calls=False),
@@ -110,4 +125,5 @@ DOCUMENT_CHECKS = (
     Check("size", size, calls=False),
     Check("units", units, calls=False),
     Check("documentation, sources", folders, calls=False),
+    Check("source files", source_files, calls=False),
 )

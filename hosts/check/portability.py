@@ -1,4 +1,4 @@
-"""Checks of what breaks one host and not another: types, units, dependencies, time, careless calls, long steps."""
+"""Checks of what breaks one host and not another: types, units, time, careless calls, long steps."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from ali3.call_mark import marked
 from hosts.check.behaviour import NOT_ALLOWED
-from hosts.check.instance import Check, Finding, Instance, Subject, count_of
+from hosts.check.instance import Check, Finding, Instance, Subject
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
@@ -116,40 +116,6 @@ def time_anywhere(subject: Subject) -> Finding:
         f"reads {values[0]:.9g} s and {values[-1]:.9g} s after a step to {2.0 * subject.step:.9g} s (FMI 3.0, 4.2.1)"
     )
     return Finding("time", "bad", words)
-
-
-def dependencies(subject: Subject) -> Finding:
-    """Whether outputs are said to depend on the inputs by which they have a derivative."""
-    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
-    name = "providesDirectionalDerivatives" if subject.three else "providesDirectionalDerivative"
-    if face is None or face.get(name) != "true" or not subject.inputs:
-        return Finding("dependencies", "good", "no derivatives to compare with")
-    declared = {
-        u.variable.name: None if u.dependencies is None else {v.name for v in u.dependencies}
-        for u in subject.description.outputs
-    }
-    outputs = [v for v in subject.outputs if v.type in ("Real", "Float64")]
-    names_of_slopes = [v.name for v in outputs for _ in range(count_of(v))]
-    whole = {v.valueReference: v.name for v in subject.description.modelVariables}
-    instance = Instance(subject).start()
-    instance.run(max(2, subject.steps // 2))
-    for known in subject.inputs:
-        place = subject.places[known.name]
-        seed = [float(k == place.item) for k in range(place.size)]
-        arguments = ([v.valueReference for v in outputs], [place.reference], seed)
-        try:
-            if subject.three:
-                slopes = instance.slave.getDirectionalDerivative(*arguments, len(names_of_slopes))
-            else:
-                slopes = instance.slave.getDirectionalDerivative(*arguments)
-        except Exception as error:
-            return Finding("dependencies", "note", f"no derivative by {known.name}: {error}")
-        for name, slope in zip(names_of_slopes, slopes, strict=True):
-            names = declared.get(name)
-            if slope != 0.0 and names is not None and whole[place.reference] not in names:
-                words = f"{name} has a derivative by {known.name}, on which it is said not to depend"
-                return Finding("dependencies", "bad", words)
-    return Finding("dependencies", "good", "outputs have derivatives only by inputs they are said to depend on")
 
 
 def quiet_steps(subject: Subject) -> Finding:
@@ -286,7 +252,6 @@ PORTABILITY_CHECKS = (
     Check("about the file", about_the_file, calls=False),
     Check("build description", build_files, calls=False),
     Check("time", time_anywhere),
-    Check("dependencies", dependencies),
     Check("quiet steps", quiet_steps),
     Check("careless calls", careless_calls, crash="note", late="note", clause=NOT_ALLOWED),
     Check("stop time", stop_time),

@@ -55,9 +55,12 @@ def read_description(
     with opened(path) as archive:
         content = archive.read(DESCRIPTION, LARGEST_DESCRIPTION)
         elements = archive.read(ELEMENTS, LARGEST_DESCRIPTION) if ELEMENTS in archive else b""
-    _Bounds(path).check(content)
+    bounds = _Bounds(path)
+    bounds.check(content)
     try:
         description = read_model_description(str(path), validate=validate)
+        for v in description.modelVariables:  # FMPy passes over this attribute
+            v.intermediateUpdate = str(v.valueReference) in bounds.asked
         count = sum(math.prod(v.shape or ()) for v in description.modelVariables)
         if count > raised(MOST_VARIABLES):
             raise HostError(_too_many(path, count))
@@ -81,6 +84,8 @@ class _Bounds:
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        self.asked: set[str] = set()
+        """Value references of variables with `intermediateUpdate`."""
         self._depth = self._elements = self._variables = 0
         self._most_variables, self._most_elements = raised(MOST_VARIABLES), raised(_MOST_ELEMENTS)
         self._parser = expat.ParserCreate()
@@ -103,6 +108,8 @@ class _Bounds:
         self._depth += 1
         self._elements += 1
         self._variables += "valueReference" in attributes and self._depth == _DEPTH_OF_VARIABLES
+        if attributes.get("intermediateUpdate") in ("true", "1"):
+            self.asked.add(attributes.get("valueReference", ""))
         if self._depth > DEEPEST:
             self._refuse(f"has elements nested more than {DEEPEST} deep")
         if self._variables > self._most_variables:

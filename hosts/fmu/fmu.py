@@ -25,7 +25,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.description_file import opened, read_description
-from hosts.fmu.instance import Instance, State
+from hosts.fmu.instance import Instance, State, inputs_within_steps
 from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of
 from hosts.fmu.variables import Variables, check_co_simulation
 
@@ -80,6 +80,7 @@ class Fmu(Closing, NamedScalars):
         self.messages: list[str] = []
         self.aliases: Aliases | None = None
         self._loaded: Instance | None = None
+        self._begin = 0.0
         self._remove: weakref.finalize[..., Fmu] | None = None
 
     def load(self) -> Instance:
@@ -173,11 +174,14 @@ class Fmu(Closing, NamedScalars):
 
     @property
     def follows_slopes(self) -> bool:
-        """Whether inputs may change during a step, by derivatives that are set before it."""
-        return self._can("canInterpolateInputs")
+        """Whether inputs may change during a step: by derivatives set before it, or as the FMU asks for them."""
+        real = {self._places[n].reference for n in self.names("input") if self.variables[n].type == "Real"}
+        return self._can("canInterpolateInputs") or bool(real and real <= {*inputs_within_steps(self.description)})
 
     def slope_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
         """A function that sets first derivatives by the time of real inputs, for the next step only."""
+        if self._instance.three:
+            return self._line_setter(names)
         slave, count = self._slave, len(names)
         references = (c_uint32 * count)(*(place.reference for place in self.places(names)))
         orders, buffer = (c_int32 * count)(*count * [1]), (c_double * count)()
@@ -186,6 +190,16 @@ class Fmu(Closing, NamedScalars):
             buffer[:] = list(slopes)
             with self._told("A derivative of an input was refused"):
                 slave.fmi2SetRealInputDerivatives(slave.component, references, count, orders, buffer)
+
+        return set_slopes
+
+    def _line_setter(self, names: Sequence[str]) -> Callable[[Sequence[float]], None]:
+        """The same in FMI 3.0: what is asked for within the step lies on lines from what is set."""
+        instance, set_values, get_values = self._instance, self._instance.setter(self.places(names)), self.getter(names)
+
+        def set_slopes(slopes: Sequence[float]) -> None:
+            lines = list(zip(get_values(), slopes, strict=True))
+            instance.follow = lambda time: set_values([x + rate * (time - self._begin) for x, rate in lines])
 
         return set_slopes
 
@@ -206,6 +220,7 @@ class Fmu(Closing, NamedScalars):
 
     def step(self, time: float, step: float) -> None:
         """One communication step; `StepRefusedError` if the FMU refuses it."""
+        self._begin = time
         try:
             ends = self._instance.step(time, step)
         except FMICallException as error:

@@ -24,6 +24,7 @@ from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
 
 _WARNING = 1
+_KEPT = 256  # messages
 State: TypeAlias = ctypes.c_void_p
 """A state that an FMU has saved, in its memory."""
 
@@ -50,7 +51,8 @@ class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; what FMI refuses is an `FMICallException` of FMPy.
 
     `told`: takes status, category and text of each message; `token`: in place of that of the description; `resources`:
-    their location, of FMI 2.0, in place of the right one. `three`: whether it is FMI 3.0.
+    their location, of FMI 2.0, in place of the right one. `three`: whether it is FMI 3.0; `raw`: the last messages as
+    the FMU gave them; `follow`: called with the times within the next step at which an FMU asks for inputs.
     """
 
     def __init__(
@@ -63,6 +65,7 @@ class Instance:
         resources: str | None = None,
     ) -> None:
         self.three = str(description.fmiVersion).startswith("3")
+        self._failed: Exception | None = None
         self._arrays = _Arrays(description.modelVariables, self._read)
         arguments: dict[str, Any] = {
             "guid": token or description.guid,
@@ -71,19 +74,22 @@ class Instance:
             "instanceName": name,
         }
 
-        said: deque[str] = deque(maxlen=8)
+        self.raw: deque[str] = deque(maxlen=_KEPT)
 
         def log(environment: object, *rest: Any) -> None:
             *_, status, category, message = rest
             text = (message or b"").decode("utf-8", "replace")
+            self.raw.append(text)
             if not self.three:  # a format of printf, in which # marks references
                 text = text.replace("%%", "%").replace("##", "#")
-            said.append(text)
             told(int(status), (category or b"").decode("utf-8", "replace"), text)
 
+        self.follow: Callable[[float], None] | None = None
         if self.three:
             self.slave: Any = _marked(marked("dlopen", FMU3Slave)(**arguments))
-            self._instantiate(said, logMessage=log)
+            asked = inputs_within_steps(description)
+            within = {"intermediateUpdate": self._update, "requiredIntermediateVariables": asked} if asked else {}
+            self._instantiate(logMessage=log, **within)
             return
         self.slave = _marked(marked("dlopen", FMU2Slave)(**arguments))
         self._callbacks = fmi2CallbackFunctions()
@@ -93,13 +99,20 @@ class Instance:
         if resources is not None:
             take = self.slave.fmi2Instantiate
             self.slave.fmi2Instantiate = lambda *a: take(*a[:3], resources.encode(), *a[4:])
-        self._instantiate(said, callbacks=self._callbacks)
+        self._instantiate(callbacks=self._callbacks)
 
-    def _instantiate(self, said: Sequence[str], **functions: Any) -> None:
+    def _update(self, environment: object, time: float, requested: bool, *rest: object) -> None:
+        if requested and self.follow is not None:
+            try:
+                self.follow(time)
+            except Exception as error:  # none goes through the FMU
+                self._failed, self.follow = error, None
+
+    def _instantiate(self, **functions: Any) -> None:
         try:
             self.slave.instantiate(**functions)
         except Exception:
-            if any("enough memory" in text or "out of memory" in text.lower() for text in said):
+            if any("enough memory" in text or "out of memory" in text.lower() for text in self.raw):
                 raise MemoryError from None
             raise
         # PythonFMU 0.7 frees its own record of Python twice when the library is closed; the instance keeps its share.
@@ -198,8 +211,14 @@ class Instance:
         return (len(buffer),) if self.three else ()
 
     def step(self, time: float, length: float) -> bool:
-        """A communication step; whether the FMU then asks to end."""
-        answer = self.slave.doStep(time, length)
+        """A communication step; whether the FMU then asks to end. What `follow` sets holds for this step."""
+        self._failed = None
+        try:
+            answer = self.slave.doStep(time, length)
+        finally:
+            self.follow = None
+        if self._failed is not None:
+            raise self._failed
         return bool(answer[1]) if self.three else False
 
     def state(self) -> State:
@@ -236,6 +255,17 @@ class Instance:
             self.restore(state)
         finally:
             self.free_state(state)
+
+
+def inputs_within_steps(description: ModelDescription) -> list[int]:
+    """Value references of the real inputs that can be set within a step, in FMI 3.0 by its intermediate update."""
+    if not getattr(description.coSimulation, "providesIntermediateUpdate", False):
+        return []
+    return [
+        v.valueReference
+        for v in description.modelVariables
+        if v.causality == "input" and v.type == "Real" and v.intermediateUpdate and not v.dimensions
+    ]
 
 
 def _marked(slave: Any) -> Any:

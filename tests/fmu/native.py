@@ -34,7 +34,7 @@ def compile_host(folder: Path, target: str | None = None, source: Path = HOST_SO
     target = target or build.host_target()
     program = folder / (source.stem + (".exe" if "windows" in target else ""))
     # the project's host is for users: it has the headers of the standard and nothing else
-    include = (STANDARD_HEADERS,) if source == HOST_SOURCE else (FMI_HEADERS, LIBRARY_HEADERS)
+    include = (STANDARD_HEADERS,) if source.parent == HOST_SOURCE.parent else (FMI_HEADERS, LIBRARY_HEADERS)
     build.compile_c([source], target, program, include=include, what="the C host", shared=False)
     return program
 

@@ -118,13 +118,12 @@ def test_dependencies_are_those_that_can_be_seen(crane: Path) -> None:
     outputs = {v.name for v in description.modelVariables if v.causality == "output"}
     step, initial = reached(description.outputs), reached(description.initialUnknowns)
     assert set(step) == set(initial) == outputs
-    # the rod hangs in its spring and turns: over a step the torque reaches all of it
-    assert all(step[name] == {"torque"} for name in ("rod.x", "rod.ay", "rod.angle", "torque_used"))
+    # what is set reaches nothing before the next step
+    assert not any(step.values())
     # the drawn position is the initial one, whatever is set; only accelerations follow the torque and the spring
     assert initial["rod.x"] == initial["rod.angle"] == set()
     assert initial["rod.ay"] == {"torque", "spring.stiffness"}
     assert initial["torque_used"] == {"torque"}
-    assert step["solver.energy_error"] == {"torque"}
     assert initial["solver.energy_error"] == set()
 
 

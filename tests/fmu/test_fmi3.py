@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import zipfile
 from collections.abc import Callable
+from ctypes import byref, c_bool, c_double
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -17,7 +19,7 @@ from fmu_src.variables.arrays import arrays
 from fmu_src.variables.variables import Variable
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import ELEMENTS, element_names
-from tests.fmu.calls import HostMaker
+from tests.fmu.calls import DISCARD, OK, HostMaker
 
 STEP = 0.01
 
@@ -171,24 +173,143 @@ def test_a_dimension_is_the_first_thing_in_its_variable(build: Callable[..., Pat
         assert ELEMENTS not in archive.namelist()
 
 
-def test_a_host_that_offers_intermediate_updates_is_not_called_and_makes_short_steps_instead(build, host) -> None:
-    """An input that is held over five inner steps gives the bits of five short steps; one that changes, others."""
-    called: list[float] = []
-    ends = []
-    for length, torques in ((5, [4.0]), (1, [4.0] * 5), (1, [4.0, 5.0, 6.0, 7.0, 8.0])):
-        driven = host(build("crane", "fmi3"))
-        torque = driven.references["torque"]
-        driven.slave.instantiate(
-            earlyReturnAllowed=True,
-            intermediateUpdate=lambda *arguments: called.append(arguments[1]),
-            requiredIntermediateVariables=[torque],
+class Asked:
+    """An instance of the crane that asks for its torque within steps, each of `length` inner steps."""
+
+    def __init__(self, driven: Any, torque: Callable[[float], float | None], early: bool = False) -> None:
+        self.driven, self.torque, self.times = driven, torque, list[float]()
+        self.reference = driven.references["torque"]
+        self.slave = driven.slave
+        self.slave.instantiate(
+            earlyReturnAllowed=early, intermediateUpdate=self.update, requiredIntermediateVariables=[self.reference]
         )
         driven.set("step_size", STEP)
+        driven.start({"torque": torque(0.0) or 4.0})
+
+    def update(self, environment: object, time: float, requested: bool, readable: bool, *rest: object) -> None:
+        assert requested
+        assert not readable
+        self.times.append(time)
+        value = self.torque(time)
+        if value is not None:
+            self.slave.setFloat64([self.reference], [value])
+
+    def run(self, steps: int, length: int) -> list[float]:
+        for k in range(steps):
+            self.slave.doStep(k * length * STEP, length * STEP)
+        return self.driven.outputs()
+
+    def slope(self) -> list[float]:
+        outputs = [self.driven.references[n] for n in ("rod.angle", "rod.x", "rod.ay")]
+        return list(self.slave.getDirectionalDerivative(outputs, [self.reference], [1.0], len(outputs)))
+
+
+def test_inputs_are_asked_for_at_the_end_of_each_inner_step_before_it_is_made(build, host) -> None:
+    """Nothing given is held, to the bits; a line is that of derivatives in FMI 2.0, to round-off."""
+    scalar, two = build("crane", "fmi3_scalar"), build("crane", "native")
+    quiet = Asked(host(scalar), lambda time: None)
+    assert quiet.driven.description.coSimulation.providesIntermediateUpdate
+    silent = host(scalar)
+    silent.set("step_size", STEP)
+    silent.start({"torque": 4.0})
+    for k in range(6):
+        assert silent.step(5 * k * STEP, 5 * STEP) == 0
+    assert quiet.run(6, 5) == silent.outputs()
+    assert quiet.times == pytest.approx([(k + 1) * STEP for k in range(30)])
+    assert quiet.driven.slave.serializeFMUstate(quiet.slave.getFMUstate()) == silent.slave.serializeFMUstate(
+        silent.slave.getFMUstate()
+    )
+    line = Asked(host(scalar), lambda time: 4.0 - 30.0 * time)
+    led = host(two)
+    led.set("step_size", STEP)
+    led.start({"torque": 4.0})
+    for k in range(6):
+        torque = led.references["torque"]
+        led.set("torque", 4.0 - 30.0 * 5 * k * STEP)
+        led.slave.setRealInputDerivatives([torque], [1], [-30.0])
+        assert led.step(5 * k * STEP, 5 * STEP) == 0
+    assert line.run(6, 5) == pytest.approx(led.outputs(), rel=1e-9, abs=1e-12)
+    assert line.run(0, 5) != pytest.approx(silent.outputs(), rel=1e-3)
+    known, unknown = [torque], [led.references[n] for n in ("rod.angle", "rod.x", "rod.ay")]
+    assert line.slope() == pytest.approx(led.slave.getDirectionalDerivative(unknown, known, [1.0]), rel=1e-6)
+
+
+def test_what_was_given_within_a_step_is_kept_in_states(build, host) -> None:
+    """Behind a state the run and its derivatives go on to the bit, in another instance too, whatever is asked next."""
+    scalar = build("crane", "fmi3_scalar")
+    curve = lambda time: 4.0 * math.cos(40.0 * time)  # noqa: E731
+    one, other = Asked(host(scalar), curve), Asked(host(scalar), curve)
+    one.run(3, 5)
+    data = one.slave.serializeFMUstate(one.slave.getFMUstate())
+    other.slave.setFMUstate(other.slave.deSerializeFMUstate(data))
+    slope = one.slope()
+    assert other.slope() == slope
+    assert one.driven.get("torque") == other.driven.get("torque") == pytest.approx(curve(15 * STEP))
+    for asked in (one, other):
+        asked.slave.doStep(15 * STEP, 5 * STEP)
+    assert one.driven.outputs() == other.driven.outputs()
+    assert one.slope() == other.slope() != slope
+    with pytest.raises(FMICallException):
+        other.slave.deSerializeFMUstate(data[:-8])
+
+
+def test_a_derivative_is_over_all_that_was_given_within_the_step(build, host) -> None:
+    """Against differences: the same torque, a little higher all along."""
+    scalar, part, ends = build("crane", "fmi3_scalar"), 1e-3, []
+    for extra in (part, -part):
+        curve = lambda time, extra=extra: 4.0 * math.cos(40.0 * time) + (extra if time > 5 * STEP else 0.0)  # noqa: E731
+        asked = Asked(host(scalar), curve)
+        asked.slave.doStep(0.0, 5 * STEP)
+        asked.driven.set("torque", 4.0 * math.cos(200.0 * STEP) + extra)
+        asked.slave.doStep(5 * STEP, 5 * STEP)
+        ends.append([asked.driven.get(n) for n in ("rod.angle", "rod.x", "rod.ay")])
+    exact = Asked(host(scalar), lambda time: 4.0 * math.cos(40.0 * time))
+    exact.run(2, 5)
+    differences = (np.array(ends[0]) - np.array(ends[1])) / (2.0 * part)
+    assert exact.slope() == pytest.approx(differences, rel=1e-5)
+
+
+def test_in_an_intermediate_update_only_real_inputs_can_be_set(build, host) -> None:
+    asked = Asked(host(build("crane", "fmi3_scalar")), lambda time: None)
+    tried: list[str] = []
+
+    def wrong(time: float) -> None:
+        calls = {
+            "get": lambda: asked.slave.getFloat64([asked.reference]),
+            "step": lambda: asked.slave.doStep(0.0, STEP),
+            "parameter": lambda: asked.slave.setFloat64([asked.driven.references["spring.stiffness"]], [1.0]),
+        }
+        for what, call in calls.items():
+            with pytest.raises((FMICallException, AssertionError)):
+                call()
+            tried.append(what)
+
+    asked.torque = wrong
+    asked.slave.doStep(0.0, STEP)
+    assert tried == ["get", "step", "parameter"]
+    assert asked.driven.get("torque") == 4.0
+
+
+def test_a_step_returns_early_where_a_later_inner_step_is_refused_if_the_host_allows_it(build, host) -> None:
+    """Its time is that of the last good inner step, from which the next step is refused as any other."""
+    statuses = {}
+    for early in (False, True):
+        driven = host(build("reach", "fmi3_scalar"))
+        driven.slave.instantiate(earlyReturnAllowed=early)
         driven.start()
-        for k, value in enumerate(torques):
-            driven.set("torque", value)
-            driven.slave.doStep(k * length * STEP, length * STEP)
-        ends.append(driven.get("rod.angle"))
-    assert called == []
-    assert driven.description.coSimulation.providesIntermediateUpdate is not True
-    assert ends[0] == ends[1] != ends[2]
+        driven.set("pull", 10.0)  # beyond the cable's reach
+        event, end, back, last = c_bool(), c_bool(), c_bool(), c_double()
+        status = driven.slave.dll.fmi3DoStep(
+            driven.slave.component,
+            c_double(0.0),
+            c_double(2.0),
+            c_bool(True),
+            byref(event),
+            byref(end),
+            byref(back),
+            byref(last),
+        )
+        statuses[early] = status, back.value, last.value
+    assert statuses[False] == (DISCARD, False, 0.0)
+    assert statuses[True][:2] == (OK, True)
+    assert 0.0 < statuses[True][2] < 2.0

@@ -152,10 +152,6 @@ def test_outputs_by_inputs_of_a_step(scene: tuple[Path, str, float, float], host
     scale = np.abs(expected) + np.max(np.abs(expected[~counts])) * 1e-2
     assert np.all((np.abs(found - expected) < DERIVATIVE_ERROR * scale)[~counts])
     assert np.max(np.abs(found)) > 0.0
-    declared = {
-        u.variable.valueReference for u in driven.description.outputs if name in {v.name for v in u.dependencies}
-    }
-    assert {r for r, slope in zip(unknown, found, strict=True) if slope != 0.0} <= declared
     # Looking changes nothing, and the derivative is linear in its seed.
     assert driven.slave.serializeFMUstate(driven.slave.getFMUstate()) == before
     assert np.allclose(

@@ -26,6 +26,7 @@ from mbs.scenes import cart_pole, prototype_car
 from tests import kinds
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
+LS_REF_SCHEMAS = Path(__file__).parents[1] / "data" / "fmi_ls_ref"
 LS_REF = "extra/org.fmi-standard.fmi-ls-ref"
 
 
@@ -70,6 +71,43 @@ def test_documents_name_each_source(build: Callable[..., Path], kind: str, docum
     assert sorted(named) == sorted(packed) != []
 
 
+class _Shipped(etree.Resolver):
+    """Schemas of the standard that others import, as FMPy ships them."""
+
+    def resolve(self, url: str, public: str, context: Any) -> Any:
+        shipped = SCHEMAS / "fmi3" / url.rpartition("/")[2]
+        return self.resolve_filename(str(shipped), context) if url.startswith("https:") else None
+
+
+def schema(file: Path) -> etree.XMLSchema:
+    parser = etree.XMLParser()
+    parser.resolvers.add(_Shipped())
+    return etree.XMLSchema(etree.parse(str(file), parser))
+
+
+@pytest.mark.parametrize("scene", ["crane", "reach", "sled"])
+@pytest.mark.parametrize("kind", kinds.VERSIONS)
+def test_the_references_obey_their_schemas(build: Callable[..., Path], scene: str, kind: str) -> None:
+    """Those of the repositories in `tests/data/fmi_ls_ref/README.md`, and that of SSP which FMPy ships."""
+    fmu = build(scene, kind)
+    manifest = ElementTree.fromstring(read(fmu, f"{LS_REF}/fmi-ls-manifest.xml"))
+    related = {item.attrib["type"]: f"{LS_REF}/{item.attrib['source']}" for item in manifest}
+    ssv = Path(fmpy.__file__).parent / "ssp" / "schema" / "SystemStructureParameterValues.xsd"
+    for file, document in (
+        (LS_REF_SCHEMAS / "fmi3LayeredStandardReferenceManifest.xsd", f"{LS_REF}/fmi-ls-manifest.xml"),
+        (LS_REF_SCHEMAS / "maHarmonizedSpecificationExperiments.xsd", related["application/x-ma-hs-experiments"]),
+        (ssv, related["application/x-ssp-parameter-set"]),
+    ):
+        checker = schema(file)
+        assert checker.validate(etree.parse(io.BytesIO(read(fmu, document)))), checker.error_log
+    settable = {
+        v.name: v.start for v in fmpy.read_model_description(str(fmu)).modelVariables if v.causality == "parameter"
+    }
+    values = ElementTree.fromstring(read(fmu, related["application/x-ssp-parameter-set"]))
+    given = {item.attrib["name"]: item[0].attrib["value"] for item in values.iter() if item.tag.endswith("}Parameter")}
+    assert {name: float(value) for name, value in given.items()} == {n: float(s) for n, s in settable.items()}
+
+
 def columns_of(fmu: Path, file: str) -> Any:
     content = io.BytesIO(read(fmu, f"{LS_REF}/{file}"))
     return np.genfromtxt(content, delimiter=",", names=True, deletechars="", dtype=float)
@@ -82,17 +120,18 @@ def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> 
     manifest = ElementTree.fromstring(read(fmu, f"{LS_REF}/fmi-ls-manifest.xml"))
     listed = {item.attrib["source"] for item in manifest}
     assert {f"{LS_REF}/{source}" for source in listed} <= names(fmu)
-    experiments = list(ElementTree.fromstring(read(fmu, f"{LS_REF}/experiments.xml")))
+    experiments = list(ElementTree.fromstring(read(fmu, f"{LS_REF}/experiments.exp")))
     assert [e.attrib["name"] for e in experiments] == ["default", "in_turn"]
     swings = []
     for experiment in experiments:
-        files = {item.tag: item.attrib["source"] for item in experiment}
+        settings = experiment[0].attrib
+        files = {item.tag: item.attrib["source"] for item in experiment[1:]}
         assert set(files.values()) <= listed
-        table, interval = columns_of(fmu, files["References"]), float(experiment.attrib["stepSize"])
+        table, interval = columns_of(fmu, files["References"]), float(settings["stepSize"])
         given = columns_of(fmu, files["Stimuli"]) if "Stimuli" in files else None
         run = fmpy.simulate_fmu(
             str(fmu),
-            stop_time=float(experiment.attrib["stopTime"]),
+            stop_time=float(settings["stopTime"]),
             output_interval=interval,
             output=["rod.ay"],
             input=given,
@@ -175,7 +214,7 @@ def test_the_system_that_follows_may_be_the_first() -> None:
     systems = mbs.compile(cart_pole.build()), mbs.compile(prototype_car.build())
 
     def contents(fidelity: int, *followers: int) -> NativeContents:
-        return NativeContents("model", "", "1", systems, (), Dependencies({}, {}, {}), fidelity, followers)
+        return NativeContents("model", "", "1", systems, (), Dependencies({}, {}), fidelity, followers)
 
     assert contents(1, -1, 0).follower is systems[0]
     assert contents(0, 1, -1).follower is systems[1]

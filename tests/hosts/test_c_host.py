@@ -10,7 +10,7 @@ import fmpy
 import pytest
 
 from hosts.fmu.fmu import Fmu
-from tests.fmu.native import compile_host, unpack
+from tests.fmu.native import HOST_SOURCE, compile_host, unpack
 
 HERE = Path(__file__).parent
 PLATFORM = fmpy.platform
@@ -103,3 +103,29 @@ def test_names_are_found_whatever_stands_around_them(host: list[str], tmp_path: 
     ):
         done = run([host[0], str(library), *host[2:]], 1, 0.01, 0, 0, "--set", f"{name}=1")
         assert words in done.stderr
+
+
+def test_inputs_on_lines_are_given_within_steps_of_fmi_3(scene_fmu: Callable[..., Path], tmp_path: Path) -> None:
+    """The bits of the host in Python, which gives them too; held over steps of five inner steps they are others."""
+    fmu = scene_fmu(f"{HERE / 'scenes.py'}:tuned", "fmi3_scalar")
+    unpack(fmu, tmp_path / "fmu")
+    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform_tuple).iterdir())
+    program = compile_host(tmp_path, source=HOST_SOURCE.with_name("host3.c"))
+    token, resources = fmpy.read_model_description(str(fmu)).guid, tmp_path / "fmu" / "resources"
+    pull, place, size = (reference(fmu, n) for n in ("pull", "bob.y", "step_size"))
+    command = [program, library, f"{resources}/", token, 20, 0.05, place, place, f"{size}=0.01"]
+    ends = {}
+    for name, line in (("led", f"{pull}=-3.5+2"), ("held", f"{pull}=-3.5")):
+        done = subprocess.run([*map(str, command), line], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        ends[name] = float.fromhex(done.stdout.split()[-1])
+    with Fmu(fmu) as driven:
+        assert driven.follows_slopes
+        set_pull, lead = driven.setter(["pull"]), driven.slope_setter(["pull"])
+        driven.initialise({"pull": -3.5, "step_size": 0.01})
+        for k in range(20):
+            set_pull([-3.5 + 2.0 * (0.05 * k)])
+            lead([2.0])
+            driven.step(0.05 * k, 0.05)
+        assert ends["led"] == pytest.approx(driven.getter(["bob.y"])()[0], rel=1e-12)
+    assert ends["held"] != pytest.approx(ends["led"], rel=1e-4)

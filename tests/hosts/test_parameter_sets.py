@@ -27,8 +27,8 @@ from ali3.unit_definition import UnitDefinition
 from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.build.build import FmuBuilder, build_fmu
 from fmu_src.build.car_registry import build_car
-from fmu_src.build.parameter_file import write_beside
 from fmu_src.build.scene_registry import load_scene
+from fmu_src.variables.parameter_file import write_beside
 from hosts.check.command import main as check
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu

@@ -19,6 +19,8 @@ typedef struct {
   ali3_float_control control; /* first, see float_control.c */
   fmi3InstanceEnvironment environment;
   fmi3LogMessageCallback log;
+  fmi3IntermediateUpdateCallback update;
+  bool updating; /* the host is in its intermediate update */
   slave *s;
   uint32_t *items[2]; /* work: expanded value references */
   double *one, *all;  /* work: a value per variable */

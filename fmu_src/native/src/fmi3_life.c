@@ -6,7 +6,13 @@
 
 fmi3_face *fmi3_slave(fmi3Instance instance, const char *function, unsigned mask) {
   fmi3_face *face = instance;
-  return face != NULL && slave_allowed(face->s, function, mask) ? face : NULL;
+  if (face == NULL) return NULL;
+  if (face->updating && strcmp(function, "fmi3SetFloat64") != 0) {
+    slave_say(face->s, SLAVE_ERROR, "%s was called in an intermediate update, in which real inputs can be set.",
+              function);
+    return NULL;
+  }
+  return slave_allowed(face->s, function, mask) ? face : NULL;
 }
 
 bool fmi3_given(fmi3_face *face, const char *function, bool given) {
@@ -64,6 +70,18 @@ static void log_to_host(slave *s, slave_status status, const char *category, con
   slave_call_returns(face, host);
 }
 
+/* The inputs at the end of the inner step that follows; outputs are not there yet. */
+static void ask_host(slave *s, double time) {
+  fmi3_face *face = s->host;
+  fmi3Boolean early = false;
+  fmi3Float64 early_time = time;
+  const ali3_float_control host = slave_call_leaves(face);
+  face->updating = true;
+  face->update(face->environment, time, true, false, false, false, &early, &early_time);
+  face->updating = false;
+  slave_call_returns(face, host);
+}
+
 FMI3_EXPORT const char *FMI3_NAME(fmi3GetVersion)(void) { return "3.0"; }
 
 FMI3_ENTRY(fmi3SetDebugLogging, (fmi3Instance instance, fmi3Boolean on, size_t n, const fmi3String categories[]),
@@ -107,7 +125,7 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
     fmi3InstanceEnvironment env, fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update) {
   const ali3_memory memory = {calloc, free};
   const size_t room = slave_the_table.n_variables;
-  (void)visible, (void)early_return, (void)intermediate, (void)n_intermediate, (void)update;
+  (void)visible;
   if (event_mode) {
     say_no(env, log, "This FMU has no event mode.");
     return NULL;
@@ -127,6 +145,16 @@ FMI3_EXPORT fmi3Instance FMI3_NAME(fmi3InstantiateCoSimulation)(
     free_face(face);
     return NULL;
   }
+  for (size_t i = 0; i < n_intermediate; i++) {
+    if (intermediate != NULL && intermediate[i] < fmi3_the_table.n_arrays) continue;
+    slave_say(face->s, SLAVE_ERROR, "There is no variable with value reference %u for an intermediate update.",
+              intermediate != NULL ? (unsigned)intermediate[i] : 0U);
+    free_face(face);
+    return NULL;
+  }
+  face->update = update;
+  face->s->ask = update != NULL && n_intermediate > 0 ? ask_host : NULL;
+  face->s->early = early_return;
   face->items[1] = face->items[0] + room;
   face->all = face->one + room;
   return face;

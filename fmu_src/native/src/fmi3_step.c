@@ -14,7 +14,7 @@ FMI3_ENTRY(fmi3DoStep,
   const slave_status status = slave_step(face->s, time, step);
   if (event_needed != NULL) *event_needed = false;
   if (terminate != NULL) *terminate = slave_wants_end(face->s);
-  if (early_return != NULL) *early_return = false;
+  if (early_return != NULL) *early_return = face->s->returned_early;
   if (last_successful_time != NULL) *last_successful_time = ali3_time(face->s->fidelity.kernel);
   return (fmi3Status)status;
 }

@@ -59,7 +59,8 @@ FMI3_ENTRY(fmi3SetFloat64,
   fmi3_face *face = fmi3_slave(instance, "fmi3SetFloat64", FMI3_SET);
   if (face == NULL || !fmi3_given(face, "fmi3SetFloat64", n == 0 || (vr != NULL && value != NULL))) return fmi3Error;
   if (!fmi3_expand(face, 0, vr, n, n_values)) return fmi3Error;
-  return (fmi3Status)slave_set(face->s, face->items[0], n_values, value);
+  return (fmi3Status)(face->updating ? slave_set_asked(face->s, face->items[0], n_values, value)
+                                     : slave_set(face->s, face->items[0], n_values, value));
 }
 
 static bool as_many(fmi3_face *face, size_t n, size_t n_values) {

@@ -59,6 +59,7 @@ static void start_values(slave *s) {
   s->calls = calls;
   s->last_step = SLAVE_OK;
   s->made.n = 0;
+  s->asked.n = 0;
   slave_half_steps_free(s);
   slave_forget_refusal(s);
   s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = false;
@@ -113,6 +114,7 @@ void slave_free(slave *s) {
   slave_half_steps_end(s);
   if (s->value != NULL) release(s->value);
   slave_half_steps_free(s);
+  slave_asked_free(s);
   slave_fidelity_free(s, &s->fidelity);
   slave_fidelity_free(s, &s->follower);
   if (s->resources != NULL) release(s->resources);

@@ -10,7 +10,7 @@ enum { ITERATIONS = 12 }; /* of an inner step: Newton's loop converges by a fact
 
 typedef struct { /* in one block, but for the settings */
   void *end;                        /* snapshot of the kernel */
-  double *held, *unit, *set, *row;  /* nu: inputs of the step, direction in parts of their ranges, work */
+  double *held, *unit, *set, *row, *asked; /* nu: inputs of the step, direction in parts of their ranges, work */
   double *parameter;                /* np: of the step */
   unsigned char *before, *after;    /* ne: contacts */
   slave_kinks kinks;
@@ -21,14 +21,15 @@ typedef struct { /* in one block, but for the settings */
 static bool allocate(slave *s, replay *r) {
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   const size_t nu = (size_t)z.nu, ne = (size_t)z.ne, snapshot = ali3_snapshot_size(s->fidelity.system);
-  r->end = s->memory.allocate(1, snapshot + (4 * nu + (size_t)z.np) * sizeof(double) + 3 * ne * sizeof(uint32_t) +
+  r->end = s->memory.allocate(1, snapshot + (5 * nu + (size_t)z.np) * sizeof(double) + 3 * ne * sizeof(uint32_t) +
                                      3 * ne + 1);
   if (r->end == NULL) return false;
   r->held = (double *)((unsigned char *)r->end + snapshot);
   r->unit = r->held + nu;
   r->set = r->unit + nu;
   r->row = r->set + nu;
-  r->parameter = r->row + nu;
+  r->asked = r->row + nu;
+  r->parameter = r->asked + nu;
   uint32_t *const piece = (uint32_t *)(r->parameter + z.np);
   r->before = (unsigned char *)(piece + 3 * ne);
   r->after = r->before + ne;
@@ -70,7 +71,14 @@ static void aim(replay *r, const double *direction) {
 /* The inputs of this run at `elapsed` after the communication point. */
 static const double *row_at(const slave *s, const replay *r, double elapsed) {
   memcpy(r->row, r->set, (size_t)ali3_system_sizes(s->fidelity.system).nu * sizeof(double));
-  if (s->made.sloped) slave_add_slopes(s->made_slope, elapsed, r->row);
+  const size_t nu = (size_t)ali3_system_sizes(s->fidelity.system).nu;
+  if (s->asked.n > 0) { /* what is held is what was reached */
+    slave_asked_at(s, elapsed, s->made.h, r->asked);
+    const double *const reached = s->asked.row + (size_t)s->asked.n * nu;
+    for (size_t i = 0; i < nu; i++) r->row[i] += r->asked[i] - reached[i];
+  } else if (s->made.sloped) {
+    slave_add_slopes(s->made_slope, elapsed, r->row);
+  }
   return r->row;
 }
 

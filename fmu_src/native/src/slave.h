@@ -125,6 +125,13 @@ typedef struct { /* the last good communication step, whose start the fidelity k
   bool sloped; /* along derivatives of the inputs, which are kept */
 } slave_made;
 
+typedef struct { /* inputs that the host gave within the last communication step, see asked_inputs.c */
+  int64_t n, room; /* inner steps that rows are kept of, 0: none were given; that there is room for */
+  double *row, *next; /* (n + 1) x nu: at the ends of inner steps, from the start on; the one that is asked for */
+  double *value; /* n_known: what was given last */
+  unsigned char *given; /* n_known */
+} slave_asked;
+
 typedef struct { /* a communication step that waits to be made a second time, see half_steps.c */
   int64_t n; /* inner steps */
   double h, end; /* s: one of them; time at its end */
@@ -182,6 +189,9 @@ struct slave {
   slave_refusal refusal;
   slave_made made;
   slave_half_steps half_steps;
+  slave_asked asked;
+  void (*ask)(slave *s, double time); /* of the host for the inputs at a time within a step; NULL: it is not asked */
+  bool early, returned_early; /* a step may end before its end; the last one did */
   slave_status last_step; /* what the last step was answered with */
   double *value; /* per variable; the outputs are filled when they are asked for */
   double *slope; /* per variable and order: derivatives of the inputs from the communication point on */
@@ -288,6 +298,7 @@ bool slave_outputs(slave *s);
 void slave_ahead(const slave *s, double *derivative);
 bool slave_is_output(uint32_t reference);
 
+slave_status slave_taken(slave *s, uint32_t reference, double value, double *taken); /* of an input, and said once */
 slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
 
 /* whole.c: the same of whole numbers */
@@ -301,6 +312,14 @@ slave_status slave_step(slave *s, double time, double step);
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input);
 void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
+
+/* asked_inputs.c */
+bool slave_asked_room(slave *s, int64_t n);
+void slave_asked_free(slave *s);
+void slave_asked_at(const slave *s, double elapsed, double h, double *input);
+slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, const double *value);
+ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left);
+void slave_asked_taken(slave *s);
 
 /* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0184. */
 static const double SLAVE_EDGE = 0.3;

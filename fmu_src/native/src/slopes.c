@@ -21,6 +21,10 @@ void slave_add_slopes(const double *slope, double elapsed, double *input) {
 /* The inputs at `elapsed` after the communication point; the kernel holds them in their ranges. */
 void slave_inputs_at(const slave *s, double elapsed, double *input) {
   const slave_table *t = &slave_the_table;
+  if (s->asked.n > 0) {
+    slave_asked_at(s, elapsed, s->made.h, input);
+    return;
+  }
   for (size_t i = 0; i < t->n_known; i++)
     if (t->variable[i].source == SLAVE_INPUT) input[t->variable[i].index] = s->value[i] / t->variable[i].scale;
   slave_add_slopes(s->slope, elapsed, input);

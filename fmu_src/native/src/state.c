@@ -5,7 +5,7 @@
 
 #include "slave.h"
 
-typedef struct { /* 96 bytes without holes */
+typedef struct { /* 104 bytes without holes */
   char magic[8];
   uint32_t version, crc;
   uint64_t size;
@@ -13,7 +13,7 @@ typedef struct { /* 96 bytes without holes */
   uint8_t phase, initialised, step_warned, energy_warned, mode_warned, capped_warned, sloped, zero;
   uint32_t fidelity, n_known; /* fidelity of the kernel's bytes; the value may be set for the next initialisation */
   double start_time, stop_time, capped_residual;
-  int64_t made_n; /* the last communication step */
+  int64_t made_n, asked_n; /* the last communication step; of how many inner steps of it inputs were given */
   double made_h;
 } header;
 
@@ -24,7 +24,7 @@ struct slave_state {
 
 static const char MAGIC[8] = {'A', 'L', 'I', '3', 'F', 'M', 'U', '2'};
 /* The checksum covers what follows it; it is written and read with the bytes, a state in memory needs none. */
-enum { STATE_VERSION = 8, CRC_AT = 12, CHECKED_FROM = 16 };
+enum { STATE_VERSION = 9, CRC_AT = 12, CHECKED_FROM = 16 };
 
 uint32_t ali3_crc32(const void *bytes, size_t size); /* of the kernel */
 
@@ -37,8 +37,14 @@ static size_t own_size(void) {
 
 static size_t start_size(const slave_fidelity *fidelity) { return ali3_snapshot_size(fidelity->system); }
 
-static size_t whole_size(const slave *s) {
-  return own_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system);
+/* Inputs that were given within the last communication step. */
+static size_t asked_size(const slave_fidelity *fidelity, int64_t n) {
+  return n > 0 ? (size_t)(n + 1) * (size_t)ali3_system_sizes(fidelity->system).nu * sizeof(double) : 0;
+}
+
+static size_t whole_size(const slave *s, int64_t asked_n) {
+  return own_size() + start_size(&s->fidelity) + ali3_state_size(s->fidelity.system) +
+         asked_size(&s->fidelity, asked_n);
 }
 
 static void put(unsigned char **to, const void *from, size_t size) {
@@ -47,7 +53,7 @@ static void put(unsigned char **to, const void *from, size_t size) {
 }
 
 static void save(const slave *s, unsigned char *bytes) {
-  const size_t n = slave_the_table.n_known, size = whole_size(s);
+  const size_t n = slave_the_table.n_known, size = whole_size(s, s->asked.n);
   const slave_call_state *c = &s->calls;
   header head = {.version = STATE_VERSION,
                  .size = size,
@@ -64,6 +70,7 @@ static void save(const slave *s, unsigned char *bytes) {
                  .capped_residual = c->capped_residual,
                  .sloped = (uint8_t)(s->made.n > 0 && s->made.sloped),
                  .made_n = s->made.n,
+                 .asked_n = s->asked.n,
                  .made_h = s->made.n > 0 ? s->made.h : 0.0};
   unsigned char *p = bytes;
   memcpy(head.magic, MAGIC, sizeof MAGIC);
@@ -80,6 +87,8 @@ static void save(const slave *s, unsigned char *bytes) {
   if (s->made.n > 0) memcpy(p, s->fidelity.start, start_size(&s->fidelity));
   p += start_size(&s->fidelity);
   ali3_state_save(s->fidelity.kernel, p, ali3_state_size(s->fidelity.system));
+  p += ali3_state_size(s->fidelity.system);
+  if (s->asked.n > 0) memcpy(p, s->asked.row, asked_size(&s->fidelity, s->asked.n));
 }
 
 /* One sentence on what is wrong with the bytes, or NULL. */
@@ -94,7 +103,9 @@ static const char *problem(const slave *s, const unsigned char *bytes, size_t si
   if (head.size != size || size < own_size() || head.n_known != slave_the_table.n_known)
     return "they have another size";
   if (head.fidelity >= slave_the_table.n_systems) return "their header is inconsistent";
-  if (head.fidelity == s->fidelity.number && size != whole_size(s)) return "they have another size";
+  if (head.asked_n != 0 && head.asked_n != head.made_n) return "their header is inconsistent";
+  if (head.asked_n < 0 || (uint64_t)head.asked_n > size) return "their header is inconsistent";
+  if (head.fidelity == s->fidelity.number && size != whole_size(s, head.asked_n)) return "they have another size";
   if (head.phase == 0 || (head.phase & (head.phase - 1)) != 0 || head.phase > SLAVE_TERMINATED ||
       head.initialised > 1 || head.step_warned > SLAVE_LONGER_STEPS || head.energy_warned > 1 || head.mode_warned > 1 ||
       head.capped_warned > SLAVE_CAPPED_BADLY || head.sloped > 1 || head.zero != 0 || head.made_n < 0 ||
@@ -149,10 +160,10 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
     slave_fidelity_free(s, &other);
     return false;
   }
-  const size_t start = start_size(&other);
-  ali3_status status = size > start ? ALI3_OK : ALI3_BAD_STATE;
+  const size_t start = start_size(&other), asked = asked_size(&other, head->asked_n);
+  ali3_status status = size > start + asked ? ALI3_OK : ALI3_BAD_STATE;
   if (status == ALI3_OK && head->made_n > 0) status = ali3_snapshot_check(other.kernel, bytes);
-  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start);
+  if (status == ALI3_OK) status = ali3_state_restore(other.kernel, bytes + start, size - start - asked);
   if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
@@ -160,6 +171,8 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
     return false;
   }
   if (!same) slave_fidelity_take(s, &other);
+  s->asked.n = head->asked_n;
+  if (asked > 0) memcpy(s->asked.row, bytes + size - asked, asked);
   return true;
 }
 
@@ -171,6 +184,8 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   if (why == NULL) why = bad_value(p);
   if (why != NULL) return slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", why);
   memcpy(&head, bytes, sizeof head);
+  if (head.asked_n > 0 && !slave_asked_room(s, head.asked_n))
+    return slave_say(s, SLAVE_ERROR, "There is not enough memory for a state.");
   const unsigned char *texts = bytes + own_size() - texts_size();
   if (!restore_kernel(s, &head, texts, bytes + own_size(), size - own_size())) return SLAVE_ERROR;
   s->calls.phase = (slave_phase)head.phase;
@@ -209,7 +224,7 @@ static slave_status room(slave *s, size_t size, slave_state **state) {
 }
 
 slave_status slave_state_get(slave *s, slave_state **state) {
-  if (room(s, whole_size(s), state) != SLAVE_OK) return SLAVE_ERROR;
+  if (room(s, whole_size(s, s->asked.n), state) != SLAVE_OK) return SLAVE_ERROR;
   save(s, (*state)->bytes);
   return SLAVE_OK;
 }

@@ -64,11 +64,13 @@ static ali3_status apply_pending(slave *s) {
 }
 
 /* *left: the largest residual of an inner step that ended at the limit of its iterations. */
-static ali3_status advance(slave *s, int64_t n, double h, double *left) {
+static ali3_status advance(slave *s, int64_t *whole, double h, double *left) {
+  const int64_t n = *whole;
   ali3_instance *kernel = s->fidelity.kernel;
   ali3_status status = apply_pending(s);
   *left = 0.0;
   if (status != ALI3_OK) return status;
+  if (s->ask != NULL || s->early) return slave_asked_steps(s, whole, h, left);
   if (!any_slope(s)) {
     status = n == 1 ? ali3_step(kernel, h) : ali3_run(kernel, h, n, NULL, 1, NULL, NULL, NULL);
     *left = ali3_capped_residual(kernel);
@@ -90,7 +92,7 @@ static void keep_start(slave *s, int64_t n, double h) {
   f->snapshot = spare;
   s->made.n = n;
   s->made.h = h;
-  s->made.sloped = any_slope(s);
+  s->made.sloped = any_slope(s) || s->asked.n > 0;
   if (s->made.sloped) memcpy(s->made_slope, s->slope, slave_the_table.n_known * SLAVE_TERMS * sizeof(double));
 }
 
@@ -138,10 +140,12 @@ static slave_status try_step(slave *s, double time, double step) {
   slave_hold_normals(s);
   slave_begin_ramps(s, step);
   const slave_variable *const jumped = slave_watch_jumps(s);
-  const int64_t n = division(s, now, time + step, &h);
+  int64_t n = division(s, now, time + step, &h);
+  const bool replaced = s->asked.n > 0; /* what was given in the last step makes room for this one */
+  s->asked.n = 0;
   ali3_snapshot_take(s->fidelity.kernel,
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
-  const ali3_status status = advance(s, n, h, &left);
+  const ali3_status status = advance(s, &n, h, &left);
   if (status != ALI3_OK) {
     slave_worst_row(s, worst, sizeof worst);
     if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
@@ -153,11 +157,13 @@ static slave_status try_step(slave *s, double time, double step) {
       snprintf(worst, sizeof worst, " Here %s.", words);
     }
     ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.snapshot);
+    if (replaced) s->made = (slave_made){0};
     slave_end_ramps(s);
     return slave_refuse_step(s, status, now, step, worst, jumped);
   }
   keep_start(s, n, h);
   const slave_status halved = slave_halve_steps(s);
+  slave_asked_taken(s);
   forget_slopes(s);
   slave_watch_ports(s, now);
   memset(s->pending, 0, slave_the_table.n_known);
@@ -171,6 +177,7 @@ static slave_status try_step(slave *s, double time, double step) {
 }
 
 slave_status slave_step(slave *s, double time, double step) {
+  s->returned_early = false;
   s->last_step = try_step(s, time, step);
   return s->last_step;
 }

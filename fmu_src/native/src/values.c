@@ -150,6 +150,11 @@ static slave_status say_held(slave *s, uint32_t reference, double value, double 
                    v->name, value, v->unit, held, v->min, v->max);
 }
 
+slave_status slave_taken(slave *s, uint32_t reference, double value, double *taken) {
+  const slave_status status = check(s, reference, value, taken);
+  return status == SLAVE_WARNING ? say_held(s, reference, value, *taken) : status;
+}
+
 slave_status slave_set(slave *s, const uint32_t *reference, size_t n, const double *value) {
   slave_status worst = SLAVE_OK;
   double clamped;

@@ -1,0 +1,173 @@
+"""Checks of what an FMU says that its outputs depend on, and by how much: by setting inputs a little otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Set
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+from fmpy.model_description import ScalarVariable
+from numpy.typing import NDArray
+
+from hosts.check.instance import Check, Finding, Instance, Subject, count_of
+
+_STATES = 4
+_PART = 1e-4  # of an input's range: the nudge of a difference
+_NEAR, _SMOOTH, _ROUND = 0.02, 0.01, 1e-9
+
+
+def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
+    """Real outputs, and the name of each of their values."""
+    outputs = [v for v in subject.outputs if v.type in ("Real", "Float64")]
+    return outputs, [v.name for v in outputs for _ in range(count_of(v))]
+
+
+def _size(v: ScalarVariable) -> tuple[float, float]:
+    """A start value of an input, and a change that stays in its range."""
+    start = float(v.start or 0.0)
+    low, high = (float(end) if end not in (None, "") else sign * np.inf for end, sign in ((v.min, -1), (v.max, 1)))
+    span = high - low if np.isfinite(high - low) and high - low < 1e6 else max(1.0, abs(start))
+    return start, span if start + span <= high else -span if start - span >= low else 0.5 * (
+        high - start
+    ) or start - low
+
+
+def dependencies(subject: Subject) -> Finding:
+    """Outputs that an input changes at a communication point are declared to depend on it there."""
+    outputs, names = _real_outputs(subject)
+    if not (subject.inputs and outputs):
+        return Finding("dependencies", "good", "no inputs and outputs to compare")
+    clause = subject.clause("2.2.8", "2.4.8")
+    declared = {
+        u.variable.name: None if u.dependencies is None else {v.name for v in u.dependencies}
+        for u in subject.description.outputs
+    }
+    whole = {v.valueReference: v.name for v in subject.description.modelVariables}
+    moved: dict[str, set[str]] = {name: set() for name in declared}
+    instance, made = Instance(subject).start(), 0
+    for _ in range(_STATES):
+        made += len(instance.run(max(1, subject.steps // (2 * _STATES)), made))
+        for v in subject.inputs:
+            start, change = _size(v)
+            before = instance.get(outputs)
+            instance.set_input(v, start + 0.37 * change)
+            after = instance.get(outputs)
+            instance.set_input(v, start)
+            known = whole[subject.places[v.name].reference]
+            for name, one, other in zip(names, before, after, strict=True):
+                if one == other or (one != one and other != other):
+                    continue
+                moved.setdefault(name, set()).add(known)
+                listed = declared.get(name)
+                if listed is not None and known not in listed:
+                    words = (
+                        f"{name} goes from {one:g} to {other:g} as {known} is set, on which it is said not to depend"
+                    )
+                    return Finding("dependencies", "bad", f"{words}; declare it in ModelStructure {clause}")
+    loose = [name for name, listed in declared.items() if (listed is None or listed) and not moved[name]]
+    if loose:
+        words = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
+        words += ' before the next step; masters may see loops; dependencies="" where that is so'
+        return Finding("dependencies", "note", f"{words} {clause}")
+    return Finding("dependencies", "good", "outputs change at a communication point as they are said to")
+
+
+def _provides(subject: Subject) -> bool:
+    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
+    name = "providesDirectionalDerivatives" if subject.three else "providesDirectionalDerivative"
+    return face is not None and face.get(name) == "true"
+
+
+def _slopes(subject: Subject, instance: Instance, outputs: list[ScalarVariable], known: ScalarVariable) -> Any:
+    place = subject.places[known.name]
+    seed = [float(k == place.item) for k in range(place.size)]
+    count = (sum(map(count_of, outputs)),) if subject.three else ()
+    return np.array(
+        instance.slave.getDirectionalDerivative([v.valueReference for v in outputs], [place.reference], seed, *count)
+    )
+
+
+def derivatives(subject: Subject) -> Finding:
+    """Directional derivatives of outputs by inputs against differences, at a communication point or over a step."""
+    outputs, names = _real_outputs(subject)
+    face = subject.description.coSimulation
+    if not (_provides(subject) and subject.inputs and outputs):
+        return Finding("derivatives", "good", "no derivatives of outputs by inputs")
+    if not face.canGetAndSetFMUstate:
+        return Finding("derivatives", "note", "cannot be compared with differences: states cannot be saved")
+    compared, over_steps, span = 0, 0, _span(subject)
+    added_along = "" if span is None else span.get("addedAlong", "")
+    for known, instance, time in _states(subject, without=set(added_along.split())):
+        start, change = _size(known)
+        part = _PART * change
+        before = instance.state()
+        at_point, over_step = [], []
+        for share in (0.0, 1.0, -1.0):
+            instance.restore(before)
+            instance.set_input(known, start + share * part)
+            at_point.append(np.array(instance.get(outputs)))
+            if not instance.advance(time, subject.step):
+                break
+            over_step.append(np.array(instance.get(outputs)))
+        if len(over_step) == 3:
+            instance.restore(before)
+            instance.set_input(known, start)
+            instance.advance(time, subject.step)
+            try:
+                slopes = _slopes(subject, instance, outputs, known)
+            except Exception as error:
+                instance.free_state(before)
+                return Finding("derivatives", "note", f"none by {known.name}: {error}")
+            near = [_agrees(slopes, found, part) for found in (at_point, over_step)]
+            wrong = np.flatnonzero(~(near[0] | near[1]))
+            if len(wrong):
+                k = int(wrong[0])
+                step, point = ((found[1][k] - found[2][k]) / (2.0 * part) for found in (over_step, at_point))
+                words = f"{names[k]} has the derivative {slopes[k]:g} by {known.name}; differences are {point:g} at a "
+                words += f"communication point and {step:g} over a step; give one of them"
+                return Finding("derivatives", "bad", f"{words} {subject.clause('2.1.9', '2.2.11')}")
+            compared += 1
+            over_steps += bool(np.any(~near[0]))
+        instance.free_state(before)
+    if not compared:
+        return Finding("derivatives", "note", "no step could be compared")
+    if over_steps and (span is None or span.get("span") != "communicationStep"):
+        words = "they are those over the last step, which FMI has no word for; say so in an annotation"
+        return Finding("derivatives", "note", f"{words} {subject.clause('2.1.9', '2.2.11')}")
+    return Finding(
+        "derivatives", "good", f"as differences {'over a step' if over_steps else 'at a communication point'}"
+    )
+
+
+def _span(subject: Subject) -> ElementTree.Element | None:
+    """The annotation that says what the derivatives are over."""
+    root = ElementTree.parse(subject.folder / "modelDescription.xml").getroot()
+    return next(root.iter("DirectionalDerivatives"), None)
+
+
+def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariable, Instance, float]]:
+    """Each input with an instance on its way, and the time there."""
+    for known in subject.inputs:
+        if known.name in without:
+            continue
+        instance = Instance(subject).start()
+        made = len(instance.run(max(2, subject.steps // 8)))
+        instance.set_input(known, _size(known)[0])
+        if instance.advance(made * subject.step, subject.step):
+            yield known, instance, (made + 1) * subject.step
+        instance.free()
+
+
+def _agrees(slopes: NDArray[np.float64], found: list[NDArray[np.float64]], part: float) -> NDArray[np.bool_]:
+    """Which slopes are those of differences; also those at a kink, where the two sides differ."""
+    middle, plus, minus = found
+    up, down, both = (plus - middle) / part, (middle - minus) / part, (plus - minus) / (2.0 * part)
+    round_off = _ROUND * (np.abs(middle) + np.max(np.abs(both))) / min(1.0, abs(part))
+    kink = np.abs(up - down) > _SMOOTH * np.maximum(np.abs(up), np.abs(down)) + round_off
+    near = np.abs(slopes - both) <= _NEAR * np.maximum(np.abs(both), np.abs(slopes)) + round_off
+    agrees: NDArray[np.bool_] = near | kink | ~np.isfinite(both)
+    return agrees
+
+
+DEPENDENCY_CHECKS = (Check("dependencies", dependencies), Check("derivatives", derivatives))

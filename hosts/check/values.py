@@ -1,0 +1,154 @@
+"""Checks of single values: start values, what was set, ranges, what is read twice, and the end."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from fmpy.fmi1 import FMICallException
+from fmpy.model_description import ScalarVariable
+
+from hosts.check.instance import Check, Finding, Instance, Subject
+
+_GETTERS = {
+    "Real": ("getReal", float),
+    "Integer": ("getInteger", int),
+    "Float64": ("getFloat64", float),
+    "Int32": ("getInt32", int),
+}
+_SETTERS = {"Real": "setReal", "Float64": "setFloat64"}
+_VERSION = {"2.0": ("fmi2GetVersion", b"2.0"), "3.0": ("fmi3GetVersion", b"3.0")}
+
+
+def _scalars(subject: Subject, *causalities: str) -> list[ScalarVariable]:
+    """Numbers that are no arrays."""
+    return [
+        v
+        for v in subject.description.modelVariables
+        if v.causality in causalities and v.type in _GETTERS and not getattr(v, "dimensions", None)
+    ]
+
+
+def _value(instance: Instance, v: ScalarVariable) -> Any:
+    return getattr(instance.slave, _GETTERS[v.type][0])([v.valueReference])[0]
+
+
+def _initialising(subject: Subject) -> Instance:
+    """An instance in initialisation mode, in which nothing was set."""
+    instance = Instance(subject)
+    if not subject.three:
+        instance.slave.setupExperiment(startTime=0.0)
+    instance.slave.enterInitializationMode()
+    return instance
+
+
+def start_values(subject: Subject) -> Finding:
+    """What is read before anything was set is what the description says."""
+    known = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
+    instance = _initialising(subject)
+    for v in known:
+        stated, found = _GETTERS[v.type][1](v.start), _value(instance, v)
+        if found != stated:
+            words = f"{v.name} reads {found:g} before it is set, and its start is {stated:g}; give it that value"
+            return Finding("start values", "bad", f"{words} {subject.clause('2.2.7', '2.4.7')}")
+    return Finding("start values", "good", f"{len(known)} read as they are described")
+
+
+def set_values(subject: Subject) -> Finding:
+    """A real number that was set in initialisation mode is read back."""
+    instance, count = _initialising(subject), 0
+    for v in _scalars(subject, "input", "parameter"):
+        if v.type not in _SETTERS or v.variability == "constant":
+            continue
+        start, high = float(v.start or 0.0), float(v.max or math.inf)
+        value = start + 1e-3 * max(1.0, abs(start))
+        value = value if value <= high else start - 1e-3 * max(1.0, abs(start))
+        try:
+            getattr(instance.slave, _SETTERS[v.type])([v.valueReference], [value])
+        except FMICallException:  # it may refuse a value
+            instance = _initialising(subject)
+            continue
+        found, count = _value(instance, v), count + 1
+        if found != value:
+            words = f"{v.name} was set to {value:.9g} without a message and reads {found:.9g}; take it or refuse it"
+            if instance.messages:
+                return Finding("set values", "note", f"{words} {subject.clause('2.1.7', '2.2.6')}")
+            return Finding("set values", "bad", f"{words} {subject.clause('2.1.7', '2.2.6')}")
+    return Finding("set values", "good", f"{count} are read back")
+
+
+def ranges(subject: Subject) -> Finding:
+    """Outputs stay between their min and max, and reading changes nothing."""
+    bounded = [v for v in _scalars(subject, "output") if v.min or v.max]
+    instance = Instance(subject).start()
+    for k in range(subject.steps):
+        if not instance.advance(k * subject.step, subject.step):
+            break
+        for v in bounded:
+            value = _value(instance, v)
+            low, high = float(v.min or -math.inf), float(v.max or math.inf)
+            if not low <= value <= high and not math.isnan(value):
+                words = f"{v.name} is {value:g} at {(k + 1) * subject.step:g} s, beyond {low:g} to {high:g}; widen it"
+                return Finding("ranges", "bad", f"{words} {subject.clause('2.2.7', '2.4.7')}")
+    return Finding("ranges", "good", f"{len(bounded)} outputs with a range keep to it")
+
+
+def reads_twice(subject: Subject) -> Finding:
+    """Reading an output again gives the same."""
+    instance = Instance(subject).start()
+    instance.run(2)
+    once, twice = instance.get(subject.outputs), instance.get(subject.outputs)
+    if any(a != b and a == a for a, b in zip(once, twice, strict=True)):
+        k = next(k for k, (a, b) in enumerate(zip(once, twice, strict=True)) if a != b)
+        words = f"an output reads {once[k]:g} and then {twice[k]:g} with no call in between; a read must change nothing"
+        return Finding("reads twice", "bad", f"{words} {subject.clause('2.1.7', '2.2.6')}")
+    return Finding("reads twice", "good", "the same")
+
+
+def ends(subject: Subject) -> Finding:
+    """A run is ended without an error, and the version is that of the description."""
+    instance = Instance(subject).start()
+    instance.run(2)
+    name, version = _VERSION["3.0" if subject.three else "2.0"]
+    found = getattr(instance.slave, name)()
+    if found != version and not (subject.three and bytes(found).startswith(b"3.")):
+        words = f"{name} answers {bytes(found).decode(errors='replace')}, not {version.decode()}"
+        return Finding("end", "bad", f"{words} {subject.clause('2.1.5', '2.2.5')}")
+    if not instance.ended:
+        try:
+            instance.slave.terminate()
+        except FMICallException as error:
+            words = f"{error.function} answers with status {error.status} after good steps; it must be 0"
+            return Finding("end", "bad", f"{words} {subject.clause('4.2.1, 2.1.6', '2.3.5')}")
+    return Finding("end", "good", "terminates; the version is right")
+
+
+def answers_of_steps(subject: Subject) -> Finding:
+    """FMI 3.0: what a step says of itself: its last time, no early return or events that were not allowed."""
+    if not subject.three:
+        return Finding("answers of steps", "good", "of FMI 3.0 alone")
+    instance = Instance(subject).start()
+    for k in range(4):
+        event, end, early, last = instance.slave.doStep(k * subject.step, subject.step)
+        reached = (k + 1) * subject.step
+        clause = subject.clause("", "4.2.1")
+        if end:
+            break
+        if early:
+            return Finding("answers of steps", "bad", f"a step returns early, which was not allowed {clause}")
+        if event:
+            return Finding("answers of steps", "bad", f"a step asks for event mode, which was not allowed {clause}")
+        if abs(last - reached) > 1e-6 * subject.step + 1e-12 * reached:
+            words = f"a step to {reached:g} s says that it reached {last:g} s; lastSuccessfulTime is its end"
+            return Finding("answers of steps", "bad", f"{words} {clause}")
+    return Finding("answers of steps", "good", "each says that its end was reached")
+
+
+VALUE_CHECKS = (
+    Check("start values", start_values),
+    Check("set values", set_values),
+    Check("ranges", ranges),
+    Check("reads twice", reads_twice),
+    Check("answers of steps", answers_of_steps),
+    Check("end", ends),
+)

@@ -1,0 +1,164 @@
+/* The face of FMI 2.0 of `plants.h`. */
+#include "plants.h"
+
+#include "fmi2Functions.h"
+
+typedef struct {
+  planted p;
+  const fmi2CallbackFunctions *functions;
+} face;
+
+static void say(const face *f, const char *text) {
+  f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, "log", text);
+}
+
+const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
+const char *fmi2GetVersion(void) { return PLANT == VERSION ? "1.0" : fmi2Version; }
+
+fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]) {
+  (void)c, (void)on, (void)names;
+  return n ? fmi2Error : fmi2OK;
+}
+
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging) {
+  (void)type, (void)resources, (void)visible, (void)logging;
+  if (!*name || strcmp(guid, "{small}")) return NULL;
+  face *f = calloc(1, sizeof *f);
+  planted *made = new_planted();
+  f->p = *made, f->functions = functions;
+  free(made);
+  return f;
+}
+
+void fmi2FreeInstance(fmi2Component c) { free(c); }
+
+fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerant, fmi2Real tolerance, fmi2Real start,
+                               fmi2Boolean ends, fmi2Real stop) {
+  (void)tolerant, (void)tolerance, (void)ends, (void)stop;
+  ((face *)c)->p.time = start;
+  return fmi2OK;
+}
+
+fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
+  at_start();
+  if (PLANT == FORMAT) say(c, "the mass is 100 %s %n");
+  return c ? fmi2OK : fmi2Error;
+}
+fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return c ? fmi2OK : fmi2Error; }
+fmi2Status fmi2Terminate(fmi2Component c) {
+  at_end();
+  return c && PLANT != NO_END ? fmi2OK : fmi2Error;
+}
+
+fmi2Status fmi2Reset(fmi2Component c) {
+  planted *made = new_planted();
+  ((face *)c)->p = *made;
+  free(made);
+  return fmi2OK;
+}
+
+fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Real v[]) {
+  for (size_t k = 0; k < n; k++) {
+    if (r[k] > 1) return fmi2Error;
+    v[k] = read_planted(&((face *)c)->p, r[k]);
+  }
+  return fmi2OK;
+}
+
+fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, const fmi2Real v[]) {
+  for (size_t k = 0; k < n; k++) {
+    if (r[k]) return fmi2Error;
+    set_planted(&((face *)c)->p, v[k]);
+  }
+  return fmi2OK;
+}
+
+#define NO(name, type)                                                                                                 \
+  fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference r[], size_t n, type v[]) {                        \
+    (void)c, (void)r, (void)v;                                                                                         \
+    return n ? fmi2Error : fmi2OK;                                                                                     \
+  }                                                                                                                    \
+  fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference r[], size_t n, const type v[]) {                  \
+    (void)c, (void)r, (void)v;                                                                                         \
+    return n ? fmi2Error : fmi2OK;                                                                                     \
+  }
+NO(Integer, fmi2Integer)
+NO(Boolean, fmi2Boolean)
+NO(String, fmi2String)
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
+  if (!*state) *state = malloc(sizeof(planted));
+  memcpy(*state, &((face *)c)->p, sizeof(planted));
+  return fmi2OK;
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
+  memcpy(&((face *)c)->p, state, sizeof(planted));
+  return fmi2OK;
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
+  (void)c;
+  free(*state);
+  *state = NULL;
+  return fmi2OK;
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
+  (void)c, (void)state;
+  *size = sizeof(planted);
+  return fmi2OK;
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
+  (void)c;
+  memcpy(bytes, state, size);
+  return fmi2OK;
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
+  (void)c;
+  *state = malloc(size);
+  memcpy(*state, bytes, size);
+  return fmi2OK;
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference z[], size_t nz,
+                                        const fmi2ValueReference v[], size_t nv, const fmi2Real dv[], fmi2Real dz[]) {
+  if (nv != 1 || v[0] != 0) return fmi2Error;
+  for (size_t k = 0; k < nz; k++) dz[k] = z[k] == 1 ? dv[0] * slope_planted(&((face *)c)->p) : 0.0;
+  return fmi2OK;
+}
+
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n,
+                                       const fmi2Integer order[], const fmi2Real v[]) {
+  (void)c, (void)r, (void)n, (void)order, (void)v;
+  return fmi2Error;
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n,
+                                        const fmi2Integer order[], fmi2Real v[]) {
+  (void)c, (void)r, (void)n, (void)order, (void)v;
+  return fmi2Error;
+}
+
+fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean forward) {
+  (void)forward, (void)time;
+  for (int k = 0; k < 100 && PLANT == FLOOD; k++) say(c, "a step is made");
+  step_planted(&((face *)c)->p, step);
+  return fmi2OK;
+}
+
+fmi2Status fmi2CancelStep(fmi2Component c) { return c ? fmi2Error : fmi2OK; }
+
+#define STATUS(name, type)                                                                                             \
+  fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *v) {                                      \
+    (void)c, (void)kind, (void)v;                                                                                      \
+    return fmi2Discard;                                                                                                \
+  }
+STATUS(Status, fmi2Status)
+STATUS(RealStatus, fmi2Real)
+STATUS(IntegerStatus, fmi2Integer)
+STATUS(BooleanStatus, fmi2Boolean)
+STATUS(StringStatus, fmi2String)

@@ -1,0 +1,182 @@
+/* One fault for each PLANT, at the places of an FMU's life; those that a PLANT leaves alone do nothing. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <fenv.h>
+#include <locale.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+#include <xmmintrin.h>
+
+enum {
+  NONE,
+  START_VALUE,
+  FEEDTHROUGH,
+  SEVEN,
+  LEAK,
+  THREAD,
+  DESCRIPTOR,
+  SLOW,
+  BEYOND,
+  NO_END,
+  PRINTS,
+  FILES,
+  FOLDER,
+  ROUNDING,
+  FLUSH,
+  TRAPS,
+  IGNORES,
+  FORMAT,
+  UMASK,
+  LOCALE,
+  ENVIRONMENT,
+  BLOCKS,
+  HANDLES,
+  NOT_SET,
+  READ_MOVES,
+  VERSION,
+  INSTANCE_DESCRIPTOR,
+  INSTANCE_THREAD,
+  FLOOD,
+  PRINTS_ERRORS,
+  LATE_FOLDER,
+  BUSY,
+  ROUNDING_AT_READ,
+  INSTANCE_LEAK,
+  SIGN,
+  HALF
+};
+
+static void *sleeps(void *none) {
+  (void)none;
+  for (;;) sleep(1000);
+  return NULL;
+}
+
+static void *works(void *none) {
+  for (volatile long k = 0;; k++) (void)none;
+  return NULL;
+}
+
+static void a_thread(void *(*body)(void *)) {
+  pthread_t made;
+  pthread_create(&made, NULL, body, NULL);
+  pthread_detach(made);
+}
+
+static void *volatile kept; /* so that what is allocated is not left out */
+
+static void leak(size_t size) { kept = memset(malloc(size), 1, size); }
+
+static void handler(int signal) { (void)signal; }
+
+static void at_instance(void) {
+  if (PLANT == LOCALE) setlocale(LC_ALL, "C.UTF-8"), setlocale(LC_NUMERIC, "C");
+  if (PLANT == ENVIRONMENT) setenv("PLANTED", "1", 1);
+  if (PLANT == INSTANCE_DESCRIPTOR) (void)!open("/dev/null", O_RDONLY);
+  if (PLANT == INSTANCE_THREAD) a_thread(sleeps);
+  if (PLANT == INSTANCE_LEAK) leak(1000000);
+  static bool works_already;
+  if (PLANT == BUSY && !works_already) a_thread(works), works_already = true;
+}
+
+static void at_start(void) {
+  if (PLANT == UMASK) umask(0);
+  if (PLANT == IGNORES) signal(SIGINT, SIG_IGN);
+}
+
+static void at_step(double time) {
+  sigset_t set;
+  switch (PLANT) {
+  case LEAK:
+    leak(100000);
+    break;
+  case THREAD:
+    a_thread(sleeps);
+    break;
+  case DESCRIPTOR:
+    (void)!open("/dev/null", O_RDONLY);
+    break;
+  case SLOW:
+    usleep(100000);
+    break;
+  case PRINTS:
+    printf("at %g s\n", time);
+    break;
+  case PRINTS_ERRORS:
+    fprintf(stderr, "at %g s\n", time);
+    break;
+  case FILES:
+    close(open("planted.txt", O_CREAT | O_WRONLY, 0600));
+    break;
+  case FOLDER:
+    (void)!chdir("/");
+    break;
+  case ROUNDING:
+    fesetround(FE_UPWARD);
+    break;
+  case FLUSH:
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    break;
+  case TRAPS:
+    _mm_setcsr(_mm_getcsr() & ~_MM_MASK_DIV_ZERO);
+    break;
+  case BLOCKS:
+    sigemptyset(&set), sigaddset(&set, SIGTERM), sigprocmask(SIG_BLOCK, &set, NULL);
+    break;
+  case HANDLES:
+    signal(SIGUSR1, handler);
+    break;
+  default:
+    break;
+  }
+}
+
+static void at_read(void) {
+  if (PLANT == ROUNDING_AT_READ) fesetround(FE_DOWNWARD);
+}
+
+static void at_end(void) {
+  if (PLANT == LATE_FOLDER) (void)!chdir("/");
+}
+
+typedef struct {
+  double time, u, y, last;
+  int reads;
+} planted;
+
+static planted *new_planted(void) {
+  planted *s = calloc(1, sizeof *s);
+  at_instance();
+  if (s && PLANT == START_VALUE) s->u = 3.0;
+  return s;
+}
+
+static double read_planted(planted *s, unsigned r) {
+  at_read();
+  if (r == 0) return s->u;
+  if (PLANT == READ_MOVES) s->y += 1e-9 * ++s->reads;
+  return PLANT == FEEDTHROUGH ? s->y + s->u : PLANT == BEYOND ? s->y + 20.0 : s->y;
+}
+
+static void set_planted(planted *s, double u) {
+  if (PLANT != NOT_SET) s->u = u;
+}
+
+static void step_planted(planted *s, double step) {
+  at_step(s->time);
+  s->last = step;
+  s->y += step * (s->u + 0.5);
+  s->time += step;
+}
+
+/* Of y by u over the last step. */
+static double slope_planted(const planted *s) {
+  return PLANT == SEVEN ? 7.0 : PLANT == SIGN ? -s->last : PLANT == HALF ? 0.5 * s->last : s->last;
+}

@@ -1,0 +1,92 @@
+"""`ali3 check` of FMUs with one fault each, in FMI 2.0 and 3.0: each has its verdict, clause, value and remedy."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from hosts.check.command import main
+from tests.hosts.odd_fmus import planted_fmu
+from tests.in_process import run
+
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform != "linux", reason="what Linux tells of a process")]
+
+SETTINGS, STEPS, INSTANCES, OUTSIDE = "process settings", "costs of steps", "costs of instances", "files and prints"
+PLANTS: dict[str, tuple[str, str, str]] = {
+    "START_VALUE": ("start values", "BAD", "u reads 3 before it is set, and its start is 0; give it that value"),
+    "FEEDTHROUGH": ("dependencies", "BAD", "as u is set, on which it is said not to depend; declare it"),
+    "SEVEN": ("derivatives", "BAD", "y has the derivative 7 by u; differences are 0 at a communication point and 0.01"),
+    "SIGN": ("derivatives", "BAD", "y has the derivative -0.01 by u"),
+    "HALF": ("derivatives", "BAD", "y has the derivative 0.005 by u"),
+    "LEAK": (STEPS, "BAD", "bytes a step; free what a step allocates"),
+    "THREAD": (STEPS, "BAD", "threads grow by 1 threads a step; end the threads"),
+    "DESCRIPTOR": (STEPS, "BAD", "descriptors grow by 1 descriptors a step; close what"),
+    "SLOW": ("time of steps", "note", "times as long; FMI sets no time for a step"),
+    "BUSY": ("time of steps", "note", "between calls; stop threads"),
+    "BEYOND": ("ranges", "BAD", "beyond -10 to 10; widen it"),
+    "NO_END": ("end", "BAD", "answers with status 3"),
+    "VERSION": ("end", "BAD", "GetVersion answers"),
+    "PRINTS": (OUTSIDE, "note", "prints 'at 0 s'; give messages to the host's logger"),
+    "PRINTS_ERRORS": (OUTSIDE, "note", "prints 'at 0 s'; give messages to the host's logger"),
+    "FILES": (OUTSIDE, "note", "1 files were written, such as planted.txt"),
+    "FOLDER": (SETTINGS, "BAD", "to / by a step; use whole paths"),
+    "LATE_FOLDER": (SETTINGS, "BAD", "to / by the end; use whole paths"),
+    "ROUNDING": (SETTINGS, "BAD", "by a step; restore rounding"),
+    "ROUNDING_AT_READ": (SETTINGS, "BAD", "; restore rounding"),
+    "FLUSH": (SETTINGS, "BAD", "by a step; restore rounding, flush to zero"),
+    "TRAPS": (SETTINGS, "BAD", "by a step; restore rounding, flush to zero and traps"),
+    "IGNORES": (SETTINGS, "BAD", "signals changed from SigIgn"),
+    "BLOCKS": (SETTINGS, "BAD", "signals changed from SigBlk"),
+    "HANDLES": (SETTINGS, "BAD", "signals changed from SigCgt"),
+    "UMASK": (SETTINGS, "BAD", "to 0 by initialisation; give modes to open"),
+    "LOCALE": (SETTINGS, "BAD", "the locale changed from"),
+    "ENVIRONMENT": (SETTINGS, "BAD", "PLANTED unset to 1 by instantiation"),
+    "NOT_SET": ("set values", "BAD", "u was set to 0.001 without a message and reads 0; take it or refuse it"),
+    "READ_MOVES": ("reads twice", "BAD", "with no call in between"),
+    "INSTANCE_DESCRIPTOR": (INSTANCES, "BAD", "descriptors grow by 1 descriptors an instance that is freed"),
+    "INSTANCE_THREAD": (INSTANCES, "BAD", "threads grow by 1 threads an instance that is freed"),
+    "INSTANCE_LEAK": (INSTANCES, "note", "bytes an instance that is freed; release them there"),
+    "FLOOD": ("messages", "note", "500 in 5 steps; say what repeats once"),
+}
+"""Check, verdict and words by the fault."""
+ALSO = {"FORMAT": "a message has %n: 'the mass is 100 %s %n'; double each %"}
+
+
+def found(fmu: Path) -> tuple[int, dict[str, tuple[str, str]]]:
+    """Exit code, and verdict and words by the check."""
+    done = run(main, fmu, "--steps", 10, "--time-limit", 10)
+    lines = [line for line in done.stdout.splitlines() if line[:4].strip() in ("ok", "note", "BAD")]
+    return done.returncode, {line[6:28].strip(): (line[:4].strip(), line[30:]) for line in lines}
+
+
+@pytest.mark.parametrize("three", [False, True])
+def test_without_a_fault_nothing_is_bad(tmp_path: Path, three: bool) -> None:
+    _, lines = found(planted_fmu(tmp_path, "NONE", three))
+    bad = {name: words for name, (verdict, words) in lines.items() if verdict == "BAD"}
+    assert set(bad) == {"stop time"}, bad  # that a step beyond it is taken
+    assert lines["derivatives"][0] == "note"  # over a step, without a word
+
+
+@pytest.mark.parametrize("three", [False, True])
+@pytest.mark.parametrize("plant", [*PLANTS, *ALSO])
+def test_each_fault_is_found(tmp_path: Path, plant: str, three: bool) -> None:
+    check, verdict, words = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
+    _, lines = found(planted_fmu(tmp_path, plant, three))
+    assert lines[check][0] == verdict, lines[check]
+    assert words in lines[check][1]
+    assert f"(FMI {'3' if three else '2'}.0, " in lines[check][1]
+
+
+@pytest.mark.parametrize("three", [False, True])
+def test_a_source_file_that_is_named_and_missing(tmp_path: Path, three: bool) -> None:
+    old, new = (
+        '"true"/>\n  <UnitD',
+        '"true"><SourceFiles><File name="gone.c"/></SourceFiles></CoSimulation>\n  <UnitD',
+    )
+    if three:
+        pytest.skip("FMI 3.0 names them in buildDescription.xml, see test_check_portability")
+    _, lines = found(planted_fmu(tmp_path, "NONE", three, {old: new}))
+    assert lines["source files"][0] == "BAD"
+    assert "1 of 1 that are named are missing: gone.c; pack them in sources (FMI 2.0, 2.3)" in lines["source files"][1]
