@@ -118,7 +118,7 @@ def _check(car: str, parameters: bool) -> int:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         loaded = read_car(BuiltCar, car)
-    print(summary(loaded))
+    print(f"{summary(loaded)}\n\n{loaded.summary()}")
     if parameters:
         print("\n" + parameter_table(loaded))
     for warning in caught:
