@@ -11,7 +11,7 @@ from ali3.columns import in_columns
 from ali3.echo.quantity import WIDEST, Quantity
 
 ROUNDING = 1e-9  # of the range
-MOST_KEYS, MOST_CAUSES = 6, 2
+MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST = 3, 2, 1, 4
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,9 @@ class Echo:
                 "range": v.quantity.range(self.kind),
                 "inside": v.inside(self.kind),
                 "follows": v.quantity.follows,
-                "keys": {key: given if isinstance(given, (int, float)) else str(given) for key, given in v.keys.items()},
+                "keys": {
+                    key: given if isinstance(given, (int, float)) else str(given) for key, given in v.keys.items()
+                },
                 "source": v.quantity.source,
             }
             for v in self.values
@@ -142,10 +144,11 @@ class Echo:
         sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
         if len(group) > 1:
             others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
-            sentence += f"; so are {', '.join(list(others)[:3])}"
-        if shown:
-            sentence += f". It follows from {', '.join(shown)}{more}"
-        return (f"{self.what}: " if self.what else "") + sentence + (f"; {cause}." if cause else ".")
+            left = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
+            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{left}"
+        sentence += f"; {cause}." if cause else "."
+        sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
+        return (f"{self.what}: " if self.what else "") + sentence
 
 
 def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
@@ -182,5 +185,5 @@ def _given(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_given, value)) + "]"
+        return "[" + ", ".join([*map(_given, value[:LONGEST]), *["..."] * (len(value) > LONGEST)]) + "]"
     return str(value)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -198,7 +198,9 @@ def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo
     for factor, words in LOADS:
         heavier = replace(tyre, nominal_load=factor * tyre.nominal_load)
         key = f"{prefix}nominal_load"
-        mistakes.append(Mistake(words.replace("FNOMIN", key), frozenset({key}), partial(_tmeasy_values, heavier, prefix)))
+        mistakes.append(
+            Mistake(words.replace("FNOMIN", key), frozenset({key}), partial(_tmeasy_values, heavier, prefix))
+        )
     return Echo(what, _tmeasy_values(tyre, prefix), mistakes, kind)
 
 
@@ -233,7 +235,9 @@ def _lateral(tyre: MagicTyre, part: float) -> _Curve:
     at_zero = magic_lateral(c, nominal, load, abs(horizontal)).item() / load * math.copysign(1.0, horizontal)
     slope = cornering_stiffness(c, nominal, load) / load
     # with 'adapted_sae' the slip angle has the other sign
-    return _Curve(slope, magic_lateral(c, nominal, load, SLIPS) / load, at_zero + vertical * math.copysign(1.0, c["PKY1"]))
+    return _Curve(
+        slope, magic_lateral(c, nominal, load, SLIPS) / load, at_zero + vertical * math.copysign(1.0, c["PKY1"])
+    )
 
 
 def _longitudinal(tyre: MagicTyre, part: float) -> _Curve:
@@ -255,15 +259,24 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
             at, end = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
             # the lateral slip is the tangent of the angle
             slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
-            made.append(_Curve(slope / (part * nominal), tmeasy_force(slope, most, at, slides, end, slips) / (part * nominal), 0.0))
+            made.append(
+                _Curve(
+                    slope / (part * nominal), tmeasy_force(slope, most, at, slides, end, slips) / (part * nominal), 0.0
+                )
+            )
         curves[part] = (made[0], made[1])
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):
         curve = getattr(tyre, name)
-        own = {f"{prefix}{name}.{f}": list(getattr(curve, f)) for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")}
+        own = {
+            f"{prefix}{name}.{f}": list(getattr(curve, f))
+            for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
+        }
         own[f"{prefix}nominal_load"] = nominal
         for q, used in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
-            keys[q + axis] = {k: v for k, v in own.items() if used and used in k or (q in ("k", "mu") and "nominal" in k)}
+            keys[q + axis] = {
+                k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
+            }
     keys["ratio"] = keys["muy"] | keys["mux"]
     keys["deflection"] = {f"{prefix}{f}": getattr(tyre, f) for f in ("nominal_load", "stiffness", "radius")}
     return [*_of_curves(curves, keys), _deflection(nominal, tyre.stiffness, tyre.radius, keys["deflection"])]
@@ -294,5 +307,3 @@ def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str,
 
 def _deflection(load: float, stiffness: float, radius: float, keys: Mapping[str, Any]) -> Value:
     return Value(QUANTITIES["deflection"], load / stiffness / radius, keys)
-
-

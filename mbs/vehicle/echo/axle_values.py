@@ -84,6 +84,8 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
         {axle.wheel.key("spin_inertia"): axle.wheel.spin_inertia, axle.wheel.key("mass"): axle.wheel.mass},
         name,
     )
+    moments = {axle.wheel.key(f): getattr(axle.wheel, f) for f in ("diametral_inertia", "spin_inertia")}
+    yield Value(CAR["wheel_moments"], axle.wheel.diametral_inertia / axle.wheel.spin_inertia, moments, name)
     nominal = axle.tyre.nominal_load
     yield Value(CAR["loaded"], rest.load[name] / nominal, {axle.tyre.key("nominal_load"): nominal}, name)
     if isinstance(axle.suspension, Curves):
@@ -163,7 +165,10 @@ def _of_curves(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Va
         if values is not None and abs(values[i, k]) > ABSOLUTE:
             yield Value(CAR["curve_place"], float(values[i, k]) / wheel[1], {**key, **centre}, name)
             break
-    for quantity, columns in (("curve_camber", ("camber_angle", "inclination_angle")), ("curve_toe", ("toe_angle", "steer_angle"))):
+    for quantity, columns in (
+        ("curve_camber", ("camber_angle", "inclination_angle")),
+        ("curve_toe", ("toe_angle", "steer_angle")),
+    ):
         for column, sign in zip(columns, (1.0, -1.0), strict=True):
             values = table.of(column, "left")
             if values is not None:

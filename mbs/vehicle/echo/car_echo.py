@@ -17,6 +17,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
+from mbs.vehicle.checks.places import parts_of
 from mbs.vehicle.echo.axle_values import DEG, axle_rates, axle_values
 from mbs.vehicle.echo.quantities import CAR
 from mbs.vehicle.environment import GRAVITY
@@ -57,7 +58,9 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
     if len(linked) == len(rates) and car.linked:
         stiffness = [r.roll_stiffness for r in linked]
         total, mass = sum(stiffness), 2.0 * sum(rest.load.values()) / GRAVITY
-        keys = {axle.spring.key(f): getattr(axle.spring, f) for axle in car.axles.values() for f in ("stiffness", "factor")}
+        keys = {
+            axle.spring.key(f): getattr(axle.spring, f) for axle in car.axles.values() for f in ("stiffness", "factor")
+        }
         found.append(Value(CAR["roll"], total / DEG, keys))
         if total > 0.0:
             lean = mass * GRAVITY * centre_of(car, payloads=True)[2] / total
@@ -97,8 +100,17 @@ def _of_masses(car: CarContent) -> Iterator[Value]:
     key = {chassis.key("inertia"): list(chassis.inertia)}
     if before > 0.0 and behind > 0.0:
         yield Value(CAR["yaw"], inertia / total / (before * behind), key | {chassis.key("mass"): chassis.mass})
-    radius = math.sqrt(chassis.inertia[0] / chassis.mass) / car.vehicle.width
-    yield Value(CAR["roll_radius"], radius, key | {car.vehicle.key("width"): car.vehicle.width})
+    size = car.vehicle.width, car.vehicle.length, car.vehicle.length
+    sizes = {car.vehicle.key(f): getattr(car.vehicle, f) for f in ("width", "length")}
+    for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):
+        yield Value(CAR["body_radius"], math.sqrt(moment / chassis.mass) / extent, key | sizes, f"about {axis}")
+    radii = {
+        math.sqrt(moment / part.mass): {part.key("inertia"): list(part.inertia), part.key("mass"): part.mass}
+        for part in parts_of(car)
+        for moment in part.inertia
+    }
+    for of, radius in (("least", min(radii)), ("largest", max(radii))):
+        yield Value(CAR["part_radius"], radius, radii[radius], of)
     yield Value(CAR["pitch_yaw"], chassis.inertia[1] / chassis.inertia[2], key)
 
 
@@ -159,7 +171,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
             keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
             there = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
             yield f"degrees in place of radians in {' and '.join(there)}", set(keys), _scale(there, 1.0 / DEG)
-            for key in there:
+            for key in there if angle == "camber" else ():
                 yield f"the sign of {key}", {key}, _scale(key, -1.0)
             yield f"the signs of {' and '.join(there)}", set(keys), _scale(there, -1.0)
         damper, spring = axle.damper, axle.spring
@@ -189,10 +201,18 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
     yield f"kW in place of W in {power}", {power}, _scale(power, 1000.0)
     inertia = chassis.key("inertia")
     for a, b in ((0, 2), (0, 1)):
-        yield f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}", {inertia}, partial(_swap, inertia, a, b)
+        yield (
+            f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}",
+            {inertia},
+            partial(_swap, inertia, a, b),
+        )
     yield f"half of the moments in {inertia}", {inertia}, _scale(inertia, 2.0)
     brakes = car.brakes
-    yield "the share of the rear wheels in brakes.balance", {brakes.key("balance")}, partial(_rest_of_one, brakes.key("balance"))
+    yield (
+        "the share of the rear wheels in brakes.balance",
+        {brakes.key("balance")},
+        partial(_rest_of_one, brakes.key("balance")),
+    )
     torque = brakes.key("torque")
     yield f"the torque of one wheel in place of a side in {torque}", {torque}, _scale(torque, 2.0)
     yield f"the torque of all wheels in place of a side in {torque}", {torque}, _scale(torque, 0.5)

@@ -69,13 +69,21 @@ CAR = rows(
             _of((0.65, 1.35), (0.35, 1.25), (0.4, 1.7)),
             GILLESPIE,
         ),
-        "roll_radius": (
-            "radius of gyration of the chassis about x over width",
-            "k_x/b",
+        "body_radius": (
+            "radius of gyration of the chassis over the size of the car",
+            "",
             "1",
-            "chassis.inertia",
+            "about x over the width, about y and z over the length",
             _of((0.15, 0.45), (0.1, 0.45), (0.12, 0.5)),
             GILLESPIE,
+        ),
+        "part_radius": (
+            "radius of gyration of parts of the suspension",
+            "",
+            "m",
+            "least and largest of all parts and axes",
+            {"": (0.01, 0.6)},
+            "sizes of parts",
         ),
         "pitch_yaw": (
             "moment of inertia of the chassis about y over z",
@@ -92,6 +100,14 @@ CAR = rows(
             "wheel.spin_inertia and wheel.mass",
             {"": (0.45, 0.95)},
             GILLESPIE,
+        ),
+        "wheel_moments": (
+            "moment of inertia of the wheel about a diameter over its axis",
+            "",
+            "1",
+            "0.5 is a disc or a ring, more is as wide as a drum",
+            {"": (0.5, 1.5)},
+            "mechanics of rigid bodies",
         ),
         "joint": (
             "ball joint from the wheel's plane",
@@ -119,7 +135,14 @@ CAR = rows(
             _of((-1.0, 1.0), (-8.0, 8.0), (-1.0, 1.0)),
             REIMPELL,
         ),
-        "caster": ("caster", "tau", "deg", "steering axis as drawn", _of((-1.0, 14.0), (-1.0, 18.0), (-2.0, 12.0)), REIMPELL),
+        "caster": (
+            "caster",
+            "tau",
+            "deg",
+            "steering axis as drawn",
+            _of((-1.0, 14.0), (-1.0, 18.0), (-2.0, 12.0)),
+            REIMPELL,
+        ),
         "kingpin": (
             "kingpin inclination",
             "sigma",

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
-    from mbs.vehicle.kinematics.car_kinematics import Kinematics, kinematics
     from mbs.vehicle.kinematics.axle_compliance import Compliance, compliance
+    from mbs.vehicle.kinematics.car_kinematics import Kinematics, kinematics
     from mbs.vehicle.kinematics.curve_files import read_curve, write_curve
     from mbs.vehicle.kinematics.curves import Curve
     from mbs.vehicle.kinematics.quantities import Quantity, quantity_of
@@ -21,7 +21,9 @@ _HOMES = {
     "curves": ("Curve",),
     "quantities": ("Quantity", "quantity_of"),
 }
-__getattr__ = lazy_modules(__name__, (), {name: f"{__name__}.{home}" for home, names in _HOMES.items() for name in names})
+__getattr__ = lazy_modules(
+    __name__, (), {name: f"{__name__}.{home}" for home, names in _HOMES.items() for name in names}
+)
 
 __all__ = [
     "Compliance",
