@@ -12,6 +12,7 @@ from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
 from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.input_ranges import beyond_range
 
 LONGEST_GAP = 0.2
 """s between samples of an input that is bridged unless the user says otherwise."""
@@ -53,25 +54,8 @@ def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, 
                 f"A gap of {steps[k]:.3g} s in the {what}, at {begin:.6g} s, is bridged by a straight line "
                 f"(usual are {usual:.3g} s)."
             )
-        variable = fmu.table[name]
-        low, high = float(signal.values.min()), float(signal.values.max())
-        room = 1e-6 * max(abs(variable.low), abs(variable.high), 1e-9) if math.isfinite(variable.high) else 0.0
-        if low < variable.low - room or high > variable.high + room:
-            raise HostError(
-                f"The log's {what} reaches from {low:.4g} to {high:.4g} {signal.unit}; the range of the FMU's input is "
-                f"{variable.range}{_hint(max(-low, high), max(-variable.low, variable.high))}"
-            )
-
-
-def _hint(reached: float, limit: float) -> str:
-    if not (math.isfinite(limit) and limit > 0.0):
-        return "."
-    ratio = reached / limit
-    if 1.0 < ratio <= 1.2:
-        return "; it may be clipped by a factor or an offset in the alias file."
-    if 20.0 < ratio <= 120.0:
-        return '; it looks like percent or degrees: give its unit in the alias file, such as unit = "%" or "deg".'
-    return "; is its unit in the alias file right?"
+        if beyond := beyond_range(fmu.table[name], signal.values, "sample"):
+            raise HostError(f'The log\'s {what} {beyond} An alias file gives a unit, such as unit = "%" or "deg".')
 
 
 def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:

@@ -235,9 +235,9 @@ ODD = {
     "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
     "a soft tyre": ({"rear.tyre.stiffness": 40000.0}, "presses the tyre in"),
     "weak dampers": ({"front.damper.damping": 60.0}, "front damping ratio in bump is 0.0"),
-    "weak brakes": ({"brakes.torque": 60.0}, "braking at full pedal without slip is 0.1"),
+    "weak brakes": ({"brakes.torque": 60.0}, "braking at full pedal without slip is 0.08"),
     "a wheel of little inertia": ({"front.wheel.spin_inertia": 0.2}, "front radius of gyration of the wheel about"),
-    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "lateral peak friction is 5"),
+    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "kilograms in place of newtons in front.tyre.nominal_load"),
     "a small tyre": ({"rear.tyre.nominal_load": 6000.0} | {
         f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
