@@ -11,7 +11,7 @@ import numpy as np
 from ali3.echo import Echo, Mistake, Value, rows
 from mbs.elements.road import GridRoad
 
-MOST_LEVELS, FEWEST_LEVELS = 4096, 8
+MOST_LEVELS, FEWEST_LEVELS = 4096, 5
 MM = 1e-3
 KEYS = ("spacing", "heights")
 BEFORE = 50.0

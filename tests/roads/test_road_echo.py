@@ -39,7 +39,7 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
     ("road", "words"),
     [
         (waves(factor=1000.0), "mm in place of m in heights would explain it"),
-        (waves(spacing=500.0), "mm in place of m in coordinates would explain it"),
+        (waves(spacing=500.0), "mm in place of m in coordinates or"),
         (waves(step=0.01), "step of the heights is 0.01 m"),
         (waves(step=0.25), "step of the heights is 0.25 m"),
         (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9, 9)), 1.9), "friction is 1.9"),
@@ -56,7 +56,7 @@ def test_a_road_in_another_unit(road: GridRoad, words: str) -> None:
     [
         ((500.0, -5.0), 0.5, "distance of the start from the road is 500 m"),
         ((4.5e5, 5.4e6), 0.5, "coordinates of a map"),
-        ((2e5, -5e3), 500.0, "mm in place of m in coordinates"),
+        ((2e4, -5e3), 500.0, "mm in place of m in coordinates"),
         ((-5.0, 300.0), 0.5, "is 300 m"),
     ],
 )
@@ -82,7 +82,10 @@ def test_heights_in_mm_by_their_first_cell(tmp_path: Path) -> None:
 
 KERB: dict[str, Any] = {"kind": "kerb", "at": [10.0, 0.0, 0.0], "length": 2.0, "left": 2.0, "right": -2.0}
 THINGS = {
-    "exchanged sides": ({"obstacles": [KERB | {"left": -2.0, "right": 2.0}]}, "left and right exchanged in obstacles.0"),
+    "exchanged sides": (
+        {"obstacles": [KERB | {"left": -2.0, "right": 2.0}]},
+        "left and right exchanged in obstacles.0",
+    ),
     "mm": ({"obstacles": [KERB | {"at": [1e4, 0.0, 0.0]}]}, "mm in place of m in obstacles.0"),
     "x for y": ({"obstacles": [KERB | {"at": [2.0, 45.0, 0.0]}]}, "x and y exchanged in obstacles.0"),
     "a sign": ({"obstacles": [KERB | {"at": [-30.0, 0.0, 0.0]}]}, "the sign of x in obstacles.0"),
