@@ -108,14 +108,15 @@ class Echo:
     def warnings(self) -> list[str]:
         """A sentence for each cause.
 
-        A mistake is named where undoing it brings values inside and none outside; of several the one that mends most,
-        and of those that mend the same at most two. What no mistake explains is told once for what shares a key.
+        A mistake is named where undoing it brings inside all values that follow from what it changes, and none
+        outside; of several the one that mends most, and of those that mend the same at most two. What no mistake
+        explains is told once for what shares a key.
         """
         left, told = self.outside, []
         undone = _undone(self.mistakes, left)
         while left:
             names = {v.name for v in left}
-            mended = {m.words: self._mended(names, after) for m, after in undone}
+            mended = {m.words: self._mended(names, after, m.keys) for m, after in undone}
             best = max(mended.values(), key=len, default=frozenset())
             if not best:
                 break
@@ -130,11 +131,13 @@ class Echo:
             told.append(self._sentence(group, ""))
         return told
 
-    def _mended(self, names: set[str], after: Sequence[Value]) -> frozenset[str]:
+    def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
+        """Which of some values it brings inside; none where one that follows from what it changes is outside."""
         before = {v.name for v in self.outside}
         wrong = {v.name for v in after if not v.inside(self.kind)}
+        own = {v.name for v in self.values if changed & set(v.keys)}
         there = {v.name for v in after}
-        return frozenset() if wrong - before else frozenset((names & there) - wrong)
+        return frozenset() if wrong - before or wrong & own else frozenset((names & there) - wrong)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from typing import TypeAlias
 
 Range: TypeAlias = tuple[float, float]
+TABLE = Path(__file__).with_name("quantities.csv")
 WIDEST = ""
 """The kind of a thing whose file names none: the range is the widest of all kinds."""
 
@@ -41,6 +45,23 @@ class Quantity:
         return f"{value:.4g}" + ("" if self.unit == "1" else f" {self.unit}")
 
 
-def rows(table: Mapping[str, tuple[str, str, str, str, Mapping[str, Range], str]]) -> dict[str, Quantity]:
-    """Quantities by a short key. `table`: the fields of `Quantity` in their order."""
-    return {key: Quantity(*fields) for key, fields in table.items()}
+@cache
+def quantities_of(thing: str) -> Mapping[str, Quantity]:
+    """Quantities of a kind of thing by short keys, from the table beside this file. `thing`: as "car"."""
+    with TABLE.open(encoding="utf-8", newline="") as file:
+        found = [row for row in csv.DictReader(file) if row["thing"] == thing]
+    return {
+        row["key"]: Quantity(
+            *(row[n] for n in ("name", "symbol", "unit", "follows")), _ranges(row["ranges"]), row["source"]
+        )
+        for row in found
+    }
+
+
+def _ranges(text: str) -> dict[str, Range]:
+    """Ranges of kinds as the table has them: ``KIND LOW HIGH, ...``, or ``LOW HIGH`` of all."""
+    found = {}
+    for part in filter(None, text.split(", ")):
+        *kind, low, high = part.split()
+        found["".join(kind)] = float(low), float(high)
+    return found

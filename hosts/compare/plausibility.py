@@ -29,7 +29,6 @@ _RATIOS = (
     (100.0, 'it looks like percent: unit = "%"'),
 )
 _CLOSE = 1.12  # of a ratio
-_NEAR = 1.3  # of a ratio of signals in a log: sideslip and roll have a share in the acceleration
 _ALIKE = 0.8  # correlation
 
 
@@ -68,28 +67,6 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
                 f"'{signal.source}' ({name}) has no samples from {signal.time[k]:.6g} s to {signal.time[k + 1]:.6g} s; "
                 "nothing is compared there."
             )
-
-
-def odd_speed(signals: Mapping[str, Signal]) -> str:
-    """A sentence if a log's speed times its yaw rate is 3.6 times its lateral acceleration; else empty.
-
-    The simulation begins with the speed of the log, so that it cannot tell that this is in another unit.
-    """
-    speed = signals.get("speed", signals.get("chassis.vx"))
-    yaw, lateral = signals.get("chassis.wz"), signals.get("chassis.ay")
-    if speed is None or yaw is None or lateral is None:
-        return ""
-    t, ay = lateral.time, lateral.values
-    turning = np.interp(t, speed.time, speed.values) * np.interp(t, yaw.time, yaw.values)
-    if not (np.std(ay) > 0.0 and np.std(turning) > 0.0 and np.corrcoef(turning, ay)[0, 1] >= _ALIKE):
-        return ""
-    ratio = float(np.std(turning) / np.std(ay))
-    if not 3.6 / _NEAR < ratio < 3.6 * _NEAR:
-        return ""
-    return (
-        f"'{speed.source}' ({speed.name}) times the yaw rate is {ratio:.3g} times the lateral acceleration in the log: "
-        'the speed looks like km/h where m/s was taken: unit = "km/h".'
-    )
 
 
 def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:

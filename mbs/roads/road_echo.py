@@ -8,53 +8,13 @@ from functools import partial
 
 import numpy as np
 
-from ali3.echo import Echo, Mistake, Value, rows
+from ali3.echo import Echo, Mistake, Value, quantities_of
 from mbs.elements.road import GridRoad
 
 MOST_LEVELS, FEWEST_LEVELS = 4096, 5
 MM = 1e-3
 KEYS = ("spacing", "heights")
-BEFORE = 50.0
-"""m: so far before its road a drive may begin; beside a grid its border goes on."""
-QUANTITIES = rows(
-    {
-        "extent": ("extent", "", "m", "points times spacing", {"": (0.1, 3e4)}, "test tracks, public roads"),
-        "heights": ("height from lowest to highest", "", "m", "of all points", {"": (0.0, 800.0)}, "passes of roads"),
-        "rise": (
-            "rise from point to point beyond 100 %",
-            "",
-            "m",
-            "what neighbours differ by, less their distance",
-            {"": (0.0, 0.5)},
-            "kerbs and steps are lower than a wheel",
-        ),
-        "steepest": ("steepest slope from point to point", "", "1", "rise over distance of neighbours", {}, ""),
-        "friction": (
-            "friction",
-            "mu",
-            "1",
-            "least and largest of all points",
-            {"asphalt": (0.03, 1.5)},
-            "J. J. Taborek, Mechanics of Vehicles, 1957; wet ice to racing tyres on asphalt",
-        ),
-        "step": (
-            "step of the heights",
-            "",
-            "m",
-            "least difference of two heights that occur, where all are multiples of it",
-            {"": (0.0, 0.003)},
-            "coarser steps shake a wheel more than asphalt of class A of ISO 8608",
-        ),
-        "away": (
-            "distance of the start from the road",
-            "",
-            "m",
-            "start and extent",
-            {"": (0.0, BEFORE)},
-            "a car meets it",
-        ),
-    }
-)
+QUANTITIES = quantities_of("road")
 
 
 def road_echo(what: str, road: GridRoad) -> Echo:

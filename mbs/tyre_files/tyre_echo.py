@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Echo, Mistake, Value, rows
+from ali3.echo import Echo, Mistake, Value, quantities_of
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
@@ -26,109 +26,8 @@ BEYOND = 0.5
 NEAR = 0.95
 """Of a peak: some curves rise for ever and have none."""
 SLIPS = np.linspace(0.0, FARTHEST, 1201)
-PACEJKA = "H. B. Pacejka, Tire and Vehicle Dynamics, 2012, chapters 1 and 4"
-MILLIKEN = "W. F. and D. L. Milliken, Race Car Vehicle Dynamics, 1995, chapter 2"
 
-QUANTITIES = rows(
-    {
-        "ky": (
-            "cornering stiffness over load",
-            "C_Fa/Fz",
-            "1/deg",
-            "slope of the lateral force over the slip angle, over the load",
-            {"passenger_car": (0.08, 0.45), "racing_car": (0.12, 0.75), "truck": (0.05, 0.3)},
-            PACEJKA,
-        ),
-        "muy": (
-            "lateral peak friction",
-            "mu_y",
-            "1",
-            "largest lateral force over the load",
-            {"passenger_car": (0.6, 1.4), "racing_car": (0.8, 2.4), "truck": (0.5, 1.1)},
-            MILLIKEN,
-        ),
-        "peaky": (
-            "slip angle at 95 % of the lateral peak",
-            "alpha_95",
-            "deg",
-            f"where the lateral force first has 95 % of its largest up to {FARTHEST:g} rad",
-            {"passenger_car": (2.0, 15.0), "racing_car": (1.5, 12.0), "truck": (3.0, 22.0)},
-            MILLIKEN,
-        ),
-        "zeroy": (
-            "lateral force at no slip over load",
-            "F_y0/Fz",
-            "1",
-            "shifts of the lateral curve: conicity and ply steer",
-            {"": (0.0, 0.06)},
-            PACEJKA,
-        ),
-        "lefty": (
-            "lateral force beyond the peak over the peak",
-            "",
-            "1",
-            f"at a slip angle of {BEYOND:g} rad",
-            {"": (0.5, 1.0)},
-            PACEJKA,
-        ),
-        "kx": (
-            "longitudinal slip stiffness over load",
-            "C_Fk/Fz",
-            "1",
-            "slope of the longitudinal force over the slip, over the load",
-            {"": (6.0, 60.0)},
-            PACEJKA,
-        ),
-        "mux": (
-            "longitudinal peak friction",
-            "mu_x",
-            "1",
-            "largest longitudinal force over the load",
-            {"passenger_car": (0.6, 1.5), "racing_car": (0.8, 2.5), "truck": (0.5, 1.2)},
-            MILLIKEN,
-        ),
-        "peakx": (
-            "slip at 95 % of the longitudinal peak",
-            "kappa_95",
-            "1",
-            f"where the longitudinal force first has 95 % of its largest up to {FARTHEST:g}",
-            {"": (0.02, 0.3)},
-            PACEJKA,
-        ),
-        "zerox": (
-            "longitudinal force at no slip over load",
-            "F_x0/Fz",
-            "1",
-            "shifts of the longitudinal curve",
-            {"": (0.0, 0.08)},
-            PACEJKA,
-        ),
-        "leftx": (
-            "longitudinal force beyond the peak over the peak",
-            "",
-            "1",
-            f"at a slip of {BEYOND:g}",
-            {"": (0.5, 1.0)},
-            PACEJKA,
-        ),
-        "ratio": (
-            "lateral over longitudinal peak friction",
-            "mu_y/mu_x",
-            "1",
-            "of the largest forces at one load",
-            {"": (0.65, 1.4)},
-            PACEJKA,
-        ),
-        "deflection": (
-            "deflection at the nominal load over radius",
-            "rho/R0",
-            "1",
-            "nominal load over the vertical stiffness, over the free radius",
-            {"passenger_car": (0.025, 0.16), "racing_car": (0.02, 0.16), "truck": (0.02, 0.2)},
-            "ETRTO, Standards Manual; T. D. Gillespie, Fundamentals of Vehicle Dynamics, 1992",
-        ),
-    }
-)
+QUANTITIES = quantities_of("tyre")
 OWN = {  # the coefficients that a value follows from first
     "ky": ("PKY1", "PKY2", "LKY", "FNOMIN"),
     "muy": ("PDY1", "PDY2", "PCY1", "LMUY", "FNOMIN"),

@@ -10,68 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Echo, Mistake, Value, rows
+from ali3.echo import Echo, Mistake, Value, quantities_of
 from mbs.urdf.source import Element
 
 SMALLEST = 1e-4  # m
 DEG = math.pi / 180.0
-MAKERS = "data sheets of makers of robots, from hands to excavators"
 
-QUANTITIES = rows(
-    {
-        "mass": ("total mass", "m", "kg", "masses of all links", {"robot": (0.005, 2e4)}, MAKERS),
-        "size": (
-            "size",
-            "",
-            "m",
-            "of frames, centres and radii of gyration",
-            {"robot": (0.02, 60.0)},
-            MAKERS,
-        ),
-        "dense": (
-            "total mass over size cubed",
-            "",
-            "kg/m3",
-            "masses, frames and centres",
-            {"robot": (0.05, 4000.0)},
-            MAKERS,
-        ),
-        "centre": (
-            "centre of mass from the frame of its link over size",
-            "",
-            "1",
-            "origin of the inertial element; the size without it",
-            {"robot": (0.0, 1.0)},
-            "a part is not larger than its robot",
-        ),
-        "gyration": (
-            "radius of gyration over size",
-            "",
-            "1",
-            "largest moment of inertia and mass of a link",
-            {"robot": (3e-4, 3.0)},
-            "a part is not larger than its robot",
-        ),
-        "range": (
-            "range of the joint",
-            "",
-            "rad",
-            "lower and upper of the limit",
-            {"robot": (0.0, 26.0)},
-            "two turns to each side",
-        ),
-        "slide": ("range of the slide", "", "m", "lower and upper of the limit", {"robot": (0.0, 50.0)}, MAKERS),
-        "start": (
-            "start beyond the limits",
-            "",
-            "1",
-            "value where the model is drawn, lower and upper; rad or m",
-            {"robot": (0.0, 1e-6)},
-            "a joint is within its limits",
-        ),
-        "angle": ("angle of an origin", "", "rad", "largest of rpy", {"robot": (0.0, 6.3)}, "more is a turn too many"),
-    }
-)
+QUANTITIES = quantities_of("robot")
 
 
 class Given(NamedTuple):

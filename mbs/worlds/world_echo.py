@@ -8,37 +8,16 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ali3.echo import Echo, Mistake, Value, rows
+from ali3.echo import Echo, Mistake, Value, quantities_of
 from mbs.worlds.obstacles import added, footprint
 from mbs.worlds.world_types import Area, Band, Barrier, Kerb, Ramp, Washboard, WorldDescription
 
 MOST = 400
 """Points along a side of a thing that are looked at; of a longer one not all."""
 FELT = 1e-6  # m
-NEAR = 20.0  # m: so far outside scenery may stand
 Thing: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 
-QUANTITIES = rows(
-    {
-        "size": ("extent of the world", "", "m", "bounds", {"": (10.0, 1e4)}, "test tracks"),
-        "points": (
-            "points of the grid that it changes",
-            "",
-            "1",
-            "points of the spacing that wheels feel, in its rectangle and in the bounds",
-            {"": (1.0, np.inf)},
-            "what changes no point is not felt",
-        ),
-        "outside": (
-            "distance outside of the world",
-            "",
-            "m",
-            "places and bounds",
-            {"": (0.0, NEAR)},
-            "scenery stands where the world is",
-        ),
-    }
-)
+QUANTITIES = quantities_of("world")
 
 
 def world_echo(what: str, world: WorldDescription) -> Echo:

@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from ali3.echo import Value
+from ali3.echo import Value, quantities_of
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.places import drawn_points, parts_of
-from mbs.vehicle.echo.quantities import CAR
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE
@@ -22,6 +21,7 @@ from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.springs import Damper
 from mbs.vehicle.suspensions.curves import Curves
 
+CAR = quantities_of("car")
 DEG = 180.0 / math.pi
 SPEED = 0.3  # m/s, of a damper
 ABSOLUTE = 0.1  # m: lateral places of a table that are farther from 0 count from the middle of the car

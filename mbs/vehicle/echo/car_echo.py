@@ -18,8 +18,7 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
 from mbs.vehicle.checks.places import parts_of
-from mbs.vehicle.echo.axle_values import DEG, axle_rates, axle_values
-from mbs.vehicle.echo.quantities import CAR
+from mbs.vehicle.echo.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.environment import GRAVITY
 
 Data: TypeAlias = "dict[str, Any]"
