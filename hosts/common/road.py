@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 from ali3.files import make_folder
@@ -40,3 +41,14 @@ def road_value(given: str, out: Path) -> str:
     said = run_ali3("road", str(path), str(made))
     print(said, end="", file=sys.stderr)  # what is odd about the road
     return str(made.absolute())
+
+
+def tell_start(road: object, start: Mapping[str, object]) -> None:
+    """Tell before a drive begins that it begins beside its road, on standard error.
+
+    `road`: value of the parameter ``road.file``, nothing where it is no file here; `start`: start values.
+    """
+    if not isinstance(road, str) or not is_file(Path(road)):
+        return
+    x, y = (start.get(name, 0.0) for name in ("initial.x", "initial.y"))
+    print(run_ali3("road", road, "--start", f"{x}", f"{y}"), end="", file=sys.stderr)

@@ -12,7 +12,8 @@ from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
 from hosts.compare.log import FEWEST_SAMPLES
-from hosts.compare.plausibility import odd_scale, odd_speed
+from hosts.compare.log_echo import consistent
+from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
@@ -111,8 +112,9 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     opposite = turned_signals(compared)
     cause = turned_input(options.fmu, task, compared, opposite)
     told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
-    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for s in told.values()]
-    return compared, problems + [line for line in (odd_speed(task.outputs), cause, *odd) if line]
+    right = consistent(task.echo)  # a factor in one of these would break what holds among them
+    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in told.items() if n not in right]
+    return compared, problems + [line for line in (*task.echo.warnings(), cause, *odd) if line]
 
 
 def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:

@@ -12,6 +12,7 @@ from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
 from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.input_ranges import beyond_range
 
 LONGEST_GAP = 0.2
 """s between samples of an input that is bridged unless the user says otherwise."""
@@ -28,7 +29,6 @@ _RATIOS = (
     (100.0, 'it looks like percent: unit = "%"'),
 )
 _CLOSE = 1.12  # of a ratio
-_NEAR = 1.3  # of a ratio of signals in a log: sideslip and roll have a share in the acceleration
 _ALIKE = 0.8  # correlation
 
 
@@ -53,25 +53,8 @@ def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, 
                 f"A gap of {steps[k]:.3g} s in the {what}, at {begin:.6g} s, is bridged by a straight line "
                 f"(usual are {usual:.3g} s)."
             )
-        variable = fmu.table[name]
-        low, high = float(signal.values.min()), float(signal.values.max())
-        room = 1e-6 * max(abs(variable.low), abs(variable.high), 1e-9) if math.isfinite(variable.high) else 0.0
-        if low < variable.low - room or high > variable.high + room:
-            raise HostError(
-                f"The log's {what} reaches from {low:.4g} to {high:.4g} {signal.unit}; the range of the FMU's input is "
-                f"{variable.range}{_hint(max(-low, high), max(-variable.low, variable.high))}"
-            )
-
-
-def _hint(reached: float, limit: float) -> str:
-    if not (math.isfinite(limit) and limit > 0.0):
-        return "."
-    ratio = reached / limit
-    if 1.0 < ratio <= 1.2:
-        return "; it may be clipped by a factor or an offset in the alias file."
-    if 20.0 < ratio <= 120.0:
-        return '; it looks like percent or degrees: give its unit in the alias file, such as unit = "%" or "deg".'
-    return "; is its unit in the alias file right?"
+        if beyond := beyond_range(fmu.table[name], signal.values, "sample"):
+            raise HostError(f'The log\'s {what} {beyond} An alias file gives a unit, such as unit = "%" or "deg".')
 
 
 def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
@@ -84,28 +67,6 @@ def note_gaps(outputs: Mapping[str, Signal], notes: list[str]) -> None:
                 f"'{signal.source}' ({name}) has no samples from {signal.time[k]:.6g} s to {signal.time[k + 1]:.6g} s; "
                 "nothing is compared there."
             )
-
-
-def odd_speed(signals: Mapping[str, Signal]) -> str:
-    """A sentence if a log's speed times its yaw rate is 3.6 times its lateral acceleration; else empty.
-
-    The simulation begins with the speed of the log, so that it cannot tell that this is in another unit.
-    """
-    speed = signals.get("speed", signals.get("chassis.vx"))
-    yaw, lateral = signals.get("chassis.wz"), signals.get("chassis.ay")
-    if speed is None or yaw is None or lateral is None:
-        return ""
-    t, ay = lateral.time, lateral.values
-    turning = np.interp(t, speed.time, speed.values) * np.interp(t, yaw.time, yaw.values)
-    if not (np.std(ay) > 0.0 and np.std(turning) > 0.0 and np.corrcoef(turning, ay)[0, 1] >= _ALIKE):
-        return ""
-    ratio = float(np.std(turning) / np.std(ay))
-    if not 3.6 / _NEAR < ratio < 3.6 * _NEAR:
-        return ""
-    return (
-        f"'{speed.source}' ({speed.name}) times the yaw rate is {ratio:.3g} times the lateral acceleration in the log: "
-        'the speed looks like km/h where m/s was taken: unit = "km/h".'
-    )
 
 
 def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:

@@ -9,12 +9,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ali3.echo import Echo
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import wishes_with_road
 from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
+from hosts.compare.log_echo import log_echo
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
@@ -58,6 +60,8 @@ class Task:
     notes: list[str]
     windowed: bool = False
     """Whether the stretches are windows, each from its measured state."""
+    echo: Echo = field(default_factory=lambda: Echo("", []))
+    """What was understood of the log."""
     scales: dict[str, Signal] = field(default_factory=dict)
     """Measured speed and lateral acceleration at the places of the outputs."""
 
@@ -144,7 +148,8 @@ def prepare(options: argparse.Namespace) -> Task:
         moved = tuple((a - begin, b - begin) for a, b in wanted)
         outputs = {n: in_spans(s, moved) for n, s in outputs.items()}
     windowed = options.windows is not None
-    return Task(aliases, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, scales)
+    echo = log_echo(options.log.name, everything)
+    return Task(aliases, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, echo, scales)
 
 
 def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> list[tuple[float, float]]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ali3.decimal_number import parse_number
+from ali3.near_names import near_names
 from ali3.tables import HEADING, TextTable
 from ali3.words import brief
 from hosts.common.errors import HostError
@@ -21,6 +22,11 @@ from hosts.driving.state_file import read_state
 _LATEST = ON_TIME * 2.0**52
 # What a page says of a table whose oldest rows it has forgotten.
 _CUT = re.compile("the first .* s are not in this table")
+
+
+_KEYS = ("start", "state", "step", "outputs from", "held")
+LIKE = 0.75
+"""Share of its characters that a remark has in common with a key that it is taken for."""
 
 
 def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
@@ -77,6 +83,11 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             recorded = rest.strip()
         elif key.strip() == "held":
             held = {name.strip() for name in rest.split(",")}
+        elif rest and (meant := near_names(key.strip(), _KEYS, 1, LIKE)):
+            raise HostError(
+                f"{where}: {brief(key.strip() + ':')} is no key of a table; did you mean '{meant[0]}:'? In a remark "
+                "leave the colon out."
+            )
     if recorded and recorded not in names[1:]:
         raise HostError(f"{path}: there is no column {brief(recorded)}, with which outputs would begin.")
     inputs = names[1 : names.index(recorded)] if recorded else names[1:]

@@ -10,6 +10,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.variables import default_step
 
 # Bytes a run may record: more would fill the memory before the disk.
@@ -57,11 +58,17 @@ def steps_of(interval: float, step: float, what: str) -> int:
 
 
 def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
-    """Refuse a table with a column that is no input and no tunable parameter of the FMU, or not of its kind.
+    """Refuse a table with a column that is no input and no tunable parameter of the FMU, not of its kind, or beyond
+    its range, and a table that begins where the run ends.
 
     Raises `HostError` with the column, and what it would have to be.
     """
     inputs, tunable = fmu.names("input"), fmu.tunable
+    if manoeuvre.inputs and len(manoeuvre.time) and manoeuvre.time[0] >= manoeuvre.stop_time > 0.0:
+        raise HostError(
+            f"The table of the manoeuvre '{manoeuvre.name}' begins at {manoeuvre.time[0]:g} s, and the run ends at "
+            f"{manoeuvre.stop_time:g} s; take the first time from all its times."
+        )
     for name, values in manoeuvre.inputs.items():
         what, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
         if variable is not None and variable.causality == "parameter" and name not in tunable:
@@ -82,6 +89,8 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
         if abs(worst) > LARGEST_NUMBER:
             fmu.table[name].check(worst, f"The manoeuvre '{manoeuvre.name}'")
             raise HostError(f"{what} with the value {worst:g}; it must be within {LARGEST_NUMBER:g}.")
+        if beyond := beyond_range(fmu.table[name], values):
+            raise HostError(f"{what} that {beyond}")
         if name in tunable:
             for value in values.tolist():
                 fmu.table[name].check(value, f"The manoeuvre '{manoeuvre.name}'")

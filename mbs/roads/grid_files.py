@@ -21,6 +21,8 @@ from ali3.words import brief
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
 
+UNIT = re.compile(r"[\[(]\s*(?P<unit>[^\[\]()]*?)\s*[\])]$|(?:^|[\s_,;/\\])(?P<bare>[kcm]m|m|in|ft)$")
+"""A unit of a first cell: in brackets or parentheses, or a bare one at the end."""
 REGULAR = 1e-6
 """Coordinates of a table may be off a regular grid by this part of its spacing."""
 MOST_BYTES = 2**31
@@ -83,7 +85,8 @@ def _table(file: Path) -> Grid:
         _check_comments(table, rows[0].line)
         return Grid(np.array([table.numbers(row) for row in rows]))
     corner = rows[0].cells[0]
-    if re.search(r"\[[^\[\]]*\]$", corner) and not corner.endswith("[m]"):
+    unit = UNIT.search(corner)
+    if unit is not None and (unit["unit"] or unit["bare"]) not in ("m", "metre", "meter", "metres", "meters"):
         raise RoadFileError(f"{file}: its first cell is {brief(corner)}; coordinates and heights must be in m.")
     if len(begins) > 2:
         raise RoadFileError(f"{file}, line {begins[2]} begins a third table; there are heights and frictions.")

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
-from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from scipy.interpolate import PPoly
 from scipy.spatial.transform import Rotation
 
 from ali3.decimal_number import parse_number
+from ali3.echo import Echo
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
 from ali3.reading import read_bytes
@@ -31,6 +31,8 @@ from mbs.model.perpendicular import perpendicular
 from mbs.urdf.crossed_hinges import CrossedHinges, crossed_hinges
 from mbs.urdf.inertias import UrdfWarning, mass_of, pose_of, possible_inertia
 from mbs.urdf.mimic import Follower, followers_of, start_of
+from mbs.urdf.robot_echo import robot_echo
+from mbs.urdf.source import Element, read_source
 
 Pose = NDArray[np.float64]
 _LARGEST = 100_000_000
@@ -52,6 +54,12 @@ class Robot:
     """Each of shape (4, 4): of the frames of links in earth axes in the reference configuration, m."""
     angles: dict[str, Coordinate] = field(default_factory=dict)
     """Of turning joints, rad, as the file counts them."""
+    echo: Echo | None = None
+    """What was understood of the file."""
+
+    def summary(self) -> str:
+        """The same as a table of text."""
+        return "" if self.echo is None else self.echo.text()
 
 
 def read_urdf(
@@ -93,7 +101,7 @@ def read_urdf(
         that were corrected.
     """
     file = Path(path)
-    urdf = _read(file)
+    urdf, source = _read(file)
     at, guides = dict(at or {}), dict(guides or {})
     joints: dict[str, Any] = {j.name: j for j in urdf.joints if j.type != "fixed"}
     below = _tree(urdf, file.name)
@@ -116,6 +124,9 @@ def read_urdf(
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
     _place(robot, below, at)
+    robot.echo = robot_echo(file.name, source, robot.poses, at)
+    for sentence in robot.echo.warnings():
+        warnings.warn(sentence, UrdfWarning, stacklevel=2)
     groups = _groups(below)
     massless = _bodies(robot, urdf, groups, None if floating else groups[next(iter(below))], file.name)
     if not robot.model.bodies and not massless:
@@ -136,7 +147,7 @@ def read_urdf(
     return robot
 
 
-def _read(file: Path) -> Any:
+def _read(file: Path) -> tuple[Any, Element]:
     def reader(path: Path) -> Any:
         import yourdfpy
 
@@ -148,20 +159,11 @@ def _read(file: Path) -> Any:
     except ModuleNotFoundError as error:
         raise ModelError(f"URDF files are read with yourdfpy. {missing_module(error, 'urdf')}") from error
 
-    def element(tag: str, attributes: object) -> None:
-        if tag.startswith("xacro:"):
-            raise ModelError(f"{file.name} has the macro '{tag}'; expand it first: xacro {file.name} > robot.urdf.")
-
-    parser = expat.ParserCreate()
-    parser.StartElementHandler = element
-    try:  # the reader takes what it understands; prefixes of robots are often of no namespace
-        parser.Parse(read_bytes(file, _LARGEST, ModelError, file.name), True)
-    except expat.ExpatError as error:
-        raise ModelError(f"{file.name} is damaged or no URDF file; as XML it ends with {error}.") from None
+    source = read_source(read_bytes(file, _LARGEST, ModelError, file.name), file.name)
     found = read_foreign(file, reader)
     if not found.links:
         raise ModelError(f"{file.name} has no links; it is no URDF file.")
-    return found
+    return found, source
 
 
 def _tree(urdf: Any, what: str) -> dict[str, Any]:
@@ -334,7 +336,7 @@ def _couple(robot: Robot, joints: Mapping[str, Any], follower: Follower) -> None
         m.coupled_slides(name, a, b, carrier_1=on_a, carrier_2=on_b, axis_1=axis_a, axis_2=axis_b, ratio=ratio)
 
 
-def _tell_left_out(joints: Iterable[Any], crossed: Iterable[CrossedHinges], what: str) -> None:
+def _tell_left_out(joints: Collection[Any], crossed: Iterable[CrossedHinges], what: str) -> None:
     left = []
     one: set[str] = set()
     for hinges in crossed:
@@ -347,6 +349,10 @@ def _tell_left_out(joints: Iterable[Any], crossed: Iterable[CrossedHinges], what
             left.append(f"friction of '{joint.name}', {friction:g}")
         if damping and (joint.type == "prismatic" or joint.name in one):
             left.append(f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}")
+    free = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
+    if free:
+        told = f"{what}: the limit of {', '.join(map(repr, free))} has no effort, or 0; {FREE:g} N m or N is taken."
+        warnings.warn(told, UrdfWarning, stacklevel=3)
     if left:
         text = f"{what}: the model is without {'; '.join(left)}. Add elements of mbs.elements for them."
         warnings.warn(text, UrdfWarning, stacklevel=3)

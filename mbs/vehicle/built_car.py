@@ -10,6 +10,7 @@ from typing import Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
+from ali3.echo import Echo
 from ali3.typed_sentences import Sentences
 from ali3.words import one_line
 from mbs.common.affine import Affine
@@ -27,10 +28,11 @@ from mbs.vehicle.chassis.ground_contact import ground_contact
 from mbs.vehicle.chassis.mount import rigid_chassis
 from mbs.vehicle.chassis.written import write_inertia
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
-from mbs.vehicle.checks.equilibrium import settled
+from mbs.vehicle.checks.equilibrium import Rest, rest_outputs, settled
 from mbs.vehicle.checks.working import working_ranges
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
+from mbs.vehicle.echo.car_echo import car_echo
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
@@ -182,6 +184,27 @@ class BuiltCar(CarContent):
         """Add all shapes, when somebody asks for the drawing."""
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
+    def echo(self, what: str = "") -> list[Echo]:
+        """What was understood of the file: the car, then the tyres of each axle.
+
+        `what`: the file, for messages. Raises `ModelError`: it does not come to rest.
+        """
+        return car_echo(what or str(self.folder), self, _rest_of(self), self._data, self._remade)
+
+    def summary(self) -> str:
+        """The same as tables of text, the tyres once where both axles have the same."""
+        car, *tyres = (echo.text() for echo in self.echo())
+        told = [car, *(f"{name} tyres\n{text}" for name, text in zip(self.axles, tyres, strict=True))]
+        return "\n\n".join([told[0], f"all tyres\n{tyres[0]}"] if tyres[0] == tyres[1] else told)
+
+    def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
+        """The car of altered content at rest, or None where that is no car."""
+        try:
+            made = checked_car(type(self), data, self.folder, self.name, at_rest=False)
+            return made, _rest_of(made)
+        except (ModelError, ValueError):
+            return None
+
     def empty(self, kind: type[M]) -> M:
         """An empty model for the car. `kind`: its class."""
         return kind(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
@@ -288,9 +311,18 @@ def checked_car(
         raise CarFileError(_told(what, faults))
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        for sentence in (*misfit, *car_oddities(car, rest)):
+        told = [sentence for echo in car_echo("", car, rest, car._data, car._remade) for sentence in echo.warnings()]
+        for sentence in (*misfit, *car_oddities(car, rest), *told):
             warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
     return car
+
+
+def _rest_of(car: BuiltCar) -> Rest:
+    """The car at rest, of a model with no more than that asks for; a tyre at a port is the car's own."""
+    if car.ports.tyre is not None:
+        own = {name: port for name, port in car._data["ports"].items() if name != "tyre"}
+        car = checked_car(type(car), {**car._data, "ports": own}, car.folder, car.name, at_rest=False)
+    return settled(car.build(car.empty(Mechanism), rest_outputs).m, car)
 
 
 def _told(what: str, faults: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-"""Copies a car of the package to a folder, or checks a car file and prints what the car is: ali3 car.
+"""Copies a car of the package to a folder, or checks a car file and prints what was understood: ali3 car.
 
 With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints what its axles are as
 drawn. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within tolerances.
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         help="find the cheapest fidelity and step: path=1 loads=3 moments=P, in percent; drive=FILE, a CSV table of "
         "inputs over time, speed=V, m/s at its start; default: path=1 loads=3, three drives",
     )
-    add_option(parser, "--json", "of --kinematics or --cheapest")
+    add_option(parser, "--json", "none")
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")
@@ -93,7 +93,8 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from mbs.vehicle.read_car import car_names, read_car
 
     _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
-    _refuse(given_of(parser, options, ("json",)), "--kinematics or --cheapest")
+    if options.list or options.folder is not None:
+        _refuse(given_of(parser, options, ("json",)), "a CAR alone, --kinematics or --cheapest")
     if options.list:
         print("\n".join(in_columns([(name, read_car(BuiltCar, name).description) for name in car_names()])))
         return 0
@@ -103,13 +104,15 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         for file in copy_car(options.car, options.folder):
             print(file)
         return 0
-    return _check(options.car, options.show_parameters)
+    return _check(options.car, options.show_parameters, options.json)
 
 
-def _check(car: str, parameters: bool) -> int:
+def _check(car: str, parameters: bool, json_file: Path | None) -> int:
+    import json
     import sys
     import warnings
 
+    from ali3.files import write_text
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
     from mbs.vehicle.read_car import read_car
@@ -118,7 +121,11 @@ def _check(car: str, parameters: bool) -> int:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         loaded = read_car(BuiltCar, car)
-    print(summary(loaded))
+    print(f"{summary(loaded)}\n\n{loaded.summary()}")
+    if json_file is not None:
+        names = ("car", *(f"{axle}_tyres" for axle in loaded.axles))
+        tables = {name: echo.to_json() for name, echo in zip(names, loaded.echo(), strict=True)}
+        write_text(json_file, json.dumps(tables, indent=1) + "\n")
     if parameters:
         print("\n" + parameter_table(loaded))
     for warning in caught:

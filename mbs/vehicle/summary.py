@@ -19,12 +19,11 @@ def summary(car: BuiltCar) -> str:
         ("car", f"{car.name}: {car.description}"),
         ("file", str(car.folder)),
         ("mass at rest", f"{total / GRAVITY:.1f} kg, {load['front'] / total:.1%} on the front axle"),
-        ("wheelbase", f"{car.wheelbase:.3f} m"),
         ("length, width", f"{car.vehicle.length:g} m, {car.vehicle.width:g} m"),
     ]
     for name, axle in car.axles.items():
         rows += [
-            (f"{name} axle", f"{axle.suspension.kind}, track {axle.track:.3f} m, {load[name]:.0f} N"),
+            (f"{name} axle", f"{axle.suspension.kind}, {load[name]:.0f} N"),
             (
                 f"{name} springs",
                 f"{abs(rest.spring_force[name]):.0f} N at rest over {rest.spring_length[name]:.4f} m; wheels "

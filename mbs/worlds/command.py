@@ -31,7 +31,7 @@ inputs:
 worlds: DIR gets NAME.road, what wheels feel (road.file of an FMU), and NAME.json, what is drawn and where a car may
 start. A world is kept and copied when it is asked for again; ALI3_CACHE names the folder.
 """
-_OF_ROADS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part")
+_OF_ROADS = ("input", "output", "frictions", "origin", "spacing", "range", "friction_range", "part", "start")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int:
@@ -50,6 +50,13 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     )
     parser.add_argument(
         "--spacing", type=_metres, nargs=2, metavar=("DX", "DY"), help="of a grid: distances of its points, m"
+    )
+    parser.add_argument(
+        "--start",
+        type=_metres,
+        nargs=2,
+        metavar=("X", "Y"),
+        help="where a drive begins, which is told where it is beside the road, m; default: 0 0",
     )
     parser.add_argument("--range", type=_metres, nargs=2, metavar=("BLACK", "WHITE"), help="heights in a picture, m")
     parser.add_argument(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import warnings
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -16,10 +17,12 @@ from ali3.typed_sentences import Sentences
 from mbs.roads.read_road import read_road
 from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
 from mbs.roads.scene_part import read_thinned, scene_part
+from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.road_of_world import points_of, write_world_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thin_world import STEP, off_by, thinner
+from mbs.worlds.world_echo import world_echo
 from mbs.worlds.world_record import record_of, world_record
 from mbs.worlds.world_types import WorldDescription
 
@@ -64,6 +67,8 @@ def make_world(
         if thin:
             world = world.model_copy(update={"spacing": thinner(world.spacing)})
         _check_size(world, file)
+        for sentence in world_echo(str(file), world).warnings():
+            warnings.warn(sentence, RoadWarning, stacklevel=2)
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)

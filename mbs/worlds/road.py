@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import argparse
 import json
+import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ali3.echo import Echo
 from ali3.errors import UserError
 from ali3.files import whole_file, write_text
 from ali3.told_warnings import told_warnings
 from mbs.elements.road import GridRoad, PlaneRoad
+from mbs.kernel.header.enumerations import RoadType
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road
+from mbs.roads.road_echo import Place, place_of, road_echo, start_echo
 from mbs.roads.road_file import RoadFile
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
+from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.make_world import part_of_world
 
@@ -36,8 +42,24 @@ def make_road(options: argparse.Namespace) -> int:
         write_text(options.part, json.dumps(part, allow_nan=False))
         print(f"written: {options.part}, as the world beside {options.input} draws it")
         return 0
+    if options.start is not None and options.input.suffix.lower() == ".road" and not (output or options.picture):
+        head = RoadFile(options.input).header  # a large road is not read for it
+        if head.kind == RoadType.GRID:
+            _tell(
+                [
+                    start_echo(
+                        str(options.input), Place(head.real[:2], head.real[2:4], (head.nx, head.ny)), options.start
+                    )
+                ]
+            )
+        return 0
     with told_warnings():
         road = read_road(options.input, **given)
+    if isinstance(road, GridRoad):
+        echoes = [road_echo(str(options.input), road)]
+        if output is None or options.start is not None:
+            echoes.append(start_echo(str(options.input), place_of(road), tuple(options.start or (0.0, 0.0))))
+        _tell(echoes)
     if output is not None:
         with told_warnings():
             write_road(road, output)
@@ -53,6 +75,13 @@ def make_road(options: argparse.Namespace) -> int:
         if file is not None:
             print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
     return 0
+
+
+def _tell(echoes: Sequence[Echo]) -> None:
+    """Warn of what lies outside."""
+    with told_warnings():
+        for sentence in (sentence for echo in echoes for sentence in echo.warnings()):
+            warnings.warn(sentence, RoadWarning, stacklevel=2)
 
 
 def _given(options: argparse.Namespace) -> dict[str, Any]:

@@ -105,6 +105,7 @@ def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path
             r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends before",
         ),
         ('"time","u"\n-1,0\n1,1\n', r"begins at -1 s; a run begins at 0: add 1 s to all its times"),
+        ('# hold: u\n"time","u"\n0,0\n1,0\n', r"line 1: 'hold:' is no key of a table; did you mean 'held:'"),
         ('"time"\n0\n', r"the heading is 'time'; it must be"),
         ('"time","u"\n', r"holds no values"),
         ("", r"holds no values"),

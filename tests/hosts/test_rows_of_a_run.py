@@ -33,6 +33,7 @@ class Integrator:
         self._names = {"input": ["u"], "output": list(outputs), "parameter": []}
         self.variables = {n: SimpleNamespace(type="Real", variability="continuous", causality=c, unit="m")
                           for c, names in self._names.items() for n in names}  # fmt: skip
+        self.table = {n: SimpleNamespace(low=-np.inf, high=np.inf) for n in self.variables}
         self._u, self._slope, self._y, self._left = 0.0, 0.0, 0.0, refused
 
     def names(self, causality: str) -> list[str]:

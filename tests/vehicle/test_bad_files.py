@@ -196,11 +196,9 @@ GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
     "another mass": ({"vehicle.mass": 620.0}, "the masses of all parts add up to 597 kg"),
     "another centre of mass": ({"vehicle.reference_point": [-1.6, 0.0, 0.353]}, "which it is"),
     "mass behind the axle": ({"chassis.com": [-2.9, 0.0, 0.3769]}, "of the weight to the front axle"),
-    "a rod of inertia": ({"chassis.inertia": [10.0, 420.9, 420.9]}, "radius of gyration"),
     "products too large": ({"chassis.products": [0.0, 0.0, 600.0]}, "principal moments"),
-    "a ring of a wheel": ({"front.wheel.spin_inertia": 1.5}, "radius of gyration"),
+    "a ring of a wheel": ({"front.wheel.spin_inertia": 1.5}, "no wheel has that"),
     "a trail behind the patch": ({"front.tyre.trail": [1.2, 1.2]}, "trail.0 is 1.2; it must be 0 or between"),
-    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "a friction of"),
     "sliding before the peak": ({"rear.tyre.lateral.slide_slip": [0.1, 0.1]}, "must be larger than"),
     "sliding before the peak without load": (
         {"rear.tyre.lateral.slide_slip": [0.3, 0.9]},
@@ -236,18 +234,20 @@ ODD = {
     "ice": ({"road.friction": 0.05}, None),
     "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
     "a soft tyre": ({"rear.tyre.stiffness": 40000.0}, "presses the tyre in"),
-    "weak dampers": ({"front.damper.damping": 60.0}, "of the critical damping"),
-    "weak brakes": ({"brakes.torque": 60.0}, "of the weight at full pedal"),
+    "weak dampers": ({"front.damper.damping": 60.0}, "front damping ratio in bump is 0.0"),
+    "weak brakes": ({"brakes.torque": 60.0}, "braking at full pedal without slip is 0.08"),
+    "a wheel of little inertia": ({"front.wheel.spin_inertia": 0.2}, "front radius of gyration of the wheel about"),
+    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "kilograms in place of newtons in front.tyre.nominal_load"),
     "a small tyre": ({"rear.tyre.nominal_load": 6000.0} | {
         f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
-    }, None),
+    }, "deflection at the nominal load over radius is 0.34"),
     "tyres of glue": ({"front.tyre.grip": 5.0}, "front tyres reach 6.35 of their load; no tyre reaches more than 3"),
     "forces that hold at too little friction": ({"rear.tyre.reference_friction": 0.1}, "_friction 0.1: the rear"),
     "a load without forces": (
         {"rear.tyre.max_load_factor": 0.5}, "rear.tyre.max_load_factor: the forces grow with the load up to 750 N, but",
     ),
-    "brakes behind only": ({"brakes.balance": 0.0}, "balance is 0: 100% of the pedal's torque brakes the rear wheels"),
+    "brakes behind only": ({"brakes.balance": 0.0}, "share of the front wheels in the braking force is 0;"),
     "a rack that turns less": ({"steering.rack_travel": 0.02}, "on a steering arm"),
 }  # fmt: skip
 

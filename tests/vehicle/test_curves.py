@@ -20,8 +20,8 @@ from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Car, CarFileError, CarWarning
 from mbs.vehicle.car import car_from
+from mbs.vehicle.kinematics.axle_compliance import compliance
 from mbs.vehicle.kinematics.car_kinematics import kinematics
-from mbs.vehicle.kinematics.compliance import compliance
 from mbs.vehicle.side import Side
 from mbs.vehicle.suspensions.curve_poses import wheel_curves
 from mbs.vehicle.suspensions.curve_table import COLUMNS, FINEST, read_curves

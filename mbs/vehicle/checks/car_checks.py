@@ -10,7 +10,6 @@ from mbs.vehicle.checks.dimensions import dimension_faults
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import mass_faults, mass_oddities
 from mbs.vehicle.checks.places import place_faults, place_oddities
-from mbs.vehicle.checks.rates import rate_oddities
 from mbs.vehicle.checks.tyres import tyre_faults, tyre_oddities
 from mbs.vehicle.section import sections_of
 
@@ -42,6 +41,5 @@ def car_oddities(car: CarContent, rest: Rest) -> list[str]:
         *place_oddities(car),
         *mass_oddities(car),
         *tyre_oddities(car, rest),
-        *rate_oddities(car, rest),
         *car.front.suspension.steering_oddities(car.steering, car.front.wheel.centre),
     ]

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mbs.vehicle.axle import Wheel
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.places import parts_of
 
@@ -16,9 +15,7 @@ REFERENCE_TOLERANCE = 0.1  # m, between the reference point and the centre of ma
 SHARE = 0.15  # least share of the weight on an axle
 LOW = 0.1  # of the track: least height of the centre of mass
 ASIDE = 0.1  # of the track: most that the centre of mass is off the middle
-PART_RADII = 0.01, 0.6  # m: radii of gyration of parts of a suspension
 SMALL_PRODUCT = 1e-4  # of the largest moment
-BODY_RADII = 0.1, 0.5  # of the car's width about x, of its length about y and z; all mass at the ends: 0.5
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:
@@ -26,17 +23,7 @@ def mass_faults(car: CarContent) -> Iterator[str]:
     yield from _sum(car)
     for part in parts_of(car):
         yield from _tensor(part.key("inertia"), part.inertia)
-        for axis, moment in zip("xyz", part.inertia, strict=True):
-            radius = math.sqrt(moment / part.mass)
-            if not PART_RADII[0] <= radius <= PART_RADII[1]:
-                yield (
-                    f"{part.key('inertia')} has {moment:g} kg.m2 about {axis}: with the mass of {part.mass:g} kg a "
-                    f"radius of gyration of {radius:.3g} m; it must be between {PART_RADII[0]:g} and "
-                    f"{PART_RADII[1]:g} m."
-                )
     yield from _chassis(car)
-    for axle in (car.front, car.rear):
-        yield from _wheel(axle.wheel, axle.tyre.radius)
 
 
 def mass_oddities(car: CarContent) -> Iterator[str]:
@@ -114,36 +101,10 @@ def _tensor(key: str, inertia: tuple[float, float, float]) -> Iterator[str]:
 
 def _chassis(car: CarContent) -> Iterator[str]:
     chassis = car.chassis
-    size = car.vehicle.width, car.vehicle.length, car.vehicle.length
-    for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):
-        radius = math.sqrt(moment / chassis.mass)
-        low, high = BODY_RADII[0] * extent, BODY_RADII[1] * extent
-        if not low <= radius <= high:
-            yield (
-                f"{chassis.key('inertia')} has {moment:g} kg.m2 about {axis}: a radius of gyration of {radius:.3g} m; "
-                f"in a car of {car.vehicle.length:g} by {car.vehicle.width:g} m it must be between {low:.3g} and "
-                f"{high:.3g} m."
-            )
     moments = np.linalg.eigvalsh(np.array(chassis.tensor))
     if moments[0] <= 0.0 or moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-9):
         yield (
             f"{chassis.key('inertia')} {list(chassis.inertia)} and {chassis.key('products')} {list(chassis.products)} "
             f"have the principal moments {[round(float(v), 4) for v in moments]} kg.m2; each must be positive and none "
             "larger than the sum of the two others."
-        )
-
-
-def _wheel(wheel: Wheel, radius: float) -> Iterator[str]:
-    gyration = math.sqrt(wheel.spin_inertia / wheel.mass)
-    if not 0.35 * radius <= gyration <= radius:
-        yield (
-            f"{wheel.key('spin_inertia')} is {wheel.spin_inertia:g} kg.m2: with the mass of {wheel.mass:g} kg a radius "
-            f"of gyration of {gyration:.3g} m; in a tyre of {radius:g} m it must be between {0.35 * radius:.3g} and "
-            f"{radius:g} m."
-        )
-    if not 0.5 <= wheel.diametral_inertia / wheel.spin_inertia <= 1.5:
-        yield (
-            f"{wheel.key('diametral_inertia')} is {wheel.diametral_inertia:g} kg.m2; it must be between half of "
-            f"{wheel.key('spin_inertia')} and 1.5 times it, {0.5 * wheel.spin_inertia:g} and "
-            f"{1.5 * wheel.spin_inertia:g} kg.m2."
         )

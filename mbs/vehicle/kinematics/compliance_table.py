@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from mbs.vehicle.kinematics.compliance import LOADS, SENSES, Compliance
+from mbs.vehicle.kinematics.axle_compliance import LOADS, SENSES, Compliance
 
 _DEG = 180.0 / math.pi
 _FORCE = {"angle": (1e3 * _DEG, "deg/kN"), "shift": (1e6, "mm/kN")}

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from ali3.chart_words import png_metadata
 from ali3.html_elements import document, element, picture, table
+from mbs.vehicle.kinematics.axle_compliance import Compliance
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
-from mbs.vehicle.kinematics.compliance import Compliance
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.plots import steer_figure, travel_figure
 from mbs.vehicle.kinematics.table import rows

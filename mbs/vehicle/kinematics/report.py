@@ -14,8 +14,8 @@ from ali3.files import check_writable, write_text
 from ali3.told_warnings import told_warnings
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
+from mbs.vehicle.kinematics.axle_compliance import compliance, fidelity_of
 from mbs.vehicle.kinematics.car_kinematics import MOTIONS, POINTS, checked_travel, kinematics
-from mbs.vehicle.kinematics.compliance import compliance, fidelity_of
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.curve_files import curve_file, write_curve
 from mbs.vehicle.kinematics.table import rows, text

@@ -80,11 +80,6 @@ class MagicFormula(TyreSection, of=MagicTyre):
         )
         return made if self.bore is None else replace(made, bore=self.bore.element(TyreBore))
 
-    def faults(self) -> Iterator[str]:
-        """The friction is that of a tyre."""
-        for name, friction in zip(("longitudinal", "lateral"), self.friction, strict=True):
-            yield from self.friction_faults(f"{self.key('file')} has a {name}", friction)
-
     def oddities(self) -> Iterator[str]:
         """What the file lacks or what of it is not used."""
         assert self._read is not None

@@ -92,9 +92,7 @@ class TMeasy(TyreSection, of=Tyre):
     bore: Bore | None = None
 
     def faults(self) -> Iterator[str]:
-        """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too; the
-        friction is that of a tyre.
-        """
+        """The trail vanishes before it ends; at no load and at the largest all is positive and in its order too."""
         found = [
             f"{self.key('trail_end')}.{k} is {self.trail_end[k]:g}; it must be larger than "
             f"{self.key('trail_zero')}.{k}, {self.trail_zero[k]:g}."
@@ -105,11 +103,6 @@ class TMeasy(TyreSection, of=Tyre):
         if not found and not any(True for curve in (self.longitudinal, self.lateral) for _ in curve.faults()):
             for field, _, wrong in self.tyre().faults_over_loads():
                 yield f"{self.key(field)} {wrong}; its two numbers are continued to this load."
-        for curve in (self.longitudinal, self.lateral):
-            for k, load in enumerate((self.nominal_load, 2.0 * self.nominal_load)):
-                at = f"at a load of {load:g} N ({self.key('nominal_load')}{', twice' if k else ''})"
-                what = f"{curve.key('max_force')}.{k} is {curve.max_force[k]:g} N {at}: a"
-                yield from self.friction_faults(what, curve.max_force[k] / load)
 
     @property
     def largest_load(self) -> tuple[float, str]:

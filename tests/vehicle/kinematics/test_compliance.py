@@ -10,8 +10,8 @@ import pytest
 from mbs import Affine, Simulation, compile
 from mbs.common.errors import ModelError
 from mbs.vehicle import Fidelity, load
+from mbs.vehicle.kinematics.axle_compliance import LOADS, compliance
 from mbs.vehicle.kinematics.car_kinematics import wheel_by_rack
-from mbs.vehicle.kinematics.compliance import LOADS, compliance
 from mbs.vehicle.kinematics.curves import steer_curve
 from mbs.vehicle.kinematics.held_car import held_model
 from mbs.vehicle.kinematics.wheel_loads import wheel_loads

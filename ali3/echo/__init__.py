@@ -1,0 +1,13 @@
+"""What was understood of a file, in the terms of the field: one table of quantities, one comparison, one sentence.
+
+A reader gives an `Echo`: values of its quantities of the table (`quantities.csv`, a line each), each with the keys that
+it follows from, and the common mistakes of its kind of file with what the values are without each. `Echo.warnings`
+compares, `Echo.text` prints.
+"""
+
+from __future__ import annotations
+
+from ali3.echo.judged import Echo, Mistake, Value
+from ali3.echo.quantity import WIDEST, Quantity, Range, quantities_of
+
+__all__ = ["WIDEST", "Echo", "Mistake", "Quantity", "Range", "Value", "quantities_of"]

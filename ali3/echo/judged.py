@@ -1,0 +1,192 @@
+"""Values of quantities of a file, compared with their ranges, and what is told of those outside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from ali3.columns import in_columns
+from ali3.echo.quantity import WIDEST, Quantity
+
+ROUNDING = 1e-9  # of the range
+MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST = 3, 2, 1, 4
+
+
+@dataclass(frozen=True)
+class Value:
+    """A quantity of something in the file."""
+
+    quantity: Quantity
+    value: float
+    """In the unit of the quantity."""
+    keys: Mapping[str, Any] = field(default_factory=dict)
+    """What it follows from: key path in the file, and what stands there."""
+    of: str = ""
+    """Of what, where there are several, as "front"."""
+
+    @property
+    def name(self) -> str:
+        """With what it belongs to."""
+        return f"{self.of} {self.quantity.name}".strip()
+
+    def inside(self, kind: str = WIDEST) -> bool:
+        """Whether it is in the range of a kind. What has no range is."""
+        bounds = self.quantity.range(kind)
+        if bounds is None:
+            return True
+        slack = ROUNDING * (bounds[1] - bounds[0]) if math.isfinite(bounds[1] - bounds[0]) else 0.0
+        return bounds[0] - slack <= self.value <= bounds[1] + slack
+
+
+Undo: TypeAlias = Callable[[], "Sequence[Value] | None"]
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A common mistake that a file may have."""
+
+    words: str
+    """As "degrees in place of radians in front.alignment.toe_left"."""
+    keys: frozenset[str]
+    """What it would have changed; it is tried where a value outside its range follows from one of them."""
+    undo: Undo
+    """The values of the file without it; None where there is no such thing."""
+
+
+@dataclass(frozen=True)
+class Echo:
+    """What was understood of a file.
+
+    `values` in the order in which they are shown; `mistakes` with the commonest first.
+    """
+
+    what: str
+    """The file, for messages."""
+    values: Sequence[Value]
+    mistakes: Sequence[Mistake] = ()
+    kind: str = WIDEST
+    """Key of the ranges."""
+
+    @property
+    def outside(self) -> list[Value]:
+        """Values outside their ranges."""
+        return [v for v in self.values if not v.inside(self.kind)]
+
+    def text(self) -> str:
+        """The table: a row for each quantity, with its values, the usual range, and a mark at what lies outside."""
+        lines = [("quantity", "value", "usual", "")]
+        for q in dict.fromkeys(v.quantity for v in self.values):
+            own = [v for v in self.values if v.quantity is q]
+            unit = "" if q.unit == "1" else f" {q.unit}"
+            given = ", ".join(f"{v.of} {v.value:.4g}".strip() for v in own) + unit
+            mark = "" if all(v.inside(self.kind) for v in own) else "<- outside"
+            lines.append((q.name, given, _range(q, self.kind), mark))
+        return "\n".join(in_columns(lines))
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """A record for each value: name, of, symbol, unit, value, range, inside, follows, keys, source."""
+        return [
+            {
+                "name": v.quantity.name,
+                "of": v.of,
+                "symbol": v.quantity.symbol,
+                "unit": v.quantity.unit,
+                "value": v.value if math.isfinite(v.value) else None,
+                "range": v.quantity.range(self.kind),
+                "inside": v.inside(self.kind),
+                "follows": v.quantity.follows,
+                "keys": {
+                    key: given if isinstance(given, (int, float)) else str(given) for key, given in v.keys.items()
+                },
+                "source": v.quantity.source,
+            }
+            for v in self.values
+        ]
+
+    def warnings(self) -> list[str]:
+        """A sentence for each cause.
+
+        A mistake is named where undoing it brings inside all values that follow from what it changes, and none
+        outside; of several the one that mends most, and of those that mend the same at most two. What no mistake
+        explains is told once for what shares a key.
+        """
+        left, told = self.outside, []
+        undone = _undone(self.mistakes, left)
+        while left:
+            names = {v.name for v in left}
+            mended = {m.words: self._mended(names, after, m.keys) for m, after in undone}
+            best = max(mended.values(), key=len, default=frozenset())
+            if not best:
+                break
+            causes = [words for words, names in mended.items() if names == best][:MOST_CAUSES]
+            first = next(v for v in left if v.name in best)
+            after = next(after for m, after in undone if m.words == causes[0])
+            value = next(v for v in after if v.name == first.name)
+            cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
+            told.append(self._sentence([v for v in left if v.name in best], cause))
+            left = [v for v in left if v.name not in best]
+        for group in _sharing(left):
+            told.append(self._sentence(group, ""))
+        return told
+
+    def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
+        """Which of some values it brings inside; none where one that follows from what it changes is outside."""
+        before = {v.name for v in self.outside}
+        wrong = {v.name for v in after if not v.inside(self.kind)}
+        own = {v.name for v in self.values if changed & set(v.keys)}
+        there = {v.name for v in after}
+        return frozenset() if wrong - before or wrong & own else frozenset((names & there) - wrong)
+
+    def _sentence(self, group: Sequence[Value], cause: str) -> str:
+        first, q = group[0], group[0].quantity
+        keys = {key: given for v in group for key, given in v.keys.items()}
+        shown = [f"{key} = {_given(given)}" for key, given in list(keys.items())[:MOST_KEYS]]
+        more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
+        sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
+        if len(group) > 1:
+            others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
+            left = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
+            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{left}"
+        sentence += f"; {cause}." if cause else "."
+        sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
+        return (f"{self.what}: " if self.what else "") + sentence
+
+
+def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
+    keys = {key for v in outside for key in v.keys}
+    tried = ((m, m.undo()) for m in mistakes if m.keys & keys)
+    return [(m, after) for m, after in tried if after is not None]
+
+
+def _sharing(values: Sequence[Value]) -> list[list[Value]]:
+    """Values in groups, each with those that share a key with its first."""
+    groups: list[list[Value]] = []
+    for v in values:
+        for group in groups:
+            if set(group[0].keys) & set(v.keys):
+                group.append(v)
+                break
+        else:
+            groups.append([v])
+    return groups
+
+
+def _range(quantity: Quantity, kind: str) -> str:
+    bounds = quantity.range(kind)
+    if bounds is None:
+        return ""
+    unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+    low, high = bounds
+    if math.isinf(high):
+        return f"{low:g}{unit} or more"
+    return f"{high:g}{unit} or less" if math.isinf(low) else f"{low:g} to {high:g}{unit}"
+
+
+def _given(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join([*map(_given, value[:LONGEST]), *["..."] * (len(value) > LONGEST)]) + "]"
+    return str(value)

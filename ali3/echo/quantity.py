@@ -1,0 +1,67 @@
+"""A quantity by which an engineer knows a thing: its name, unit, and the ranges in which things of its kind lie."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TypeAlias
+
+Range: TypeAlias = tuple[float, float]
+TABLE = Path(__file__).with_name("quantities.csv")
+WIDEST = ""
+"""The kind of a thing whose file names none: the range is the widest of all kinds."""
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """A row of the table."""
+
+    name: str
+    """As the field has it, as "bounce frequency"."""
+    symbol: str
+    """In formulas; may be empty."""
+    unit: str
+    """In which values and ranges are; "1" for a ratio."""
+    follows: str
+    """How it follows from the file, in words."""
+    ranges: Mapping[str, Range]
+    """By kind of thing, both ends included; empty: it is shown and not judged."""
+    source: str
+    """Where the range is from."""
+
+    def range(self, kind: str = WIDEST) -> Range | None:
+        """Least and largest usual value; of an unknown kind the widest. `kind`: key of `ranges`."""
+        if not self.ranges:
+            return None
+        if kind in self.ranges:
+            return self.ranges[kind]
+        return min(low for low, _ in self.ranges.values()), max(high for _, high in self.ranges.values())
+
+    def shown(self, value: float) -> str:
+        """A value with the unit."""
+        return f"{value:.4g}" + ("" if self.unit == "1" else f" {self.unit}")
+
+
+@cache
+def quantities_of(thing: str) -> Mapping[str, Quantity]:
+    """Quantities of a kind of thing by short keys, from the table beside this file. `thing`: as "car"."""
+    with TABLE.open(encoding="utf-8", newline="") as file:
+        found = [row for row in csv.DictReader(file) if row["thing"] == thing]
+    return {
+        row["key"]: Quantity(
+            *(row[n] for n in ("name", "symbol", "unit", "follows")), _ranges(row["ranges"]), row["source"]
+        )
+        for row in found
+    }
+
+
+def _ranges(text: str) -> dict[str, Range]:
+    """Ranges of kinds as the table has them: ``KIND LOW HIGH, ...``, or ``LOW HIGH`` of all."""
+    found = {}
+    for part in filter(None, text.split(", ")):
+        *kind, low, high = part.split()
+        found["".join(kind)] = float(low), float(high)
+    return found

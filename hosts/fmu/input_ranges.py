@@ -1,0 +1,59 @@
+"""Values over time of an input, against the range that the FMU declares for it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.fmu.variables import Variable
+
+ROUNDING = 1e-6  # of the range
+LEAST = 0.02  # of the range that values in another unit reach
+CLIPPED = 1.2  # times the range: a factor or an offset more than another unit
+_MISTAKES = {  # by unit of the input: what undoes the mistake, and its words
+    "1": ((0.01, "percent"), (math.pi / 180.0, "degrees")),
+    "rad": ((math.pi / 180.0, "degrees"),),
+    "rad/s": ((math.pi / 180.0, "degrees per second"), (math.pi / 30.0, "rpm")),
+    "m": ((1e-3, "mm"),),
+    "m/s": ((1.0 / 3.6, "km/h"), (0.44704, "mph"), (1e-3, "mm/s")),
+    "N": ((1e-3, "mN"),),
+    "Pa": (),
+}
+
+
+def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
+    """What is told of values beyond the range; empty where all are within, up to rounding.
+
+    `values`: in the unit of the variable, shape (n,); `where`: how messages call the number of one of them, from 1.
+    """
+    low, high = variable.low, variable.high
+    span = (
+        high - low if math.isfinite(high - low) else max((abs(x) for x in (low, high) if math.isfinite(x)), default=0.0)
+    )
+    off = np.maximum(low - values, values - high)
+    worst = int(np.argmax(off))
+    if not off[worst] > ROUNDING * span:
+        return ""
+    count, first = int((off > ROUNDING * span).sum()), int(np.argmax(off > ROUNDING * span))
+    unit = "" if variable.unit in ("", "1") else f" {variable.unit}"
+    times = f"from {where} {first + 1} on {count} of {len(values)} are beyond"
+    reached = f"reaches {values[worst]:.6g}{unit} in {where} {worst + 1} ({times})"
+    return f"{reached}; the range of the FMU's input is {variable.range}{_hint(variable, values)}"
+
+
+def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
+    low, high = variable.low, variable.high
+    limit = max((abs(x) for x in (low, high) if math.isfinite(x)), default=0.0)
+    largest = float(np.max(np.abs(values)))
+    if largest <= CLIPPED * limit:
+        return "; it may be clipped by a factor or an offset."
+    found = [
+        words
+        for factor, words in _MISTAKES.get(variable.unit or "1", ())
+        if low <= factor * float(values.min())
+        and factor * float(values.max()) <= high
+        and factor * largest >= LEAST * limit
+    ]
+    return f"; it looks like {' or '.join(found)}." if found else "; is its unit right?"

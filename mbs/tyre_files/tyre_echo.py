@@ -1,0 +1,208 @@
+"""What was understood of a tyre: its steady forces in numbers that are known of tyres, and where they usually lie."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.echo import Echo, Mistake, Value, quantities_of
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.elements.tyre import Tyre
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
+
+Array = NDArray[np.float64]
+DEG = math.pi / 180.0
+FARTHEST = 0.6
+"""Slip, and slip angle, rad, up to which a peak is looked for."""
+BEYOND = 0.5
+"""Slip at which a curve is held against its peak."""
+NEAR = 0.95
+"""Of a peak: some curves rise for ever and have none."""
+SLIPS = np.linspace(0.0, FARTHEST, 1201)
+
+QUANTITIES = quantities_of("tyre")
+OWN = {  # the coefficients that a value follows from first
+    "ky": ("PKY1", "PKY2", "LKY", "FNOMIN"),
+    "muy": ("PDY1", "PDY2", "PCY1", "LMUY", "FNOMIN"),
+    "peaky": ("PCY1", "PKY1", "PDY1", "PEY1"),
+    "zeroy": ("PHY1", "PVY1"),
+    "lefty": ("PCY1", "PEY1"),
+    "kx": ("PKX1", "PKX3", "LKX", "FNOMIN"),
+    "mux": ("PDX1", "PDX2", "PCX1", "LMUX", "FNOMIN"),
+    "peakx": ("PCX1", "PKX1", "PDX1", "PEX1"),
+    "zerox": ("PHX1", "PVX1"),
+    "leftx": ("PCX1", "PEX1"),
+    "ratio": ("PDY1", "PCY1", "LMUY", "PDX1", "PCX1", "LMUX"),
+    "deflection": ("FNOMIN", "VERTICAL_STIFFNESS", "UNLOADED_RADIUS"),
+}
+SCALED = (  # coefficient, factor that undoes the mistake, words
+    ("PKY1", 1.0 / DEG, "per degree in place of per radian in PKY1"),
+    ("PKX1", 100.0, "per percent in place of per slip in PKX1"),
+    ("PHY1", DEG, "degrees in place of radians in PHY1"),
+    ("PHX1", 0.01, "percent in place of a ratio in PHX1"),
+    ("PVY1", -1.0, "the sign of PVY1"),
+    ("PEY1", -1.0, "the sign of PEY1"),
+    ("PEX1", -1.0, "the sign of PEX1"),
+    ("PDY1", 0.01, "percent in place of a ratio in PDY1"),
+    ("PDX1", 0.01, "percent in place of a ratio in PDX1"),
+)
+LOADS = ((9.80665, "kilograms in place of newtons in FNOMIN"), (4.44822, "pounds in place of newtons in FNOMIN"))
+PART = {1.0: "", 0.5: "at half the nominal load"}
+"""Loads at which curves are looked at, over the nominal one."""
+
+
+@dataclass(frozen=True)
+class _Curve:
+    slope: float
+    """Over the load, 1/rad or 1."""
+    force: Array
+    """Over the load, at `SLIPS`, without shifts."""
+    at_zero: float
+    """Over the load, with shifts."""
+
+
+def magic_echo(what: str, tyre: MagicTyre, kind: str = "", prefix: str = "") -> Echo:
+    """What was understood of a Magic Formula tyre.
+
+    `what`: the file; `kind`: of the vehicle, else the widest range; `prefix`: of its keys, for those of a car.
+    """
+    c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
+    mistakes = [_undo(what, tyre, prefix, key, factor, words) for key, factor, words in SCALED if c.get(key)]
+    for factor, words in LOADS:
+        heavier = replace(tyre, nominal_load=factor * tyre.nominal_load)
+        mistakes.append(Mistake(words, frozenset({prefix + "FNOMIN"}), partial(_magic_values, heavier, prefix)))
+    return Echo(what, _magic_values(tyre, prefix), mistakes, kind)
+
+
+def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo:
+    """The same of a TMeasy tyre."""
+    mistakes = []
+    for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
+        factor = DEG if per == "degree" else 0.01
+        for fields, way, words in (
+            (("slope",), 1.0 / factor, f"per {per} in place of per slip in {prefix}{name}.slope"),
+            (("max_slip", "slide_slip"), factor, f"{per}s in place of a ratio in {prefix}{name}.max_slip"),
+        ):
+            curve = getattr(tyre, name)
+            changed = replace(curve, **{f: tuple(way * v for v in getattr(curve, f)) for f in fields})
+            keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
+            mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
+    for factor, words in LOADS:
+        heavier = replace(tyre, nominal_load=factor * tyre.nominal_load)
+        key = f"{prefix}nominal_load"
+        mistakes.append(
+            Mistake(words.replace("FNOMIN", key), frozenset({key}), partial(_tmeasy_values, heavier, prefix))
+        )
+    return Echo(what, _tmeasy_values(tyre, prefix), mistakes, kind)
+
+
+def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
+    """Cornering stiffness without camber at a load, N/rad. `load`: in N."""
+    if isinstance(tyre, MagicTyre):
+        return cornering_stiffness(tyre.coefficients, tyre.nominal_load, load) * tyre.lky
+    return at_load(tyre.lateral.slope, load / tyre.nominal_load)
+
+
+def _undo(what: str, tyre: MagicTyre, prefix: str, key: str, factor: float, words: str) -> Mistake:
+    coefficients = {**tyre.coefficients, key: factor * tyre.coefficients[key]}
+    undone = replace(tyre, coefficients=coefficients)
+    return Mistake(words, frozenset({prefix + key}), partial(_magic_values, undone, prefix))
+
+
+def _magic_values(tyre: MagicTyre, prefix: str) -> list[Value]:
+    nominal = tyre.nominal_load
+    given = {**MAGIC_COEFFICIENTS, **tyre.coefficients, "FNOMIN": nominal, "UNLOADED_RADIUS": tyre.radius}
+    given["VERTICAL_STIFFNESS"] = tyre.stiffness
+    keys = {name: {prefix + k: given[k] for k in own if k in given} for name, own in OWN.items()}
+    curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
+    return [*_of_curves(curves, keys), _deflection(nominal, tyre.stiffness, tyre.radius, keys["deflection"])]
+
+
+def _lateral(tyre: MagicTyre, part: float) -> _Curve:
+    c, nominal = {**MAGIC_COEFFICIENTS, **tyre.coefficients}, tyre.nominal_load
+    load = part * nominal
+    dfz = load / (nominal * c["LFZO"]) - 1.0
+    horizontal = (c["PHY1"] + c["PHY2"] * dfz) * c["LHY"]
+    vertical = (c["PVY1"] + c["PVY2"] * dfz) * c["LVY"] * c["LMUY"]
+    at_zero = magic_lateral(c, nominal, load, abs(horizontal)).item() / load * math.copysign(1.0, horizontal)
+    slope = cornering_stiffness(c, nominal, load) / load
+    # with 'adapted_sae' the slip angle has the other sign
+    return _Curve(
+        slope, magic_lateral(c, nominal, load, SLIPS) / load, at_zero + vertical * math.copysign(1.0, c["PKY1"])
+    )
+
+
+def _longitudinal(tyre: MagicTyre, part: float) -> _Curve:
+    c, nominal = {**MAGIC_COEFFICIENTS, **tyre.coefficients}, tyre.nominal_load
+    load = part * nominal
+    dfz = load / (nominal * c["LFZO"]) - 1.0
+    force = magic_longitudinal(c, nominal, load, np.array([1e-6, (c["PHX1"] + c["PHX2"] * dfz) * c["LHX"]])) / load
+    vertical = (c["PVX1"] + c["PVX2"] * dfz) * c["LVX"] * c["LMUX"]
+    return _Curve(force[0] / 1e-6, magic_longitudinal(c, nominal, load, SLIPS) / load, float(force[1]) + vertical)
+
+
+def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
+    nominal = tyre.nominal_load
+    curves = {}
+    for part in PART:
+        made = []
+        for curve in (tyre.lateral, tyre.longitudinal):
+            slope, most, slides = (at_load(getattr(curve, f), part) for f in ("slope", "max_force", "slide_force"))
+            at, end = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
+            # the lateral slip is the tangent of the angle
+            slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
+            made.append(
+                _Curve(
+                    slope / (part * nominal), tmeasy_force(slope, most, at, slides, end, slips) / (part * nominal), 0.0
+                )
+            )
+        curves[part] = (made[0], made[1])
+    keys: dict[str, dict[str, Any]] = {}
+    for axis, name in (("y", "lateral"), ("x", "longitudinal")):
+        curve = getattr(tyre, name)
+        own = {
+            f"{prefix}{name}.{f}": list(getattr(curve, f))
+            for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
+        }
+        own[f"{prefix}nominal_load"] = nominal
+        for q, used in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
+            keys[q + axis] = {
+                k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
+            }
+    keys["ratio"] = keys["muy"] | keys["mux"]
+    keys["deflection"] = {f"{prefix}{f}": getattr(tyre, f) for f in ("nominal_load", "stiffness", "radius")}
+    return [*_of_curves(curves, keys), _deflection(nominal, tyre.stiffness, tyre.radius, keys["deflection"])]
+
+
+def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
+    found = []
+    for part, pair in curves.items():
+        peaks: list[float] = []
+        for axis, curve in zip("yx", pair, strict=True):
+            to_deg, peak = 1.0 / DEG if axis == "y" else 1.0, float(np.max(curve.force))
+            peaks.append(peak)
+            k, last = int(np.argmax(curve.force >= NEAR * peak)), float(np.interp(BEYOND, SLIPS, curve.force))
+            values = {
+                "k": curve.slope / to_deg,
+                "mu": peak,
+                "peak": float(SLIPS[k]) * to_deg,
+                "zero": abs(curve.at_zero),
+                "left": last / peak if peak > 0.0 else math.nan,
+            }
+            for name, value in values.items():
+                quantity = QUANTITIES[name + axis]
+                found.append(Value(quantity, value, keys[name + axis], PART[part]))
+        ratio = peaks[0] / peaks[1] if peaks[1] > 0.0 else math.inf
+        found.append(Value(QUANTITIES["ratio"], ratio, keys["ratio"], PART[part]))
+    return found
+
+
+def _deflection(load: float, stiffness: float, radius: float, keys: Mapping[str, Any]) -> Value:
+    return Value(QUANTITIES["deflection"], load / stiffness / radius, keys)

@@ -1,0 +1,177 @@
+"""Values of an axle of a car file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ali3.echo import Value, quantities_of
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.equilibrium import Rest
+from mbs.vehicle.checks.places import drawn_points, parts_of
+from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
+from mbs.vehicle.linkages.continuation import HEAVE
+from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
+from mbs.vehicle.springs import Damper
+from mbs.vehicle.suspensions.curves import Curves
+
+CAR = quantities_of("car")
+DEG = 180.0 / math.pi
+SPEED = 0.3  # m/s, of a damper
+ABSOLUTE = 0.1  # m: lateral places of a table that are farther from 0 count from the middle of the car
+
+
+@dataclass(frozen=True)
+class AxleRates:
+    """How springs and dampers act at the wheels of an axle."""
+
+    wheel_rate: float
+    """N/m, of one wheel."""
+    damper_ratio: float
+    """Travel of the damper over that of the wheel."""
+    roll_stiffness: float
+    """N m/rad, of the axle."""
+    steering_axis: dict[str, float]
+    """Caster, kingpin inclination, rad, and kingpin offset, m, where links steer the wheel."""
+
+
+def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
+    """By the links as drawn, or without links by virtual work at rest; None where a spring is not pressed.
+
+    `name`: "front" or "rear".
+    """
+    axle = car.axles[name]
+    if axle.suspension.linked:
+        try:
+            linkage = Linkage(car, name)
+            at = linkage.drawn
+            travel, wheel = travel_measures(linkage, at, HEAVE), wheel_measures(linkage, at)
+            roll = roll_measures(linkage, at)["roll_stiffness"]
+        except (NotReachedError, ValueError):
+            return None
+        names = ("caster_angle", "kingpin_inclination_angle", "kingpin_offset_at_ground")
+        axis = {n: wheel[f"{n}_left"] for n in names if name == "front" and f"{n}_left" in wheel}
+        return AxleRates(travel["wheel_rate_left"], travel["damper_ratio_left"], roll, axis)
+    carried, force = _carried(axle, rest.load[name]), abs(rest.spring_force[name])
+    if force < 1.0 or carried <= 0.0:
+        return None
+    ratio = carried / force
+    rate = _stiffness(axle, force) * ratio**2
+    return AxleRates(rate, ratio, 0.5 * rate * axle.track**2, {})
+
+
+def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None) -> Iterator[Value]:
+    """Values of one axle. `name`: "front" or "rear"; `rates`: of it."""
+    axle, centre = car.axles[name], car.axles[name].wheel.centre
+    y = {axle.wheel.key("centre"): list(centre)}
+    yield Value(CAR["track"], axle.track, y, name)
+    for key, point in drawn_points(axle).items():
+        if key.endswith("ball_joint"):
+            of = f"{name} {key.rsplit('.', 1)[1].removesuffix('_ball_joint')}"
+            away = math.hypot(point[0] - centre[0], point[2] - centre[2])
+            yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **y}, of)
+            yield Value(CAR["joint_radius"], away / axle.tyre.radius, {key: list(point), **y}, of)
+    yield from _alignment(axle, name)
+    yield Value(
+        CAR["wheel_radius"],
+        math.sqrt(axle.wheel.spin_inertia / axle.wheel.mass) / axle.tyre.radius,
+        {axle.wheel.key("spin_inertia"): axle.wheel.spin_inertia, axle.wheel.key("mass"): axle.wheel.mass},
+        name,
+    )
+    moments = {axle.wheel.key(f): getattr(axle.wheel, f) for f in ("diametral_inertia", "spin_inertia")}
+    yield Value(CAR["wheel_moments"], axle.wheel.diametral_inertia / axle.wheel.spin_inertia, moments, name)
+    nominal = axle.tyre.nominal_load
+    yield Value(CAR["loaded"], rest.load[name] / nominal, {axle.tyre.key("nominal_load"): nominal}, name)
+    if isinstance(axle.suspension, Curves):
+        yield from _of_curves(axle.suspension, name, y)
+    if rates is not None:
+        for quantity, angle in (("caster", "caster_angle"), ("kingpin", "kingpin_inclination_angle")):
+            if angle in rates.steering_axis:
+                yield Value(CAR[quantity], rates.steering_axis[angle] * DEG, _points(axle), name)
+        if (scrub := rates.steering_axis.get("kingpin_offset_at_ground")) is not None:
+            yield Value(CAR["scrub"], scrub, {**y, **_points(axle)}, name)
+        yield from _springs(axle, name, rest, rates)
+
+
+def _points(axle: Axle) -> dict[str, Any]:
+    return {key: list(p) for key, p in drawn_points(axle).items() if key.endswith(("ball_joint", "strut_top"))}
+
+
+def _alignment(axle: Axle, name: str) -> Iterator[Value]:
+    a = axle.alignment
+    toe = {a.key(f"toe_{side}"): getattr(a, f"toe_{side}") for side in ("left", "right")}
+    camber = {a.key(f"camber_{side}"): getattr(a, f"camber_{side}") for side in ("left", "right")}
+    yield Value(CAR["toe"], sum(toe.values()) * DEG, toe, name)
+    for side, (key, value) in zip(("left", "right"), camber.items(), strict=True):
+        yield Value(CAR["camber"], value * DEG, {key: value}, f"{name} {side}")
+    yield Value(CAR["cambers"], (a.camber_left - a.camber_right) * DEG, camber, name)
+
+
+def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Value]:
+    mass, rate = _carried(axle, rest.load[name]) / GRAVITY, rates.wheel_rate
+    spring, damper = axle.spring, axle.damper
+    field = "stiffness" if spring.stiffness is not None else "table"
+    springs = {spring.key(field): getattr(spring, field), spring.key("factor"): spring.factor}
+    yield Value(CAR["rate"], rate * 1e-3, springs, name)
+    if mass <= 0.0 or rate <= 0.0:
+        return
+    yield Value(CAR["bounce"], math.sqrt(rate / mass) / (2.0 * math.pi), springs, name)
+    field = "damping" if damper.damping is not None else "table"
+    dampers = {damper.key(field): getattr(damper, field), damper.key("factor"): damper.factor}
+    bump, rebound = (damping_at(damper, speed) for speed in (-SPEED, SPEED))
+    critical = 2.0 * math.sqrt(rate * mass)
+    for quantity, damping in (("bump", bump), ("rebound", rebound)):
+        yield Value(CAR[quantity], damping * rates.damper_ratio**2 / critical, dampers, name)
+    if bump > 0.0:
+        yield Value(CAR["sides"], rebound / bump, {k: v for k, v in dampers.items() if k.endswith(field)}, name)
+
+
+def damping_at(damper: Damper, speed: float) -> float:
+    """Force over speed, N s/m, of a damper. `speed`: m/s, positive in rebound."""
+    if damper.damping is not None:
+        return damper.damping * damper.factor
+    v, force = np.array(damper.table, dtype=float).T
+    at = float(np.clip(speed, v[0], v[-1]))
+    return float(np.interp(at, v, force)) / at * damper.factor if at else 0.0
+
+
+def _stiffness(axle: Axle, force: float) -> float:
+    """Of a spring under a force, N/m."""
+    spring = axle.spring
+    if spring.stiffness is not None:
+        return spring.stiffness * spring.factor
+    x, f = np.array(spring.table, dtype=float).T
+    k = int(np.clip(np.searchsorted(f * spring.factor, force), 1, len(x) - 1))
+    return float((f[k] - f[k - 1]) / (x[k] - x[k - 1])) * spring.factor
+
+
+def _carried(axle: Axle, load: float) -> float:
+    """Weight on the spring of a wheel, N: its load without what is not sprung."""
+    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
+
+
+def _of_curves(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
+    table, key = curves.table, {curves.key("file"): curves.file}
+    i, k = (int(np.argmin(np.abs(axis))) for axis in (table.travel, table.second))
+    (wheel,) = centre.values()
+    for column in ("wheel_centre_y", "contact_centre_y"):
+        values = table.of(column, "left")
+        if values is not None and abs(values[i, k]) > ABSOLUTE:
+            yield Value(CAR["curve_place"], float(values[i, k]) / wheel[1], {**key, **centre}, name)
+            break
+    for quantity, columns in (
+        ("curve_camber", ("camber_angle", "inclination_angle")),
+        ("curve_toe", ("toe_angle", "steer_angle")),
+    ):
+        for column, sign in zip(columns, (1.0, -1.0), strict=True):
+            values = table.of(column, "left")
+            if values is not None:
+                slope = np.gradient(values[:, k], table.travel)[i] * DEG
+                yield Value(CAR[quantity], sign * float(slope), key, name)
+                break

@@ -1,0 +1,266 @@
+"""What was understood of a car file."""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ali3.echo import Echo, Mistake, Value
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.tyre_files.tyre_echo import cornering, magic_echo, tmeasy_echo
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.equilibrium import Rest
+from mbs.vehicle.checks.masses import centre_of, weighed_points
+from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.echo.axle_values import CAR, DEG, axle_rates, axle_values
+from mbs.vehicle.environment import GRAVITY
+
+Data: TypeAlias = "dict[str, Any]"
+Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
+"""Makes a car of the altered content of its file, and finds its rest; None where that is no car."""
+FINAL_DRIVE = 4.0
+
+
+def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake) -> list[Echo]:
+    """Echo of the car, then of the tyres of each axle.
+
+    `what`: the file; `rest`: the car at rest; `data`: content of the file.
+    """
+    kind = car.vehicle.kind or ""
+    mistakes = [
+        Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
+    ]
+    return [Echo(what, car_values(car, rest), mistakes, kind), *(tyre_echo(what, a, kind) for a in car.axles.values())]
+
+
+def tyre_echo(what: str, axle: Axle, kind: str) -> Echo:
+    """Echo of the tyres of an axle, with the factors of the car's file."""
+    made = axle.tyre.tyre("left")
+    if isinstance(made, MagicTyre):
+        return magic_echo(what, made, kind, f"{axle.tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: ")
+    return tmeasy_echo(what, made, kind, f"{axle.tyre.path}.")
+
+
+def car_values(car: CarContent, rest: Rest) -> list[Value]:
+    """Values of all quantities of a car."""
+    rates = {name: axle_rates(car, name, rest) for name in car.axles}
+    found = [*_of_dimensions(car, rest), *_of_masses(car)]
+    for name in car.axles:
+        found += axle_values(car, name, rest, rates[name])
+    linked = [r for r in rates.values() if r is not None]
+    if len(linked) == len(rates) and car.linked:
+        stiffness = [r.roll_stiffness for r in linked]
+        total, mass = sum(stiffness), 2.0 * sum(rest.load.values()) / GRAVITY
+        keys = {
+            axle.spring.key(f): getattr(axle.spring, f) for axle in car.axles.values() for f in ("stiffness", "factor")
+        }
+        found.append(Value(CAR["roll"], total / DEG, keys))
+        if total > 0.0:
+            lean = mass * GRAVITY * centre_of(car, payloads=True)[2] / total
+            found.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
+            found.append(Value(CAR["split"], stiffness[0] / total, keys))
+    return [*found, *_of_driving(car, rest)]
+
+
+def _centre_key(car: CarContent) -> dict[str, Any]:
+    return {car.chassis.key("com"): list(car.chassis.com)}
+
+
+def _of_dimensions(car: CarContent, rest: Rest) -> Iterator[Value]:
+    centres = {axle.wheel.key("centre"): list(axle.wheel.centre) for axle in car.axles.values()}
+    tracks = [axle.track for axle in car.axles.values()]
+    yield Value(CAR["mass"], 2.0 * sum(rest.load.values()) / GRAVITY, {car.vehicle.key("mass"): car.vehicle.mass})
+    yield Value(CAR["wheelbase"], car.wheelbase, centres)
+    yield Value(CAR["tracks"], tracks[1] / tracks[0], centres)
+    yield Value(CAR["slender"], 0.5 * sum(tracks) / car.wheelbase, centres)
+    contact = car.chassis.ground_contact
+    points = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
+    if contact and points:
+        lowest = min(points, key=lambda p: p[2])
+        yield Value(CAR["clearance"], lowest[2], {contact.key("points"): list(lowest)})
+
+
+def _of_masses(car: CarContent) -> Iterator[Value]:
+    x, y, height = centre_of(car, payloads=True)
+    track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
+    share = (x - car.rear.wheel.centre[0]) / car.wheelbase
+    yield Value(CAR["share"], share, _centre_key(car))
+    yield Value(CAR["height"], height / track, _centre_key(car))
+    weighed = weighed_points(car, payloads=True)
+    total = sum(mass for mass, _ in weighed)
+    inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
+    before, behind = car.wheelbase * (1.0 - share), car.wheelbase * share
+    key = {chassis.key("inertia"): list(chassis.inertia)}
+    if before > 0.0 and behind > 0.0:
+        yield Value(CAR["yaw"], inertia / total / (before * behind), key | {chassis.key("mass"): chassis.mass})
+    size = car.vehicle.width, car.vehicle.length, car.vehicle.length
+    sizes = {car.vehicle.key(f): getattr(car.vehicle, f) for f in ("width", "length")}
+    for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):
+        yield Value(CAR["body_radius"], math.sqrt(moment / chassis.mass) / extent, key | sizes, f"about {axis}")
+    radii = {
+        math.sqrt(moment / part.mass): {part.key("inertia"): list(part.inertia), part.key("mass"): part.mass}
+        for part in parts_of(car)
+        for moment in part.inertia
+    }
+    for of, radius in (("least", min(radii)), ("largest", max(radii))):
+        yield Value(CAR["part_radius"], radius, radii[radius], of)
+    yield Value(CAR["pitch_yaw"], chassis.inertia[1] / chassis.inertia[2], key)
+
+
+def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
+    stiffness = {name: 2.0 * cornering(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()}
+    if min(stiffness.values()) > 0.0:
+        front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
+        keys = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
+        yield Value(CAR["understeer"], front - rear, keys | _centre_key(car))
+    steering = car.steering
+    key = steering.key("front_wheel_angle_max")
+    ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
+    turn = {steering.key(f): getattr(steering, f) for f in ("rack_per_turn",) if hasattr(steering, f)}
+    yield Value(CAR["steering"], ratio, {key: steering.front_wheel_angle_max, **turn})
+    drive, driven = car.drive, car.axles[car.drive.wheels]
+    if hasattr(drive, "ratios"):
+        ratios = [r * drive.ratio_factor for r in drive.ratios]
+        keys = {drive.key("ratios"): list(drive.ratios), drive.key("ratio_factor"): drive.ratio_factor}
+    else:
+        ratios, keys = [drive.ratio], {drive.key("ratio"): drive.ratio}
+    keys[drive.key("limit_speed")] = drive.limit_speed
+    for k, overall in enumerate(ratios):
+        of, speed = f"gear {k + 1}", 3.6 * drive.limit_speed / overall * driven.wheel.centre[2]
+        yield Value(CAR["overall"], overall, keys, of)
+        yield Value(CAR["gear_speed"], speed, keys, of)
+        if k == 0 and len(ratios) > 1:
+            yield Value(CAR["first_speed"], speed, keys)
+        if k == len(ratios) - 1:
+            yield Value(CAR["last_speed"], speed, keys)
+    mass = 2.0 * sum(rest.load.values()) / GRAVITY
+    yield Value(CAR["power"], drive.max_power / mass, {drive.key("max_power"): drive.max_power})
+    brakes, weight = car.brakes, 2.0 * sum(rest.load.values())
+    front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
+    yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
+    yield Value(CAR["balance"], front / (front + rear), {brakes.key("balance"): brakes.balance})
+
+
+Undo: TypeAlias = Callable[[Data], None]
+
+
+def _undone(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
+    altered = copy.deepcopy(data)
+    try:
+        undo(altered)
+    except (KeyError, TypeError):
+        return None  # the file has not these keys
+    made = remake(altered)
+    return None if made is None else car_values(*made)
+
+
+def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
+    """Words, keys and what undoes it in the content of the file, the commonest first."""
+    for name, axle in car.axles.items():
+        centre, alignment = axle.wheel.key("centre"), axle.alignment
+        yield f"half the track less half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 2.0)
+        yield f"the track in place of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
+        for angle in ("toe", "camber"):
+            keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
+            there = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
+            yield f"degrees in place of radians in {' and '.join(there)}", set(keys), _scale(there, 1.0 / DEG)
+            for key in there if angle == "camber" else ():
+                yield f"the sign of {key}", {key}, _scale(key, -1.0)
+            yield f"the signs of {' and '.join(there)}", set(keys), _scale(there, -1.0)
+        damper, spring = axle.damper, axle.spring
+        if damper.table is not None:
+            key = damper.key("table")
+            yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
+        field = damper.key("damping" if damper.damping is not None else "table")
+        rate = spring.key("stiffness" if spring.stiffness is not None else "table")
+        for key, what in ((rate, "springs"), (field, "dampers")):
+            yield f"both {what} of the axle in place of one in {key}", {key}, _scale(key, 0.5)
+            yield f"half of one of the {what} in {key}", {key}, _scale(key, 2.0)
+            yield f"pounds and inches in place of N and m in {key}", {key}, _scale(key, 175.127)
+            yield f"pounds and feet in place of N and m in {key}", {key}, _scale(key, 14.5939)
+            yield f"kilograms in place of newtons in {key}", {key}, _scale(key, GRAVITY)
+        key = axle.wheel.key("spin_inertia")
+        for factor, words in ((0.5, "both wheels in place of one"), (2.0, "half of the wheel")):
+            yield f"{words} in {key}", {key}, _scale(key, factor)
+    chassis, drive, steering = car.chassis, car.drive, car.steering
+    key = drive.key("ratios" if hasattr(drive, "ratios") else "ratio")
+    yield (f"ratios without a final drive, of about {FINAL_DRIVE:g}, in {key}", {key}, _scale(key, FINAL_DRIVE))
+    yield (f"the final drive, of about {FINAL_DRIVE:g}, twice in {key}", {key}, _scale(key, 1.0 / FINAL_DRIVE))
+    limit = drive.key("limit_speed")
+    yield f"rounds per minute in place of rad/s in {limit}", {limit}, _scale(limit, math.pi / 30.0)
+    yield f"rounds per second in place of rad/s in {limit}", {limit}, _scale(limit, 2.0 * math.pi)
+    power = drive.key("max_power")
+    yield f"horsepower in place of W in {power}", {power}, _scale(power, 735.5)
+    yield f"kW in place of W in {power}", {power}, _scale(power, 1000.0)
+    inertia = chassis.key("inertia")
+    for a, b in ((0, 2), (0, 1)):
+        yield (
+            f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}",
+            {inertia},
+            partial(_swap, inertia, a, b),
+        )
+    yield f"half of the moments in {inertia}", {inertia}, _scale(inertia, 2.0)
+    brakes = car.brakes
+    yield (
+        "the share of the rear wheels in brakes.balance",
+        {brakes.key("balance")},
+        partial(_rest_of_one, brakes.key("balance")),
+    )
+    torque = brakes.key("torque")
+    yield f"the torque of one wheel in place of a side in {torque}", {torque}, _scale(torque, 2.0)
+    yield f"the torque of all wheels in place of a side in {torque}", {torque}, _scale(torque, 0.5)
+    angle = steering.key("front_wheel_angle_max")
+    yield f"the angle from lock to lock in place of one side in {angle}", {angle}, _scale(angle, 0.5)
+
+
+def _scale(keys: str | list[str], factor: float) -> Undo:
+    """Numbers at key paths times a factor; in tables of rows the last of each row."""
+
+    def undo(data: Data) -> None:
+        for key in [keys] if isinstance(keys, str) else keys:
+            holder, last = _holder(data, key)
+            holder[last] = _scaled(holder[last], factor)
+
+    return undo
+
+
+def _scaled(value: Any, factor: float) -> Any:
+    if isinstance(value, list):
+        if value and isinstance(value[0], list):
+            return [[*row[:-1], row[-1] * factor] for row in value]
+        return [v * factor for v in value]
+    return value * factor
+
+
+def _holder(data: Data, key: str) -> tuple[Any, Any]:
+    *path, last = key.split(".")
+    holder: Any = data
+    for part in path:
+        holder = holder[part]
+    if isinstance(holder, Mapping):
+        holder[last]  # a key that is missing has nothing to undo
+        return holder, last
+    return holder, int(last)
+
+
+def _mirror(key: str, data: Data) -> None:
+    holder, last = _holder(data, key)
+    holder[last] = [[-v, -force] for v, force in reversed(holder[last])]
+
+
+def _swap(key: str, a: int, b: int, data: Data) -> None:
+    holder, last = _holder(data, key)
+    values = list(holder[last])
+    values[a], values[b] = values[b], values[a]
+    holder[last] = list(np.array(values, float))
+
+
+def _rest_of_one(key: str, data: Data) -> None:
+    holder, last = _holder(data, key)
+    holder[last] = 1.0 - holder[last]

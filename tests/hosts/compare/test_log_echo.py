@@ -1,0 +1,148 @@
+"""A drive whose columns are in other units, late, exchanged, frozen or put together is told, with what mends it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hosts.compare.log import Signal
+from hosts.compare.log_echo import consistent, log_echo
+
+Drive = dict[str, Signal]
+UNITS = {"speed": "m/s", "chassis.ax": "m/s2", "chassis.ay": "m/s2", "chassis.wz": "rad/s", "chassis.yaw": "rad"} | {
+    "chassis.x": "m", "chassis.y": "m", "wheel_FL.omega": "rad/s", "wheel_RR.omega": "rad/s"}  # fmt: skip
+
+
+def drive(seed: int = 0, end: float = 40.0) -> Drive:
+    """A minute of turns and pedals with the noise of sensors."""
+    noise, t = np.random.default_rng(seed), np.arange(0.0, end, 0.02)
+    speed = 18.0 + 5.0 * np.sin(0.25 * t) + 0.8 * np.sin(0.9 * t + seed)
+    ax = 1.25 * np.cos(0.25 * t) + 0.72 * np.cos(0.9 * t + seed)
+    wz = 0.25 * np.sin(0.5 * t) + 0.08 * np.sin(1.3 * t)
+    yaw = -0.5 * (np.cos(0.5 * t) - 1.0) - 0.08 / 1.3 * (np.cos(1.3 * t) - 1.0)
+    x, y = (np.cumsum(speed * f(yaw)) * 0.02 for f in (np.cos, np.sin))
+    values = dict(zip(UNITS, (speed, ax, speed * wz, wz, yaw, x, y, speed / 0.3, speed / 0.31), strict=True))
+    spread = {"m/s": 0.02, "m/s2": 0.15, "rad/s": 0.005, "rad": 1e-4, "m": 0.01}
+    return {
+        name: Signal(name, name.split(".")[-1], UNITS[name], t, v + spread[UNITS[name]] * noise.normal(size=len(t)))
+        for name, v in values.items()
+    }
+
+
+def scaled(name: str, factor: float) -> Callable[[Drive], Drive]:
+    return lambda d: d | {name: replace(d[name], values=factor * d[name].values)}
+
+
+def timed(factor: float) -> Callable[[Drive], Drive]:
+    return lambda d: {n: replace(s, time=factor * s.time) for n, s in d.items()}
+
+
+def swapped(a: str, b: str) -> Callable[[Drive], Drive]:
+    return lambda d: d | {a: replace(d[a], values=d[b].values), b: replace(d[b], values=d[a].values)}
+
+
+def late(name: str, delay: float) -> Callable[[Drive], Drive]:
+    return lambda d: d | {name: replace(d[name], time=d[name].time + delay)}
+
+
+def frozen(name: str, begin: float, end: float) -> Callable[[Drive], Drive]:
+    def change(d: Drive) -> Drive:
+        s = d[name]
+        k = int(np.searchsorted(s.time, begin))
+        inside = (s.time >= begin) & (s.time < end)
+        return d | {name: replace(s, values=np.where(inside, s.values[k], s.values))}
+
+    return change
+
+
+def missing(name: str) -> Callable[[Drive], Drive]:
+    def change(d: Drive) -> Drive:
+        values = d[name].values.copy()
+        values[[100, 101, 700]] = -9999.0
+        return d | {name: replace(d[name], values=values)}
+
+    return change
+
+
+def twice(d: Drive) -> Drive:
+    """Appended to itself."""
+    return {
+        n: replace(s, time=np.append(s.time, s.time + s.time[-1] + 0.02), values=np.tile(s.values, 2))
+        for n, s in d.items()
+    }
+
+
+def joined(d: Drive) -> Drive:
+    """Behind another one, which ends elsewhere."""
+    other = {n: replace(s, values=s.values[::-1] + 8.0 * np.std(s.values)) for n, s in drive(5).items()}
+    return {
+        n: replace(s, time=np.append(s.time, s.time + s.time[-1] + 0.02), values=np.append(s.values, other[n].values))
+        for n, s in d.items()
+    }
+
+
+PLANTED = {
+    "km/h": (scaled("speed", 3.6), "km/h in place of m/s of 'speed'"),
+    "mph": (scaled("speed", 2.237), "mph in place of m/s of 'speed'"),
+    "deg/s": (scaled("chassis.wz", 57.3), "deg/s in place of rad/s of 'wz'"),
+    "g of ay": (scaled("chassis.ay", 1.0 / 9.81), "g in place of m/s2 of 'ay'"),
+    "g of ax": (scaled("chassis.ax", 1.0 / 9.81), "g in place of m/s2 of 'ax'"),
+    "mm/s2": (scaled("chassis.ay", 1e3), "mm/s2 in place of m/s2 of 'ay'"),
+    "heading in degrees": (scaled("chassis.yaw", 57.3), "degrees in place of radians of 'yaw'"),
+    "path in mm": (lambda d: scaled("chassis.x", 1e3)(scaled("chassis.y", 1e3)(d)), "mm in place of m of the path"),
+    "path in feet": (
+        lambda d: scaled("chassis.x", 3.28)(scaled("chassis.y", 3.28)(d)),
+        "feet in place of m of the path",
+    ),
+    "rpm": (scaled("wheel_FL.omega", 9.549), "rpm in place of rad/s of 'omega' (wheel_FL.omega)"),
+    "sign of ay": (scaled("chassis.ay", -1.0), "the other sign of 'ay'"),
+    "sign of ax": (scaled("chassis.ax", -1.0), "the other sign of 'ax'"),
+    "sign of the heading": (scaled("chassis.yaw", -1.0), "the other sign of 'yaw'"),
+    "time twice as fast": (timed(0.5), "time twice as fast"),
+    "time half as fast": (timed(2.0), "time half as fast"),
+    "time in ms": (timed(1e3), "ms in place of s"),
+    "ax and ay": (swapped("chassis.ax", "chassis.ay"), "'ax' and 'ay' exchanged"),
+    "ay late": (late("chassis.ay", 0.9), "a delay of 0.9"),
+    "-9999": (missing("chassis.ay"), "-9999 in the place of no value in"),
+    "-9999 of the yaw rate": (missing("chassis.wz"), "-9999 in the place of no value in"),
+    "a frozen yaw rate": (
+        frozen("chassis.wz", 10.0, 14.0),
+        "'wz', longest time without a change while the car moves is 3.9",
+    ),
+    "a frozen speed": (
+        frozen("speed", 15.0, 19.0),
+        "'speed', longest time without a change while the car moves is 3.9",
+    ),
+    "a frozen ay": (frozen("chassis.ay", 10.0, 13.0), "'ay', longest time without a change while the car moves is 2.9"),
+    "a frozen wheel": (frozen("wheel_RR.omega", 10.0, 16.0), "'omega', longest time without a change"),
+    "appended to itself": (twice, "samples that come again one by one"),
+    "two drives": (joined, "samples at which most signals jump is 1"),
+}
+
+
+@pytest.mark.parametrize("case", PLANTED)
+def test_a_mistake_is_told_with_what_would_mend_it(case: str) -> None:
+    change, words = PLANTED[case]
+    told = log_echo("log.csv", change(drive(len(case)))).warnings()
+    assert any(words in sentence for sentence in told), told
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_right_drive_has_nothing_odd(seed: int) -> None:
+    log = drive(seed)
+    echo = log_echo("log.csv", log)
+    assert echo.warnings() == []
+    assert consistent(echo) >= {"speed", "chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"}
+    coarse = {n: replace(s, values=np.round(s.values, 1 if "omega" in n else 2)) for n, s in log.items()}
+    assert log_echo("log.csv", coarse).warnings() == []
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
+def test_a_signal_that_no_usual_mistake_mends_is_told_without_a_cause(factor: float) -> None:
+    """A hint names a signal only if correcting it alone mends all relations it is in."""
+    (sentence,) = log_echo("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
+    assert "would explain" not in sentence
+    assert "'wz'" in sentence

@@ -1,0 +1,122 @@
+"""Roads and worlds that are right in form and wrong in meaning are told, with the mistake that explains it."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mbs.elements.road import GridRoad
+from mbs.roads import RoadFileError, read_road
+from mbs.roads.road_echo import Place, road_echo, start_echo
+from mbs.worlds.make_world import read_world
+from mbs.worlds.world_echo import world_echo
+from mbs.worlds.world_types import WorldDescription
+
+ROADS = Path(__file__).parents[2] / "mbs" / "roads" / "files"
+WORLD = Path(__file__).parents[2] / "mbs" / "worlds" / "proving_ground.toml"
+
+
+def waves(step: float = 0.0, factor: float = 1.0, spacing: float = 0.5) -> GridRoad:
+    x = np.linspace(0.0, 50.0, 101)
+    z = 0.5 * np.sin(0.2 * x)[:, None] + 0.05 * np.cos(np.linspace(0.0, 3.0, 21))
+    z = np.round(z / step) * step if step else z
+    return GridRoad((0.0, -5.0), (spacing, spacing), factor * z)
+
+
+def test_roads_of_the_package_have_nothing_odd() -> None:
+    for file in sorted(ROADS.glob("*.toml")):
+        road = read_road(file)
+        if isinstance(road, GridRoad):
+            assert road_echo(file.name, road).warnings() == []
+    assert world_echo("world", read_world(WORLD)).warnings() == []
+
+
+@pytest.mark.parametrize(
+    ("road", "words"),
+    [
+        (waves(factor=1000.0), "mm in place of m in heights would explain it"),
+        (waves(spacing=500.0), "mm in place of m in coordinates or"),
+        (waves(step=0.01), "step of the heights is 0.01 m"),
+        (waves(step=0.25), "step of the heights is 0.25 m"),
+        (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9, 9)), 1.9), "friction is 1.9"),
+    ],
+)
+def test_a_road_in_another_unit(road: GridRoad, words: str) -> None:
+    (sentence,) = road_echo("odd.csv", road).warnings()[:1]
+    assert sentence.startswith("odd.csv: ")
+    assert words in sentence
+
+
+@pytest.mark.parametrize(
+    ("origin", "spacing", "words"),
+    [
+        ((500.0, -5.0), 0.5, "distance of the start from the road is 500 m"),
+        ((4.5e5, 5.4e6), 0.5, "coordinates of a map"),
+        ((2e4, -5e3), 500.0, "mm in place of m in coordinates"),
+        ((-5.0, 300.0), 0.5, "is 300 m"),
+    ],
+)
+def test_a_start_beside_its_road(origin: tuple[float, float], spacing: float, words: str) -> None:
+    place = Place(origin, (spacing, spacing), (101, 21))
+    (sentence,) = start_echo("far.road", place, (0.0, 0.0)).warnings()
+    assert words in sentence
+    inside = start_echo("far.road", place, (origin[0] + spacing, origin[1] + spacing))
+    assert inside.warnings() == []
+
+
+def test_heights_in_mm_by_their_first_cell(tmp_path: Path) -> None:
+    for corner, right in (("x [mm]", False), ("x (mm)", False), ("mm", False), ("x mm", False), ("x_cm", False),
+                          ("x [m]", True), ("x (m)", True), ("x", True), ("x/y", True), ("m", True)):  # fmt: skip
+        file = tmp_path / "road.csv"
+        file.write_text(f"{corner},0,1,2\n0,0,0,0\n1,0,0,0\n2,0,0,0\n", encoding="utf-8")
+        if right:
+            read_road(file)
+        else:
+            with pytest.raises(RoadFileError, match="coordinates and heights must be in m"):
+                read_road(file)
+
+
+KERB: dict[str, Any] = {"kind": "kerb", "at": [10.0, 0.0, 0.0], "length": 2.0, "left": 2.0, "right": -2.0}
+THINGS = {
+    "exchanged sides": (
+        {"obstacles": [KERB | {"left": -2.0, "right": 2.0}]},
+        "left and right exchanged in obstacles.0",
+    ),
+    "mm": ({"obstacles": [KERB | {"at": [1e4, 0.0, 0.0]}]}, "mm in place of m in obstacles.0"),
+    "x for y": ({"obstacles": [KERB | {"at": [2.0, 45.0, 0.0]}]}, "x and y exchanged in obstacles.0"),
+    "a sign": ({"obstacles": [KERB | {"at": [-30.0, 0.0, 0.0]}]}, "the sign of x in obstacles.0"),
+    "between points": (
+        {"obstacles": [{"kind": "washboard", "at": [10.02, 0.05, 0.0], "length": 1.0, "width": 0.02,
+                        "wavelength": 0.5, "height": 0.1}]},
+        "points of the grid that it changes is 0",
+    ),
+    "a band": ({"bands": [{"at": [5.0, 0.0, 0.0], "length": 4.0, "left": -1.0, "right": 1.0, "surface": "ice"}]},
+               "left and right exchanged in bands.0"),
+    "an area": ({"areas": [{"name": "a", "at": [500.0, 0.0], "radius": 5.0}]}, "areas.0 points of the grid"),
+    "a cone": ({"cones": [{"at": [[10.0, 0.0], [1e4, 0.0]]}]}, "cones.0 distance outside of the world is 9950 m"),
+    "a sign of a text": ({"signs": [{"at": [0.0, 900.0, 0.0], "text": "stop"}]}, "signs.0 distance outside"),
+    "a line": ({"lines": [{"points": [[0.0, 0.0], [0.0, 4000.0]]}]}, "lines.0 distance outside"),
+    "a house": ({"buildings": [{"at": [-700.0, 0.0, 0.0], "size": [5.0, 5.0, 5.0]}]}, "buildings.0 distance outside"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", THINGS)
+def test_what_is_in_no_world_is_named(case: str) -> None:
+    more, words = THINGS[case]
+    bounds = [-5.0, -10.0, 50.0, 10.0]
+    world = WorldDescription.model_validate({"kind": "world", "name": "w", "bounds": bounds} | more)
+    (sentence,) = world_echo("w.toml", world).warnings()
+    assert words in sentence
+
+
+def test_what_is_there_is_not_told() -> None:
+    world = WorldDescription.model_validate(
+        {"kind": "world", "name": "w", "bounds": [-5.0, -10.0, 50.0, 10.0], "obstacles": [KERB]}
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert world_echo("w.toml", world).warnings() == []

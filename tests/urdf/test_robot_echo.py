@@ -1,0 +1,105 @@
+"""Robots that are right in form and wrong in meaning are told; what is malformed is an error with its line."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mbs import ModelError
+from mbs.urdf import UrdfWarning, read_urdf
+from tests.urdf.robots import ROBOTS, write_urdf
+
+Change = Callable[[str], str]
+
+
+def scaled(pattern: str, factor: float, count: int = 0) -> Change:
+    """Numbers in the first group of a pattern times a factor."""
+
+    def change(text: str) -> str:
+        def of(match: re.Match[str]) -> str:
+            numbers = " ".join(f"{factor * float(v):.9g}" for v in match[1].split())
+            return match[0].replace(match[1], numbers)
+
+        return re.sub(pattern, of, text, count=count)
+
+    return change
+
+
+def replaced(old: str, new: str) -> Change:
+    return lambda text: re.sub(old, new, text, count=1)
+
+
+def told(name: str, change: Change, folder: Path, **more: object) -> list[str]:
+    file = write_urdf(ROBOTS[name], folder / "robot.urdf")
+    file.write_text(change(file.read_text(encoding="utf-8")), encoding="utf-8")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UrdfWarning)
+        read_urdf(file, **more)  # type: ignore[arg-type]
+    return [str(w.message) for w in caught]
+
+
+MASS, INERTIA, XYZ = r'mass value="([^"]*)"', r'i[xyz][xyz]="([^"]*)"', r'xyz="([^"]*)"'
+ODD = {
+    "masses in g": (scaled(MASS, 1e3), "grams in place of kilograms in masses"),
+    "masses in t": (scaled(MASS, 1e-3), "tonnes in place of kilograms in masses"),
+    "lengths in mm": (
+        lambda t: re.sub(r'<axis xyz="[^"]*"', '<axis xyz="0 0 1"', scaled(XYZ, 1e3)(t)),
+        "mm in place of m",
+    ),
+    "inertias in kg mm2": (scaled(INERTIA, 1e6), "inertias in kg mm2"),
+    "a centre 500 m away": (replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="500 0 0"'), "500"),
+    "a turn of 90 rad": (replaced(r'rpy="[^"]*"', 'rpy="0 90 0"'), "degrees in place of radians in rpy"),
+    "limits in degrees": (
+        replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="-170" upper="170"'),
+        "radians in the limits",
+    ),
+    "a start beyond its limits": (
+        replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="1" upper="2"'),
+        "start beyond the limits",
+    ),
+    "no effort": (replaced(r' effort="[^"]*"', ""), "has no effort, or 0"),
+    "an effort of 0": (replaced(r'effort="[^"]*"', 'effort="0"'), "has no effort, or 0"),
+}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_public_robots_have_nothing_odd(name: str, tmp_path: Path) -> None:
+    assert told(name, lambda text: text, tmp_path) == []
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("case", ODD)
+def test_what_is_odd_is_told(name: str, case: str, tmp_path: Path) -> None:
+    change, words = ODD[case]
+    lines = told(name, change, tmp_path)
+    assert any(words in line for line in lines), lines
+
+
+WRONG = {
+    "a missing part": (replaced(r' iyy="[^"]*"', ""), r"<inertia> of the link 'link_1' has no iyy"),
+    "two inertial": (replaced("<inertial>", "<inertial><mass value='1'/></inertial><inertial>"), "a second <inertial>"),
+    "two masses": (replaced("<mass", "<mass value='1'/><mass"), "a second <mass>"),
+    "four numbers": (replaced(r'xyz="([^"]*)"', r'xyz="\1 0"'), "it must be 3 numbers"),
+    "two numbers": (replaced(r'rpy="[^"]*"', 'rpy="0 0"'), "it must be 3 numbers"),
+    "a comma": (replaced(MASS, 'mass value="1,5"'), "value is '1,5'"),
+    "infinite": (replaced(MASS, 'mass value="1e999"'), "value is '1e999'"),
+    "no value": (replaced(MASS, "mass"), "has no value"),
+    "a word": (replaced(r'effort="[^"]*"', 'effort="much"'), "effort is 'much'"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_what_is_malformed_is_an_error_with_its_line(case: str, tmp_path: Path) -> None:
+    change, words = WRONG[case]
+    with pytest.raises(ModelError, match=r"robot\.urdf, line \d+: .*") as error:
+        told("ur5", change, tmp_path)
+    assert re.search(words, str(error.value)), error.value
+
+
+def test_the_summary_has_the_mass(tmp_path: Path) -> None:
+    robot = read_urdf(write_urdf(ROBOTS["ur5"], tmp_path / "ur5.urdf"))
+    assert re.search(r"total mass +16\.99 kg", robot.summary())

@@ -1,0 +1,177 @@
+"""Cars and tyres that are right in form and wrong in meaning are told, with the mistake that explains it."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ali3.echo import Echo, Mistake, Quantity, Value
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.tyre_files import read_tyre
+from mbs.tyre_files.tyre_echo import magic_echo, tmeasy_echo
+from mbs.vehicle import car_names, load
+from mbs.vehicle.car import car_from
+from mbs.vehicle.changes import changed_content
+from mbs.vehicle.command import main
+from mbs.vehicle.errors import CarWarning
+
+TYRES = sorted((Path(__file__).parents[1] / "tyre_files" / "data").rglob("*.tir"))
+DEG = 57.29577951308232
+
+
+def told(name: str, changes: dict[str, Any]) -> list[str]:
+    car = load(name)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", CarWarning)
+        car_from(changed_content(car._data, changes, "x"), car.folder, "x", warn=True)
+    return [str(w.message) for w in caught]
+
+
+def at(name: str, key: str) -> Any:
+    value: Any = load(name)._data
+    for part in key.split("."):
+        value = value[int(part)] if isinstance(value, list) else value[part]
+    return value
+
+
+def times(name: str, key: str, factor: float) -> dict[str, Any]:
+    value = at(name, key)
+    return {key: [factor * v for v in value] if isinstance(value, list) else factor * value}
+
+
+def turned(name: str, key: str) -> dict[str, Any]:
+    return {key: [[-v, -force] for v, force in reversed(at(name, key))]}
+
+
+TOE = [f"front.alignment.toe_{side}" for side in ("left", "right")]
+PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
+    "half the track": ("hatchback", lambda: times("hatchback", "rear.wheel.centre.1", 0.5), "half the track less half"),
+    "half of another": ("saloon", lambda: times("saloon", "rear.wheel.centre.1", 0.5), "half the track less half"),
+    "toe in degrees": ("saloon", lambda: dict.fromkeys(TOE, 0.15), "degrees in place of radians in front.alignment.toe"),
+    "toe of one": ("hatchback", lambda: {TOE[0]: 0.18}, "degrees in place of radians in front.alignment.toe_left"),
+    "camber in degrees": (
+        "saloon",
+        lambda: {"rear.alignment.camber_left": -0.18, "rear.alignment.camber_right": -0.18},
+        "degrees in place of radians in rear.alignment.camber",
+    ),
+    "bump for rebound": ("hatchback", lambda: turned("hatchback", "front.damper.table"), "bump and rebound exchanged"),
+    "no final drive": ("saloon", lambda: times("saloon", "drive.ratios", 0.27), "ratios without a final drive"),
+    "no final drive of another": ("ferrari_250_lm", lambda: times("ferrari_250_lm", "drive.ratios", 0.25), "final drive"),
+    "final drive twice": ("saloon", lambda: times("saloon", "drive.ratios", 4.0), "twice in drive.ratios"),
+    "x for z": ("saloon", lambda: {"chassis.inertia": at("saloon", "chassis.inertia")[::-1]}, "about x and z exchanged"),
+    "damping in lbf s/in": (
+        "saloon",
+        lambda: times("saloon", "front.damper.damping", 1.0 / 20.0),
+        "front damping ratio in bump is 0.01",
+    ),
+    "horsepower": ("saloon", lambda: times("saloon", "drive.max_power", 1.0 / 50.0), "power over mass is 1.7"),
+    "share of the rear": ("saloon", lambda: {"brakes.balance": 0.2}, "the share of the rear wheels in brakes.balance"),
+    "lock to lock": ("prototype", lambda: times("prototype", "steering.rack_per_turn", 6.0), "steering ratio is 2.8"),
+    "a soft wheel": ("saloon", lambda: times("saloon", "front.wheel.spin_inertia", 0.3), "gyration of the wheel about"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", PLANTED)
+def test_a_mistake_of_a_car_is_told(case: str) -> None:
+    name, changes, words = PLANTED[case]
+    lines = told(name, changes())
+    assert any(words in line for line in lines), lines
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_cars_of_the_package_lie_inside(name: str) -> None:
+    for kind in ("", "racing_car" if name in ("prototype", "ferrari_250_lm") else "passenger_car"):
+        for echo in load(name).echo(name):
+            assert replace(echo, kind=kind).warnings() == []
+
+
+def test_the_kind_of_a_car_narrows_its_ranges() -> None:
+    changes = {"front.wheel.centre.1": 0.97, "vehicle.width": 2.1}
+    assert any(
+        "front track is 1.94 m" in line for line in told("hatchback", changes | {"vehicle.kind": "passenger_car"})
+    )
+    assert not any("front track" in line for line in told("hatchback", changes | {"vehicle.kind": "truck"}))
+
+
+def test_the_command_shows_and_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["saloon", "--json", str(tmp_path / "saloon.json")]) == 0
+    shown = capsys.readouterr().out
+    table = json.loads((tmp_path / "saloon.json").read_text(encoding="utf-8"))
+    (wheelbase,) = (row for row in table["car"] if row["name"] == "wheelbase")
+    assert wheelbase["value"] == pytest.approx(2.5789)
+    assert wheelbase["inside"] and wheelbase["unit"] == "m" and "front.wheel.centre" in wheelbase["keys"]
+    assert "wheelbase" in shown and "2.579 m" in shown and "all tyres" in shown
+
+
+def tyre(file: Path) -> MagicTyre:
+    read = read_tyre(file)
+    return read.tyre(signs="adapted_sae" if read.values["coefficients"]["PKY1"] > 0.0 else "iso")
+
+
+def changed(t: MagicTyre, **factors: float) -> MagicTyre:
+    return replace(t, coefficients=t.coefficients | {k: f * t.coefficients[k] for k, f in factors.items()})
+
+
+@pytest.mark.parametrize("file", TYRES, ids=lambda file: file.stem)
+def test_tyres_of_others_lie_inside(file: Path) -> None:
+    assert magic_echo(file.name, tyre(file)).warnings() == []
+
+
+OF_TYRES: dict[str, tuple[Callable[[MagicTyre], MagicTyre], str]] = {
+    "stiffness per degree": (lambda t: changed(t, PKY1=1.0 / DEG), "per degree in place of per radian in PKY1"),
+    "slip stiffness per percent": (lambda t: changed(t, PKX1=0.01), "per percent in place of per slip in PKX1"),
+    "a third of PCY1": (lambda t: changed(t, PCY1=1.0 / 3.0), "lateral over longitudinal peak friction"),
+    "a shift of 0.1": (
+        lambda t: replace(t, coefficients=t.coefficients | {"PHY1": 0.1}),
+        "degrees in place of radians in PHY1",
+    ),
+    "a lift of 0.2": (lambda t: replace(t, coefficients=t.coefficients | {"PVY1": 0.2}), "lateral force at no slip"),
+    "load in kg": (lambda t: replace(t, nominal_load=t.nominal_load / 9.80665), "kilograms in place of newtons"),
+    "friction in percent": (lambda t: changed(t, PDY1=100.0), "percent in place of a ratio in PDY1"),
+    "friction of another": (lambda t: changed(t, PDX1=0.3), "longitudinal peak friction"),
+}
+
+
+@pytest.mark.parametrize("file", TYRES[:3], ids=lambda file: file.stem)
+@pytest.mark.parametrize("case", OF_TYRES)
+def test_a_mistake_of_a_tyre_file_is_told(case: str, file: Path) -> None:
+    change, words = OF_TYRES[case]
+    lines = magic_echo("t.tir", change(tyre(file))).warnings()
+    assert any(words in line for line in lines), lines
+
+
+@pytest.mark.parametrize(
+    ("curve", "field", "factor", "words"),
+    [
+        ("lateral", "slope", 1.0 / DEG, "per degree in place of per slip in lateral.slope"),
+        ("longitudinal", "slope", 0.01, "per percent in place of per slip in longitudinal.slope"),
+        ("lateral", "max_slip", DEG, "degrees in place of a ratio in lateral.max_slip"),
+        ("lateral", "max_force", 0.2, "lateral peak friction"),
+    ],
+)
+def test_a_mistake_of_tmeasy_is_told(curve: str, field: str, factor: float, words: str) -> None:
+    t = load("hatchback").front.tyre.tyre()
+    fields = [field, "slide_slip"] if field == "max_slip" else [field]
+    made = {f: tuple(factor * v for v in getattr(getattr(t, curve), f)) for f in fields}
+    lines = tmeasy_echo("t", replace(t, **{curve: replace(getattr(t, curve), **made)})).warnings()
+    assert any(words in line for line in lines), lines
+
+
+def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
+    length = Quantity("length", "l", "m", "", {"small": (0.0, 1.0), "large": (1.0, 10.0)}, "")
+    values = [Value(length, 5e3, {"a": 5e3}, "first"), Value(length, 2.0, {"b": 2.0}, "second")]
+
+    def echo(undone: list[float] | None) -> Echo:
+        made = None if undone is None else [replace(v, value=x) for v, x in zip(values, undone, strict=True)]
+        return Echo("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: made)], "")
+
+    assert "mm in place of m would explain it: without that it is 5 m" in echo([5.0, 2.0]).warnings()[0]
+    for undone in (None, [500.0, 2.0], [5.0, 200.0]):  # none, not enough, another one outside
+        (sentence,) = echo(undone).warnings()
+        assert sentence == "f: first length is 5000 m; usual is 0 to 10 m. It follows from a = 5000."
