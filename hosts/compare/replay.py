@@ -9,15 +9,20 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.isolated import Lost
 from hosts.common.closing import Closing
+from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.compare.crew import Crew
 from hosts.compare.follower import demanded
 from hosts.compare.log import Signal
+from hosts.compare.stretch_fmu import StretchFmu, StretchWork, Task
 from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
+from hosts.experiment.pool import Pool
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu import StartRefusedError
+from hosts.fmu.own_process import files_of
 
 
 def inputs_of(
@@ -114,21 +119,25 @@ class Replay(Closing):
         jobs: int = 1,
     ) -> None:
         self.stretches, self.step = list(stretches), step
-        self._crew = Crew(path, aliases, stretches, step, jobs)
+        reads = [path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
+        work = StretchWork(StretchFmu(path.absolute(), aliases, step), stretches)
+        self._pool: Pool[Task, Result | str] = Pool(work, Result | str, min(jobs, len(stretches)), reads)
         self._can_reset: bool | None = None
         self.said: dict[str, int] = {}
         self.runs = 0
 
     def close(self) -> None:
         """End all processes."""
-        self._crew.close()
+        self._pool.close()
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
         """Drive all stretches with other start values than those of their manoeuvres. `values`: by our names.
 
-        Result: under our names; several stretches as `joined` puts them.
+        Result: under our names; several stretches as `joined` puts them. Raises `FailedFmuError`: a process has ended.
         """
-        results = self._crew.drive(values, self._can_reset)
+        tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.stretches))]
+        made = dict(self._pool.results(tasks))
+        results = [self._result(k, made[k]) for k in range(len(tasks))]
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
             self.said[message] = self.said.get(message, 0) + 1
@@ -140,7 +149,17 @@ class Replay(Closing):
         Returns whether it repeats itself to the last bit, after a reset or loaded again.
         """
         for self._can_reset in (True, False):
-            first, again = (self._crew.drive_first(self._can_reset).values for _ in range(2))
+            task: Task = (0, {}, self._can_reset)
+            first, again = (self._result(0, self._pool.run(task)).values for _ in range(2))
             if first.shape == again.shape and bool(np.array_equal(first, again, equal_nan=True)):
                 return True
         return False
+
+    def _result(self, number: int, result: Result | str | Lost) -> Result:
+        if isinstance(result, str):
+            raise StartRefusedError(result)
+        if not isinstance(result, Lost):
+            return result
+        fewer = " --jobs 1 takes less memory." if len(self._pool) > 1 else ""
+        begin = self.stretches[number].begin
+        raise FailedFmuError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numpy as np
 from scipy.signal import savgol_filter
@@ -16,6 +17,7 @@ from hosts.driving.co_simulation import run
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.loaded_fmu import LoadedFmu
 
 _GAINS = 4.0, 4.0  # pedal per m/s and per m: the speed is to be as measured, not comfortable
@@ -52,6 +54,10 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal)
 
 
+Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
+"""Number of a stretch, start values by our names, and `StretchFmu.can_reset`."""
+
+
 class StretchFmu(LoadedFmu):
     """An FMU that drives stretches of a log.
 
@@ -77,3 +83,18 @@ class StretchFmu(LoadedFmu):
         # A pilot has a memory: each run has its own.
         driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
         return run(self.fresh(), manoeuvre, self._step, driver, progress)
+
+
+class StretchWork:
+    """What a process does: it drives the stretch of a number."""
+
+    def __init__(self, fmu: StretchFmu, stretches: Sequence[Stretch]) -> None:
+        self._fmu, self._stretches = fmu, list(stretches)
+
+    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Result | str:
+        """The result, or why the FMU does not start with these values: no error, which would end the others."""
+        number, values, self._fmu.can_reset = task
+        try:
+            return self._fmu.drive(self._stretches[number], values, tell)
+        except StartRefusedError as error:
+            return str(error)

@@ -1,0 +1,21 @@
+"""A run is the same where its FMU, all it is told, the files that it reads and the program are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hosts.experiment.run_key import run_key
+
+
+def test_content_of_the_fmu_and_of_files_and_words_make_the_key(tmp_path: Path) -> None:
+    fmu, road = tmp_path / "a.fmu", tmp_path / "flat.road"
+    fmu.write_bytes(b"first")
+    road.write_bytes(b"flat")
+    keys = [run_key(fmu, "drop", {"x": 1.0}, files=[road])]
+    assert run_key(fmu, "drop", {"x": 1.0}, files=[road, tmp_path / "kerb.road"]) == keys[0]  # one within the FMU
+    keys += [run_key(fmu, "drop", {"x": 2.0}, files=[road]), run_key(fmu, "drop", {"x": 1.0})]
+    road.write_bytes(b"a hill")
+    keys.append(run_key(fmu, "drop", {"x": 1.0}, files=[road]))
+    fmu.write_bytes(b"another")
+    keys.append(run_key(fmu, "drop", {"x": 1.0}, files=[road]))
+    assert len(set(keys)) == len(keys)
