@@ -309,6 +309,10 @@ class TestOnePage:
             for r in shared.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
         ]
         loads = np.array([forces[w][2] for w in wheels])
+        words = shared.ask("[...document.querySelectorAll('.a3-tyres text')].map(t => t.textContent)")
+        assert words[::2] == [f"{forces[w][2] / 1e3:.1f} kN" for w in wheels]
+        slips = [100 * at(lane_change, f"wheel_{w}.slip", 5.0) for w in wheels]
+        assert [float(word.split()[0]) for word in words[1::2]] == pytest.approx(slips, abs=0.51)
         assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
 
     def test_an_arrow_of_a_tyre_points_where_the_force_does(self, shared: Program) -> None:
