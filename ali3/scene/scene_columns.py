@@ -9,7 +9,10 @@ from ali3.scene.scene_parts import GROUND, frames_of
 
 
 def columns_of(part: Mapping[str, Any]) -> list[str]:
-    """Columns that a frame, an arrow, a gauge or a flexible part without its gauges reads. `part`: of a scene that was checked."""
+    """Columns that a frame, an arrow, a gauge or a flexible part without its gauges reads.
+
+    `part`: of a scene that was checked.
+    """
     found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
     found += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
     found += [name for name in part.get("vector", ()) if name is not None]

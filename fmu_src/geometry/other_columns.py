@@ -9,7 +9,19 @@ from ali3.scene.scene_columns import columns_of
 from ali3.scene.scene_parts import frames_of
 from fmu_src.variables.variables import Variable
 
-_COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "computed", "vector", "tyre", "variables", "gauges")
+_COLUMNS = (
+    "position",
+    "quaternion",
+    "amplitudes",
+    "angle",
+    "way",
+    "value",
+    "computed",
+    "vector",
+    "tyre",
+    "variables",
+    "gauges",
+)
 
 
 def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:

@@ -154,7 +154,9 @@ def test_moments_and_stresses_do_not_depend_on_the_division_of_the_tubes() -> No
         frame, tubes = FRAME.frame(refinement=refinement)
         rows = gauge_rows(frame, FRAME.strain_gauges(tubes))[0]
         model = frame.finite_element_model()
-        peak = peak_tube_stress(frame, inertia_relief(model, REFERENCE, INTERFACES, section_force_field(frame)).balanced @ forces)
+        peak = peak_tube_stress(
+            frame, inertia_relief(model, REFERENCE, INTERFACES, section_force_field(frame)).balanced @ forces
+        )
         found.append([*inertia_relief(model, REFERENCE, INTERFACES, rows).balanced @ forces, 1e-6 * peak.max()])
     np.testing.assert_allclose(found[0], found[1], rtol=1e-6)
 

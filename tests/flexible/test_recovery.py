@@ -166,7 +166,7 @@ def test_a_beam_that_stands_upright_has_its_z_forward() -> None:
 @pytest.mark.parametrize("theory", ["euler_bernoulli", "timoshenko"])
 @pytest.mark.parametrize("mass", ["consistent", "lumped"])
 def test_a_cantilever_under_its_own_weight_has_the_moments_of_statics_with_few_elements(mass: str, theory: str) -> None:
-    """Closed form: shear q (L - x) and moment q (L - x)2 / 2, also between the nodes where the mass is along the beam."""
+    """Closed form: shear q (L - x) and moment q (L - x)2 / 2; between nodes where the mass is along the beam."""
     L, n, g = 1.2, 3, np.array([0.4, -2.0, -9.5])
     frame = straight(n, L, rectangle(0.03, 0.05), theory)
     model = frame.finite_element_model(mass)
@@ -175,7 +175,9 @@ def test_a_cantilever_under_its_own_weight_has_the_moments_of_statics_with_few_e
     eta = np.linalg.solve(body.K, body.modes.T @ weight)
     relief = inertia_relief(model, 0, [], section_force_field(frame))
     field = body.recovery(section_force_field(frame)) @ eta
-    np.testing.assert_allclose(relief.outputs(np.zeros(0), -g, np.zeros((3, 3))), field, atol=1e-6 * np.abs(field).max())
+    np.testing.assert_allclose(
+        relief.outputs(np.zeros(0), -g, np.zeros((3, 3))), field, atol=1e-6 * np.abs(field).max()
+    )
     q = STEEL.rho * 0.03 * 0.05 * g
     for element, xi in ((0, 0.0), (1, 0.0), (1, 0.4), (2, 1.0)):
         rest = L - (element + xi) * L / n
@@ -196,5 +198,7 @@ def test_a_pendulum_of_few_elements_has_the_stress_of_its_inertia() -> None:
     spin = np.array([[0.0, -w, 0.0], [w, 0.0, 0.0], [0.0, 0.0, 0.0]])
     for element, xi in ((0, 0.0), (1, 0.5), (2, 0.0)):
         x = (element + xi) * L / n
-        pull = inertia_relief(model, 0, [], section_forces(frame, element, xi)[[0]]).outputs(np.zeros(0), np.zeros(3), spin @ spin)
+        pull = inertia_relief(model, 0, [], section_forces(frame, element, xi)[[0]]).outputs(
+            np.zeros(0), np.zeros(3), spin @ spin
+        )
         assert pull[0] == pytest.approx(STEEL.rho * TUBE.area * w**2 * (L**2 - x**2) / 2, rel=1e-6)

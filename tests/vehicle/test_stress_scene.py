@@ -18,7 +18,9 @@ from tests.scene_numbers import amplitudes, places, rows_of_stress, stress, turn
 
 NODES = ("TFL", "D3c", "S2R", "B3L")
 STRESS = 1e-6  # of the largest: the scene has 24 bits
-BETWEEN = 0.15e6  # Pa: of a half-bridge in the middle of an element, q L2/8 twice, beside a straight line; 0.143 is seen
+BETWEEN = (
+    0.15e6  # Pa: of a half-bridge in the middle of an element, q L2/8 twice, beside a straight line; 0.143 is seen
+)
 PLACE = 1e-9  # m
 TUBULAR = prototype_car.car().frame_section.tubular(prototype_car.car().folder)
 
@@ -76,7 +78,9 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
         assert np.abs(undeformed[:, 0] - expected).max() > 1e-4, "the node moves against the frame"
     for name in ("SG1", "SG2", "SG3", "SG4"):
         largest = np.abs(run[f"stress.{name}"]).max()
-        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=STRESS * largest + BETWEEN)
+        np.testing.assert_allclose(
+            gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=STRESS * largest + BETWEEN
+        )
 
 
 @pytest.mark.slow
@@ -90,7 +94,9 @@ def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
     for name in ("SG1", "SG2", "SG3", "SG4"):
         largest = np.abs(run[f"stress.{name}"]).max()
         assert largest > 4e6
-        np.testing.assert_allclose(gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=tolerance * largest + BETWEEN)
+        np.testing.assert_allclose(
+            gauge(part, eta, name), run[f"stress.{name}"], rtol=0, atol=tolerance * largest + BETWEEN
+        )
 
 
 def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(part: dict[str, Any]) -> None:
@@ -112,7 +118,6 @@ def test_colours_end_at_the_stress_of_the_standing_car_and_the_yield_strength_is
 
 def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any]) -> None:
     """Nodes of the part and the place between them against the tube that the file names."""
-    frame, tubes = TUBULAR.frame()
     assert [g["name"] for g in part["gauges"]] == list(TUBULAR.section.gauges) == ["SG1", "SG2", "SG3", "SG4"]
     joints, shift = TUBULAR.joint_places(), prototype_car.car().vehicle.reference_point
     for found in part["gauges"]:

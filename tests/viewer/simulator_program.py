@@ -77,7 +77,10 @@ class Program:
             "description": {"modelName": "Car", "variables": variables(recording, inputs)},
             "scene": scene,
             "columns": self.names,
-            "constants": {"vehicle.wheelbase": 2.3, "vehicle.front_wheel_angle_max": 0.525},
+            "constants": {
+                **{"vehicle.wheelbase": 2.3, "vehicle.front_wheel_angle_max": 0.525},
+                **{"vehicle.tyre_friction_front": 1.0, "vehicle.tyre_friction_rear": 1.0},
+            },
             "step": 0.002,
             "world": world or {"name": "here", "places": [], "bounds": [-200, -200, 200, 200]},
             "recording": "",

@@ -249,7 +249,9 @@ def test_a_lower_quality_has_fewer_calls_and_triangles_and_shows_the_same_place(
         costs.append(_cost(drawn))
     (high, medium, low, draft) = costs
     assert medium == high
-    assert all(few < 0.7 * many for some, more in ((low, medium), (draft, low)) for few, many in zip(some, more))
+    assert all(
+        few < 0.7 * many for some, more in ((low, medium), (draft, low)) for few, many in zip(some, more, strict=True)
+    )
     assert np.abs(pictures[2] - pictures[1]).mean() < 20
 
 

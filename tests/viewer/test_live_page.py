@@ -138,7 +138,7 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
     opened.until("player.get('used.hand_brake') === 1 && player.get('used.steering') === 0")
     keyboard.up("Space")
     assert opened.get("chassis.yaw")[0] > 0.0  # to the left
-    wait_words(opened.page, "speed", " km/h")
+    wait_words(opened.page, "cluster", "km/h")
     wait_words(opened.page, "pace", "real time (×")
     wait_words(opened.page, "pace", "µs a step of 2 ms")
     keyboard.press("p")

@@ -293,7 +293,7 @@ class TestOnePage:
         assert shared.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
         rpm = 30 / np.pi * at(lane_change, "engine_speed", 5.0)
         assert shared.text("revolutions") == f"{rpm:.0f} rpm"
-        value = "name => player.cockpit.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
+        value = "name => player.cockpit.instruments.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
         assert shared.page.evaluate(value, "throttle") == 0.25
         assert shared.page.evaluate(value, "brake") == 0.5
         assert shared.ask("player.cockpit.steps._bar.value") == pytest.approx(0.5)
@@ -301,7 +301,7 @@ class TestOnePage:
         assert "1.00 ms of 2.00 ms" in shared.text("step time")
         wheels = ["FL", "FR", "RL", "RR"]
         forces = {w: [at(lane_change, f"wheel_{w}.{c}", 5.0) for c in ("Fx", "Fy", "Fz")] for w in wheels}
-        uses = shared.ask("player.cockpit.tyres.uses")
+        uses = shared.ask("player.cockpit.instruments.tyres.uses")
         for w, (fx, fy, fz) in forces.items():
             assert uses[f"wheel_{w}"] == pytest.approx(np.hypot(fx, fy) / fz, rel=0.02)
         radii = [
@@ -309,6 +309,10 @@ class TestOnePage:
             for r in shared.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
         ]
         loads = np.array([forces[w][2] for w in wheels])
+        words = shared.ask("[...document.querySelectorAll('.a3-tyres text')].map(t => t.textContent)")
+        assert words[::2] == [f"{forces[w][2] / 1e3:.1f} kN" for w in wheels]
+        slips = [100 * at(lane_change, f"wheel_{w}.slip", 5.0) for w in wheels]
+        assert [float(word.split()[0]) for word in words[1::2]] == pytest.approx(slips, abs=0.51)
         assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
 
     def test_an_arrow_of_a_tyre_points_where_the_force_does(self, shared: Program) -> None:
@@ -318,7 +322,7 @@ class TestOnePage:
         shared.values |= {"wheel_FL.Fy": 1500.0, "wheel_RR.Fx": -1500.0}  # to the left; braked
         shown(shared, 1.0)
         paths = shared.ask("[...document.querySelectorAll('.a3-tyres path:last-of-type')].length && "
-                            "player.cockpit.tyres._items.map(i => i.arrow.getAttribute('d'))")  # fmt: skip
+                            "player.cockpit.instruments.tyres._items.map(i => i.arrow.getAttribute('d'))")  # fmt: skip
         assert paths[1] == paths[2] == ""
         ends = {k: [float(x) for x in paths[k].split("L")[1].split("M")[0].split()] for k in (0, 3)}
         begins = {k: [float(x) for x in paths[k][1:].split("L")[0].split()] for k in (0, 3)}
@@ -381,7 +385,7 @@ class TestOnePage:
         """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
         shown(shared, 3.0)  # the small map is there
         made, apart = shared.ask("""(() => {
-          const map = player.cockpit._inset;
+          const map = player.cockpit.instruments.inset;
           const { plan } = map;
           const { scenery } = plan;
           plan.scenery = Array.from({ length: 12 }, (_, k) => {

@@ -35,12 +35,11 @@ export class Instruments {
     return names.has("speed") && wheelsOf(names).length > 0;
   }
 
-  /** All of them as a layer over a picture. */
-  get element() {
+  /** All of them in a layer over a picture. @returns {HTMLElement} */
+  layer() {
     const { pictures, scenery } = this.plan;
     const map = pictures.length + scenery.length > 0 ? [this.inset.element] : []; // of a bare road there is nothing to see
-    this._element ??= el("div.a3-instruments", { data: "instruments" }, ...map, this.tyres.element, this.cluster.element);
-    return this._element;
+    return el("div.a3-instruments", { data: "instruments" }, ...map, this.tyres.element, this.cluster.element);
   }
 
   /** Place and heading of the car on a map, m and rad. @param {(name: string) => number} lookup */
@@ -49,7 +48,7 @@ export class Instruments {
     return { x, y, yaw: this._heading(lookup) };
   }
 
-  /** @param {(name: string) => number} lookup @param {Data} [car] its place, where it is known already */
+  /** @param {(name: string) => number} lookup @param {{x: number, y: number, yaw: number}} [car] its place, where it is known already */
   show(lookup, car = this.car(lookup)) {
     this.cluster.show(lookup);
     this.tyres.show(lookup);

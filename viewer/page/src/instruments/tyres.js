@@ -4,7 +4,7 @@ import { svg, whole } from "../common/dom.js";
 /** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
 const [HALF, RADIUS] = [50, 13];
 /** Places by the last letters of a wheel's name; ahead is up. */
-const PLACES = { FL: [-26, -29], FR: [26, -29], RL: [-26, 21], RR: [26, 21] };
+const PLACES = { FL: [-26, -29], FR: [26, -29], RL: [-26, 19], RR: [26, 19] };
 /** From no use of friction to all of it. */
 /** @type {[number, number[]][]} */
 const COLOURS = [[0, [64, 150, 90]], [0.5, [110, 190, 90]], [0.8, [245, 190, 60]], [1, [232, 60, 45]]]; // prettier-ignore

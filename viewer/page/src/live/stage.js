@@ -33,7 +33,7 @@ export class Stage {
       const names = new Set(item.variables ? [...item.variables].filter(([, v]) => v.causality === "output").map(([name]) => name) : Object.keys(item.recording?.columns ?? {}));
       const fixed = (name) => item.variables?.get(name)?.start;
       const instruments = Instruments.of(names) ? new Instruments(names, { scene: item.scene, fixed }) : null;
-      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.element] : []), hud.element, notice);
+      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), hud.element, notice);
       this.element.append(element);
       return { ...item, holder, notice, hud, instruments, element };
     });

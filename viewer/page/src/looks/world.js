@@ -28,7 +28,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
   const group = new THREE.Group();
-  const version = (level, light) => {
+  const make = (level, light) => {
     const { ground, paint } = level === "draft" ? materials.drafted(light) : materials;
     const rough = level === "low" || level === "draft";
     const land = field === null ? null : (rough ? coarseTerrain : terrain)(ground, axes, field);
@@ -39,7 +39,7 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   /** Show the world at a level, each made when it is first seen. @param {string} level @param {Data} light of a draft */
   const show = (level, light) => {
     const like = level === "medium" ? "high" : level;
-    shown = made[like] ??= version(like, light);
+    shown = made[like] ??= make(like, light);
     group.clear().add(shown.group);
   };
   return {

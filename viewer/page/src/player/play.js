@@ -297,7 +297,7 @@ export class Player {
     const names = new Set(Object.keys(this.runs[Math.max(0, this.solid)].columns));
     if (this.solid >= 0 && !this.problem && Instruments.of(names)) {
       this.instruments = new Instruments(names, { scene: this.runs[this.solid].scene });
-      this.viewBox.append(this.instruments.element);
+      this.viewBox.append(this.instruments.layer());
     }
     this.barBox = el("div.ali3-bar");
     this.foot.append(this.barBox);

@@ -123,7 +123,7 @@ export class Marks {
     const ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2((2 * x) / size[0] - 1, 1 - (2 * y) / size[1]), cameras.current);
     const targets = [...parts.moving.map(([frame, object]) => ({ frame, object })), ...parts.shapes.filter((made) => made.update).map((made) => ({ made, object: made.object }))];
-    const solid = (/** @type {Data} */ object) => !object.material?.transparent && visible(object);
+    const solid = (/** @type {any} */ object) => !object.material?.transparent && visible(object);
     const hits = targets.flatMap((target) => ray.intersectObject(target.object, true).filter((hit) => solid(hit.object)).map((hit) => ({ ...target, hit })));
     if (hits.length === 0) return null;
     const { frame, made, hit } = hits.reduce((a, b) => (b.hit.distance < a.hit.distance ? b : a));
