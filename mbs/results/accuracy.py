@@ -179,11 +179,11 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
     """
     found = next(((step, off) for step, off in tried if off <= MET), None)
     if found is None:
-        finds = "imulate(..., tolerance=1e-3) in place of a step finds steps that will do."
+        finds = "simulate(..., tolerance=1e-3) in place of a step finds steps that will do."
         if not tried:
-            return f"S{finds}"
+            return f"How short steps must be was not tried: {finds}"
         step, off = tried[-1]
-        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: s{finds}"
+        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: {finds}"
     better = _higher_orders(system, method)
     others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
     return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])}{others}."
