@@ -135,6 +135,15 @@ def recorded_every(every: int, steps: int) -> int:
     return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
 
 
+def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
+    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
+    most = float(METHOD_TABLE[method].order)
+    first, second = abs(coarse.energy_error), abs(fine.energy_error)
+    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
+        return most
+    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
+
+
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """What is known without a repeat."""
     known = report.kinetic_peak > 0.0
@@ -179,11 +188,11 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
     """
     found = next(((step, off) for step, off in tried if off <= MET), None)
     if found is None:
-        finds = "imulate(..., tolerance=1e-3) in place of a step finds steps that will do."
+        finds = "simulate(..., tolerance=1e-3) in place of a step finds steps that will do."
         if not tried:
-            return f"S{finds}"
+            return f"How short steps must be was not tried: {finds}"
         step, off = tried[-1]
-        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: s{finds}"
+        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: {finds}"
     better = _higher_orders(system, method)
     others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
     return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])}{others}."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -11,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
+from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.steps import BranchKind
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
-from mbs.results.glance import has_whole
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
@@ -23,6 +24,7 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import repeat
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
+from mbs.simulation.coarser_run import Coarser, has_whole, rest_of
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
@@ -44,7 +46,7 @@ def fixed_step_run(
     before: dict[str, NDArray[np.float64]] | None = None,
     twin: int = 0,
 ) -> Trajectory:
-    """A run in steps of h, with repeats where its accuracy asks for them, see `repeat.check`."""
+    """A run in steps of h, with repeats where its accuracy asks for them, see `check`."""
     told: Told = []
     try:
         return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, before, twin)
@@ -105,7 +107,7 @@ def judged_run(
                 system, run, march_from_start, h, often, bar.update, before, twin, inputs, most, path
             )
             if checked:
-                found = repeat.check(repeats, always=estimate_error is True)
+                found = check(repeats, always=estimate_error is True)
             repeats.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
@@ -121,3 +123,57 @@ def judged_run(
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory
+
+
+def check(repeats: repeat.Repeats, always: bool) -> Accuracy | None:
+    """What is known of the error of a run, after the repeats that it needs.
+
+    Where the next repeat costs more than is left, that is said in place of a verdict.
+
+    Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
+    the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
+    with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
+    steps were halved. The first of these is `Repeats.first`; with `Repeats.twin` no other is made.
+
+    `always`: whether a run that is plainly smooth is repeated too.
+    """
+    system, run = repeats.system, repeats.run
+    report, known = run[0].report, run[0].accuracy
+    if report is None or known is None or run[0].settings is None:
+        return known
+    method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
+    if accuracy.balance_decides(report, method, driven) and not always:
+        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
+    if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
+        return known
+    if not always and repeats.before is None and doubt == accuracy.SCREEN:
+        screened = Coarser(repeats).verdict()
+        if screened is not None:
+            return screened
+    try:
+        known = repeats.finer(repeats.first)
+        least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
+        least = 0.0 if accuracy.drift(report) > accuracy.SURE_BALANCE else least
+        if not repeats.twin and least < (known.error or 0.0) < most:
+            known = repeats.decided(known)
+    except repeat.TooDearError:
+        ahead = [repeats.h / repeats.tried * times for times in (1, 2, 4, 8)]
+        needed = repeats.cost + sum(cost for cost in ahead if cost < 8.5 * repeats.parts)
+        known = repeats.known or known
+        text = accuracy.open_text(known, repeats.tried, repeats.most, needed)
+        return replace(known, repeat_cost=repeats.cost, message=text)
+    except SimulationError as error:
+        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
+        if error.status == Status.ROAD_LOST:  # which says nothing about the steps
+            text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
+        return replace(known, repeat_cost=repeats.cost, message=text)
+    branch = run[0].branch_change if repeats.left_alone else ""
+    if known.error is None or known.error <= accuracy.WARNED_ERROR:
+        return replace(known, branch=branch)
+    said = [repeats.text(known)]
+    if accuracy.balance_says(report, method, driven):
+        said.append(accuracy.balance_text(report))
+    tried = repeats.tried_steps(known)
+    message = " ".join([*said, accuracy.remedy(system, method, tried)])
+    return replace(known, repeat_cost=repeats.cost, branch=branch, message=message)

@@ -9,22 +9,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.enumerations import Status
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, NEAR_LIMIT, WARNED_ERROR, Accuracy
+from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.comparison import by_limit, differences, unsure
-from mbs.results.glance import ALONE, HOPELESS, NEARER, Glance, difference_from, glances, rest_of
 from mbs.results.judged import (
-    ALIKE,
     COORDINATES,
-    WHOLE,
     Judged,
     add_ends,
-    has_loads,
-    is_open,
     judged_in,
     judged_sensors,
-    rows_judged,
     shows_motion,
     sizes_of,
 )
@@ -34,20 +27,12 @@ from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
-from mbs.simulation.march import WATCHED
 from mbs.simulation.prepared_system import length_of
 from mbs.simulation.step_choice import LEAST_ORDER
 from mbs.system.system import System
 
-FEWEST = 6  # instants at which a much coarser run is compared
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
-COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-AGREED = 0.1  # of what a coarser run may differ by
-
-
-class TooFarError(Exception):
-    """A coarser run is given up: it differs by more than it may."""
 
 
 class TooDearError(Exception):
@@ -121,12 +106,12 @@ class Repeats:
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
         self._finer, self._sizes = dict[int, Run](), dict[str, float]()
-        self._length = length_of(self.system)
+        self.length = length_of(self.system)
         settings, report, self.known = self.run[0].settings, self.run[0].report, self.run[0].accuracy
         assert settings is not None
         assert report is not None
         self.parts = accuracy.divisor(report.steps, report.halvings)
-        self._method, self.unresolved = (
+        self.method, self.unresolved = (
             settings.method,
             unresolved_share(self.system, settings.method, (self.run[0].t[0], self.run[0].t[-1]), self.inputs),
         )
@@ -135,53 +120,23 @@ class Repeats:
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
         coordinates = dict.fromkeys(self._columns, Judged(COORDINATES, place=True))
         seen = self._coordinates(self.run)
-        stands = bool(seen) and not sizes_of(seen, coordinates, self._length, self.before)
+        stands = bool(seen) and not sizes_of(seen, coordinates, self.length, self.before)
         guided = len(self.system.arrays["gterm_row"]) > 0
-        self.judged = judged_in(self.run[0], judged_sensors(self.system), self._length, self.before, stands, guided)
+        self.judged = judged_in(self.run[0], judged_sensors(self.system), self.length, self.before, stands, guided)
         if shows_motion(self.judged):
             self.run = self.run[0], []
         elif self.run[1]:
             self.judged |= coordinates
-
-    def coarser(self, glance: Glance, most: float) -> Accuracy | None:
-        """By a run with longer steps; None where there are too few of them, or it does not end, or ends elsewhere.
-
-        Raises `TooFarError`: a sensor was off by more than `most` of the range before it ended.
-        """
-        # About `glance.times` of its steps: some that end at all samples where it can, else one in `thin` samples.
-        steps, thin = max(round(self.every / glance.times), 1), max(round(glance.times / self.every), 1)
-        times = thin * self.every / steps
-        h, intervals = times * self.h, len(self.run[0].t) - 1
-        coordinates, loads = bool(self.run[1]), has_loads(self.judged) and intervals <= WHOLE
-        long_enough = self.run[0].t[-1] - self.run[0].t[0] >= h - 0.5 * self.h
-        enough = glance.times == 2 or intervals // thin >= FEWEST
-        if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
-            return None
-        run = self.run if thin == 1 else (self.run[0].thinned(thin), [])
-        smooth = self._smooth_from / thin
-        watch = None  # with one iteration a run is too short to be worth it
-        if not (coordinates or glance.iterations):
-            watch = self._watch(run[0], most, glance.difference, smooth)
-        try:
-            twin = self._again(h, steps, 1.0 / times, glance.iterations, watch)
-        except (SimulationError, TooDearError):
-            return None
-        if watch is not None and len(twin[0].t) >= smooth:
-            twin = self._continued(twin[0], run[0]), []
-        shared = min(len(run[0].t), len(twin[0].t))
-        if shared < max(2, len(run[0].t) - 1) or (coordinates and len(twin[1]) != len(run[1])):
-            return None
-        return self._compared(run, twin, h, 1.0 / times)
 
     def finer(self, parts: int) -> Accuracy:
         """By a run whose steps are shorter by so many times.
 
         Raises `SimulationError`: it does not end; `TooDearError`: it costs more than is left.
         """
-        again = self._finer[parts] = self._again(self.h / parts, self.every * parts, float(parts))
+        again = self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
-        self.known = self._compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
+        self.known = self.compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
         return self.known
 
     @property
@@ -222,17 +177,17 @@ class Repeats:
             parts, known = 2 * parts, self.finer(2 * parts)
         else:
             try:
-                self._finer[parts // 2] = self._again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
+                self._finer[parts // 2] = self.again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
             except SimulationError:  # says nothing against the finer one that ended
                 parts, last, known = 2 * parts, known, self.finer(2 * parts)
         while True:
             first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
             if parts > 2 * self.parts:
-                known = by_limit(known, [self._table(self.run), first, second], self.judged, self.before, self._length)
+                known = by_limit(known, [self._table(self.run), first, second], self.judged, self.before, self.length)
                 self.known = known
             if parts == 8 * self.parts or (parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR):
                 break  # of this one and the last the larger error counts
-            apart = differences(first, second, self.judged, self.before, self._length)[0]
+            apart = differences(first, second, self.judged, self.before, self.length)[0]
             if not (unsure(known, apart) or self.coarse):
                 break
             parts, last, known = 2 * parts, known, self.finer(2 * parts)
@@ -248,7 +203,7 @@ class Repeats:
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
         if parts > max(self._finer) and tried[-1][1] > accuracy.MET:
             try:
-                self._finer[parts] = self._again(self.h / parts, self.every * parts, float(parts))
+                self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):
                 return tried
             return self._offs(known)
@@ -260,11 +215,11 @@ class Repeats:
         tables = {n: self._table(self.run if n == 1 else self._finer[n]) for n in (*others, finest)}
         apart = {
             n: max(
-                differences(tables[n], tables[finest], self.judged, self.before, self._length)[0].values(), default=0.0
+                differences(tables[n], tables[finest], self.judged, self.before, self.length)[0].values(), default=0.0
             )
             for n in others
         }
-        near, order = others[-1], float(METHOD_TABLE[self._method].order)
+        near, order = others[-1], float(METHOD_TABLE[self.method].order)
         if near > 1 and min(apart[1], apart[near]) > 0.0:
             order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))
         apart[finest] = apart[near] / ((finest / near) ** order - 1.0)
@@ -279,7 +234,8 @@ class Repeats:
         """The estimated error in a sentence."""
         return accuracy.error_text(known, self._sizes, self.judged)
 
-    def _again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
+    def again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
+        """The motion in other steps, paid for. Raises `TooDearError`: it would cost more than is left."""
         before, self.tried, share = 1.0 + self.cost, h, 0.0
         if self.cost + cost > self.most:
             raise TooDearError
@@ -300,59 +256,10 @@ class Repeats:
             if watch is not None:
                 self.cost -= cost * (1.0 - share)
 
-    @property
-    def _smooth_from(self) -> float:
-        """The number of samples behind which what is left of the first run is plainly smooth, so that it alone would
-        not be checked.
-        """
-        report = self.run[0].report
-        assert report is not None
-        for samples, at in self.path:
-            rest = replace(report, **{name: getattr(report, name) - getattr(at, name) for name in COUNTED})
-            if not accuracy.doubt(rest, rest.steps, rest.halvings, self._method):
-                return samples
-        return math.inf
-
-    def _continued(self, twin: Trajectory, run: Trajectory) -> Trajectory:
-        """A run that ended where it agreed with this one, as if both were equal from there on."""
-        names = list(self.judged)
-        values = np.column_stack([np.append(twin[n], run[n][len(twin.t) :]) for n in names])
-        t = np.append(twin.t, run.t[len(twin.t) :])
-        return Trajectory(t, values, names, [run.units[n] for n in names], twin.report, twin.settings)
-
-    def _watch(self, run: Trajectory, most: float, right: float, smooth: float) -> Watch:
-        """What gives up a run with the samples of this one where they differ by more than `most` of the range.
-
-        It ends it where `smooth` samples are made, and what both differ by in the last tenth of the whole is at most
-        `AGREED` of `right`, and as it grew in that tenth comes to no more than `right` in the end.
-        """
-        column = {sensor["name"]: k for k, sensor in enumerate(self.system.meta["sensors"])}
-        sizes, tenth = sizes_of(run, self.judged, self._length, self.before), len(run.t) / WATCHED
-        rows = {name: rows_judged(self.judged[name], len(run.t)) for name in sizes}
-        unknown = is_open(self.judged)
-        sizes = {name: size for name, size in sizes.items() if self.judged[name].always or not unknown}
-
-        def look(values: NDArray[np.float64]) -> bool:
-            agreed, left, same = len(values) >= smooth, (len(run.t) - len(values)) / tenth, unknown
-            for name, size in sizes.items():
-                there = rows[name][rows[name] < len(values)]
-                gaps = self.judged[name].apart(values[there, column[name]], run[name][there]) / size
-                if gaps.max() > most:
-                    raise TooFarError
-                same = same and not (self.judged[name].place and gaps.max() > ALIKE)
-                old = there < len(values) - 1 - tenth
-                last, before = gaps[~old].max(), gaps[old & (there >= len(values) - 1 - 2 * tenth)].max(initial=0.0)
-                growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
-                ahead = left * growth + math.log(last / right) if last > 0.0 else -math.inf
-                agreed = agreed and last <= AGREED * right and ahead <= 0.0
-            return agreed and not same
-
-        return look
-
     def _missed(self, run: Run) -> float:
         report = run[0].report
         assert report is not None
-        return accuracy.missed_share(report, self._method)
+        return accuracy.missed_share(report, self.method)
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
         """What is compared of a run, by name."""
@@ -365,14 +272,17 @@ class Repeats:
         q = np.array(run[1])
         return {name: q[:, i] for name, i in self._columns.items()} if len(q) else {}
 
-    def _compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
+    def compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
         assert run.accuracy is not None
         tables = self._table(coarse), self._table(fine)
-        units, sensors, self._sizes = differences(*tables, self.judged, self.before, self._length)
+        units, sensors, self._sizes = differences(*tables, self.judged, self.before, self.length)
         order = float(METHOD_TABLE[run.settings.method].order)
+        reports = coarse[0].report, fine[0].report
+        if round(ratio) < 4 and reports[0] is not None and reports[1] is not None:  # else the order hardly counts
+            order = accuracy.measured_order(run.settings.method, *reports, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
             run.accuracy,
@@ -382,68 +292,3 @@ class Repeats:
             units={unit: factor * e for unit, e in units.items()},
             sensors={name: factor * e for name, e in sensors.items()},
         )
-
-
-def check(repeats: Repeats, always: bool) -> Accuracy | None:
-    """What is known of the error of a run, after the repeats that it needs.
-
-    Where the next repeat costs more than is left, that is said in place of a verdict.
-
-    Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
-    the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
-    with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
-    steps were halved. The first of these is `Repeats.first`; with `Repeats.twin` no other is made.
-
-    `always`: whether a run that is plainly smooth is repeated too.
-    """
-    system, run, h = repeats.system, repeats.run, repeats.h
-    report, known = run[0].report, run[0].accuracy
-    if report is None or known is None or run[0].settings is None:
-        return known
-    method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
-    if accuracy.balance_decides(report, method, driven) and not always:
-        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
-    if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
-        return known
-    last = 0.0
-    if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        chosen = glances(run[0].settings, repeats.judged, len(system.arrays["y0"]) > 0, repeats.unresolved, report)
-        for glance in chosen:
-            try:
-                screened = repeats.coarser(glance, glance.difference if glance is chosen[-1] else HOPELESS)
-            except TooFarError:
-                break
-            apart = math.inf if screened is None else difference_from(screened, method, h)
-            sure = apart <= max(ALONE, NEARER * last) or repeats.nothing_abrupt
-            if screened is not None and apart <= glance.difference and sure:
-                return screened
-            last = apart if screened is not None else last
-            if screened is not None and apart > HOPELESS:
-                break
-    try:
-        known = repeats.finer(repeats.first)
-        least, most = (0.0, math.inf) if repeats.coarse else NEAR_LIMIT
-        least = 0.0 if accuracy.drift(report) > accuracy.SURE_BALANCE else least
-        if not repeats.twin and least < (known.error or 0.0) < most:
-            known = repeats.decided(known)
-    except TooDearError:
-        ahead = [repeats.h / repeats.tried * times for times in (1, 2, 4, 8)]
-        needed = repeats.cost + sum(cost for cost in ahead if cost < 8.5 * repeats.parts)
-        known = repeats.known or known
-        text = accuracy.open_text(known, repeats.tried, repeats.most, needed)
-        return replace(known, repeat_cost=repeats.cost, message=text)
-    except SimulationError as error:
-        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
-        if error.status == Status.ROAD_LOST:  # which says nothing about the steps
-            text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
-        return replace(known, repeat_cost=repeats.cost, message=text)
-    branch = run[0].branch_change if repeats.left_alone else ""
-    if known.error is None or known.error <= WARNED_ERROR:
-        return replace(known, branch=branch)
-    said = [repeats.text(known)]
-    if accuracy.balance_says(report, method, driven):
-        said.append(accuracy.balance_text(report))
-    tried = repeats.tried_steps(known)
-    message = " ".join([*said, accuracy.remedy(system, method, tried)])
-    return replace(known, repeat_cost=repeats.cost, branch=branch, message=message)

@@ -17,9 +17,9 @@ from benchmarks.methods import random_machines, random_mechanisms
 from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.results.accuracy import Accuracy, missed_share
-from mbs.results.glance import FORCES, QUICK, TWICE, difference_from, glances
 from mbs.results.judged import Judged
 from mbs.results.smooth_laws import LOOPS, OPEN, UNRESOLVED, unresolved_share
+from mbs.simulation.coarser_run import FORCES, QUICK, TWICE, difference_from, glances
 from tests.simulation.drawn import drawn
 
 SPAN = (0.0, 1.0)  # s

@@ -10,10 +10,10 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_machines
-from mbs.results.glance import HIGH, glances, rest_missed
 from mbs.results.judged import COORDINATES, Judged
 from mbs.results.smooth_laws import LOOPS, OPEN
-from mbs.simulation.repeat import Repeats, TooFarError
+from mbs.simulation.coarser_run import HIGH, Coarser, TooFarError, glances, rest_missed
+from mbs.simulation.repeat import Repeats
 from tests.simulation.drawn import drawn
 from tests.simulation.test_coarser_runs import ball, place
 
@@ -121,7 +121,7 @@ def never(*_: Any) -> Any:
 def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndarray], np.ndarray], ends: bool) -> None:
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
-    look = Repeats(system, (run, []), never, 0.01, 1, never)._watch(run, 0.03, 0.03, 40)
+    look = Coarser(Repeats(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 0.03, 40)
     values = np.column_stack([run[name] for name in run.units])
     values[:, list(run.units).index("x")] += grown(t) * np.ptp(run["x"])
     assert look(values[:51]) == ends
