@@ -93,7 +93,7 @@ def test_cars_of_the_package_lie_inside(name: str) -> None:
 
 def test_the_kind_of_a_car_narrows_its_ranges() -> None:
     changes = {"front.wheel.centre.1": 0.97, "rear.wheel.centre.1": 0.97, "vehicle.width": 2.1}
-    lines = {kind: told("hatchback", changes | {"vehicle.kind": kind}) for kind in ("passenger_car", "truck")}
+    lines = {kind: told("hatchback", changes | {"vehicle.category": kind}) for kind in ("passenger_car", "truck")}
     assert any("front track is 1.94 m; usual is 1 to 1.85 m" in line for line in lines["passenger_car"])
     assert not any("track is" in line for line in lines["truck"])
 

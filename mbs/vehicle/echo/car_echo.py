@@ -32,7 +32,7 @@ def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake)
 
     `what`: the file; `rest`: the car at rest; `data`: content of the file.
     """
-    kind = car.vehicle.kind or ""
+    kind = car.vehicle.category or ""
     mistakes = [
         Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
     ]
