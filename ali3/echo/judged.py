@@ -37,7 +37,7 @@ class Value:
         if bounds is None:
             return True
         slack = ROUNDING * (bounds[1] - bounds[0]) if math.isfinite(bounds[1] - bounds[0]) else 0.0
-        return bounds[0] - slack <= self.value <= bounds[1] + slack
+        return bool(bounds[0] - slack <= self.value <= bounds[1] + slack)
 
 
 Undo: TypeAlias = Callable[[], "Sequence[Value] | None"]
@@ -93,7 +93,7 @@ class Echo:
                 "of": v.of,
                 "symbol": v.quantity.symbol,
                 "unit": v.quantity.unit,
-                "value": v.value if math.isfinite(v.value) else None,
+                "value": float(v.value) if math.isfinite(v.value) else None,
                 "range": v.quantity.range(self.kind),
                 "inside": v.inside(self.kind),
                 "follows": v.quantity.follows,

@@ -50,12 +50,8 @@ def quantities_of(thing: str) -> Mapping[str, Quantity]:
     """Quantities of a kind of thing by short keys, from the table beside this file. `thing`: as "car"."""
     with TABLE.open(encoding="utf-8", newline="") as file:
         found = [row for row in csv.DictReader(file) if row["thing"] == thing]
-    return {
-        row["key"]: Quantity(
-            *(row[n] for n in ("name", "symbol", "unit", "follows")), _ranges(row["ranges"]), row["source"]
-        )
-        for row in found
-    }
+    texts = ("name", "symbol", "unit", "follows", "source")
+    return {row["key"]: Quantity(ranges=_ranges(row["ranges"]), **{n: row[n] for n in texts}) for row in found}
 
 
 def _ranges(text: str) -> dict[str, Range]:

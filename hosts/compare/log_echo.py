@@ -88,12 +88,12 @@ def log_values(signals: Signals) -> list[Value]:
         for name in WHEELS:
             if name in signals:
                 spin = _on(signals[name], signals[v].time)
-                moving = np.abs(signals[v].values) > LEAST["move"]
-                if moving.sum() > 10 and np.all(np.abs(spin[moving]) > 0.0):
+                moving = (np.abs(signals[v].values) > LEAST["move"]) & (spin != 0.0)  # one that is locked says nothing
+                if moving.sum() > 10:
                     radius = float(np.median(signals[v].values[moving] / spin[moving]))
                     found.append(Value(QUANTITIES["wheel"], abs(radius), _keys(signals, v, name), name))
     found += _ratio_of_rates(signals, "heading", "chassis.yaw", "chassis.wz", LEAST["yaw"])
-    for key, name in (("speed", v), ("ay", "chassis.ay"), ("ax", "chassis.ax"), ("yaw", "chassis.wz")):
+    for key, name in (("speed", v or "speed"), ("ay", "chassis.ay"), ("ax", "chassis.ax"), ("yaw", "chassis.wz")):
         if name in signals:
             share = 1.0 if key == "speed" else 0.99
             largest = float(np.quantile(np.abs(signals[name].values), share))

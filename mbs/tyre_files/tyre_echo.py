@@ -167,7 +167,7 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
     keys: dict[str, dict[str, Any]] = {}
     for axis, name in (("y", "lateral"), ("x", "longitudinal")):
         curve = getattr(tyre, name)
-        own = {
+        own: dict[str, Any] = {
             f"{prefix}{name}.{f}": list(getattr(curve, f))
             for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
         }

@@ -37,7 +37,7 @@ class Vehicle(Section):
     """Length of the outline."""
     width: Length
     """Width of the outline without mirrors."""
-    kind: Literal["passenger_car", "racing_car", "truck"] | None = None
+    category: Literal["passenger_car", "racing_car", "truck"] | None = None
     """Kind of vehicle: what is told is what is unusual of it, without the key what is unusual of all kinds."""
 
 

@@ -65,9 +65,9 @@ def _points(world: WorldDescription, key: str, thing: Thing) -> Value:
 def changed_points(world: WorldDescription, thing: Thing) -> int:
     """How many points of the grid of a world a thing raises or colours; of a large one a part of them."""
     if isinstance(thing, Area):
-        half = (thing.radius, thing.radius) if thing.radius is not None else [0.5 * s for s in thing.size or (0.0, 0.0)]
-        (x, y), (a, b) = thing.at, half
-        box = x - a, y - b, x + a, y + b
+        (cx, cy), r = thing.at, thing.radius
+        a, b = (r, r) if r is not None else (0.5 * side for side in thing.size or (0.0, 0.0))
+        box = cx - a, cy - b, cx + a, cy + b
     else:
         box = footprint(thing).box()
     axes = []
@@ -78,12 +78,7 @@ def changed_points(world: WorldDescription, thing: Thing) -> int:
         axes.append(first + step * numbers[:: max(1, len(numbers) // MOST)])
     x, y = np.meshgrid(*axes, indexing="ij")
     if isinstance(thing, Area):
-        inside = (
-            np.ones(x.shape, bool)
-            if thing.radius is None
-            else np.hypot(x - thing.at[0], y - thing.at[1]) <= thing.radius
-        )
-        return int(inside.sum())
+        return x.size if r is None else int((np.hypot(x - cx, y - cy) <= r).sum())
     inside = footprint(thing).inside(x, y)
     return int(inside.sum() if isinstance(thing, Band) else (inside & (np.abs(added(thing, x, y)) > FELT)).sum())
 

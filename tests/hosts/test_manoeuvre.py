@@ -301,6 +301,23 @@ def test_of_several_names_the_first_that_there_is_counts(tmp_path):
     assert "drive.creep_torque | selector" in load_manoeuvre("kerb_drop").start
 
 
+def test_columns_beyond_their_range_and_late_tables_are_refused(tmp_path: Path) -> None:
+    model = mbs.Model("bob", dimension=2)
+    bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))
+    model.force("pull", bob, inputs=(model.input("pull", unit="1", min=-1.0, max=1.0), None))
+
+    def drive(values: list[float], begin: float = 0.0) -> Manoeuvre:
+        return Manoeuvre("far", begin + np.array([0.0, 1.0, 2.0]), {"pull": np.array(values)}, 2.0)
+
+    with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
+        check_columns(fmu, drive([0.0, 1.0 + 1e-7, -1.0]))
+        with pytest.raises(HostError, match="'pull' that reaches 45 in row 2 .*; it looks like percent or degrees"):
+            check_columns(fmu, drive([0.0, 45.0, 20.0]))
+        check_columns(fmu, drive([0.0, 1.0, 0.0], 1.5))
+        with pytest.raises(HostError, match="begins at 100 s, and the run ends at 2 s"):
+            check_columns(fmu, drive([0.0, 1.0, 0.0], 100.0))
+
+
 def test_a_drive_by_what_squares_to_no_number_is_refused(tmp_path: Path) -> None:
     model = mbs.Model("bob", dimension=2)
     bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))

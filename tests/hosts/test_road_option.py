@@ -11,7 +11,7 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from hosts.common.errors import HostError
-from hosts.common.road import road_value
+from hosts.common.road import road_value, tell_start
 from hosts.run.command import main
 from mbs.elements import ContactPoints, PlaneRoad
 
@@ -54,6 +54,24 @@ def test_a_run_on_a_table(sledge, tmp_path, capsys):
     assert "'' -> " in capsys.readouterr().out
     table = np.genfromtxt(out / f"{sledge.stem.lower()}.csv", delimiter=",", names=True)
     assert table["z"][-1] == pytest.approx(3.2, abs=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("x", "start", "words"),
+    [
+        (0.0, 0.0, ""),
+        (550.0, 0.0, "distance of the start from the road is 500 m"),
+        (550.0, 550.0, ""),
+        (4.5e5, 0.0, "coordinates of a map"),
+    ],
+)
+def test_a_start_beside_the_road_is_told_before_the_drive(tmp_path, capfd, x, start, words):
+    rows = "".join(f"{x + at:g},0,0,0\n" for at in (-50.0, 0.0, 50.0))
+    (tmp_path / "far.csv").write_text(f"x,-5,0,5\n{rows}")
+    tell_start(road_value(str(tmp_path / "far.csv"), tmp_path), {"initial.x": start})
+    said = capfd.readouterr().err
+    assert (words in said) if words else said == ""
 
 
 def test_a_road_that_is_not_there(sledge, tmp_path, capsys):

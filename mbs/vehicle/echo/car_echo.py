@@ -18,6 +18,7 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
 from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.echo.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.environment import GRAVITY
 
@@ -32,7 +33,7 @@ def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake)
 
     `what`: the file; `rest`: the car at rest; `data`: content of the file.
     """
-    kind = car.vehicle.kind or ""
+    kind = car.vehicle.category or ""
     mistakes = [
         Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
     ]
@@ -117,15 +118,16 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
     stiffness = {name: 2.0 * cornering(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()}
     if min(stiffness.values()) > 0.0:
         front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
-        keys = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
-        yield Value(CAR["understeer"], front - rear, keys | _centre_key(car))
+        loads = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
+        yield Value(CAR["understeer"], front - rear, loads | _centre_key(car))
     steering = car.steering
     key = steering.key("front_wheel_angle_max")
     ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
     turn = {steering.key(f): getattr(steering, f) for f in ("rack_per_turn",) if hasattr(steering, f)}
     yield Value(CAR["steering"], ratio, {key: steering.front_wheel_angle_max, **turn})
     drive, driven = car.drive, car.axles[car.drive.wheels]
-    if hasattr(drive, "ratios"):
+    keys: dict[str, Any]
+    if isinstance(drive, Automatic):
         ratios = [r * drive.ratio_factor for r in drive.ratios]
         keys = {drive.key("ratios"): list(drive.ratios), drive.key("ratio_factor"): drive.ratio_factor}
     else:
@@ -189,7 +191,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         for factor, words in ((0.5, "both wheels in place of one"), (2.0, "half of the wheel")):
             yield f"{words} in {key}", {key}, _scale(key, factor)
     chassis, drive, steering = car.chassis, car.drive, car.steering
-    key = drive.key("ratios" if hasattr(drive, "ratios") else "ratio")
+    key = drive.key("ratios" if isinstance(drive, Automatic) else "ratio")
     yield (f"ratios without a final drive, of about {FINAL_DRIVE:g}, in {key}", {key}, _scale(key, FINAL_DRIVE))
     yield (f"the final drive, of about {FINAL_DRIVE:g}, twice in {key}", {key}, _scale(key, 1.0 / FINAL_DRIVE))
     limit = drive.key("limit_speed")
