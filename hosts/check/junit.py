@@ -26,7 +26,10 @@ class Case:
     """What the line belongs to: the FMU, or the reference."""
     name: str
     verdict: Literal["good", "note", "bad", "skipped", "error"]
-    """``good``, ``note`` where the standard leaves it open, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible."""
+    """``good``, ``note`` where the standard leaves it open, ``bad``.
+
+    ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
+    """
     words: str
     seconds: float = 0.0
     """How long it took."""

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from itertools import pairwise
 from pathlib import Path
+from typing import Literal
 
 from hosts.check.instance import Check, Finding, Instance, Subject
 
@@ -179,7 +180,7 @@ def costs_of_instances(subject: Subject) -> Finding:
         rate = (column[-1] - column[0]) / (_INSTANCES - 5)
         if rate > max(most, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
             words = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
-            verdict = "note" if name == "memory" else "bad"
+            verdict: Literal["note", "bad"] = "note" if name == "memory" else "bad"
             return Finding("costs of instances", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("costs of instances", "good", "instances that are freed leave nothing")
 
@@ -287,7 +288,7 @@ def messages(subject: Subject) -> Finding:
         letters = set(_FORMAT.findall(text))
         if "n" in letters or (subject.three and letters & set("sn")):
             words = f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
-            verdict = "note" if subject.three else "bad"
+            verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
             return Finding("messages", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
     said = len(instance.messages)
     if said > 20 * max(1, len(rows)):
