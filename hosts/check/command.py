@@ -11,7 +11,7 @@ import time
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from ali3.decimal_number import number
 from ali3.extras import command_needs
@@ -20,6 +20,7 @@ from ali3.options import Parser, add_option, assignment, count, given_of
 from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.junit import Case, write_junit
+from hosts.check.sarif import write_sarif
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
@@ -33,8 +34,9 @@ _MARKS = {"good": "ok", "note": "note", "bad": "BAD"}
 _WIDTH = 22
 _MOST_STEPS = 100_000
 _STEPS = 50
+_THOROUGH = 500
 _TIME_LIMIT = 20.0  # s for a check
-_OF_CHECK = ("steps", "time_limit")
+_OF_CHECK = ("steps", "time_limit", "thorough")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
 _OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "again", "out", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
@@ -60,6 +62,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     parser.add_argument(
         "--junit", type=Path, metavar="FILE", help="write the verdict there too, of the check or of --reference"
     )
+    parser.add_argument("--sarif", type=Path, metavar="FILE", help="write the verdict there too, as SARIF 2.1.0")
+    parser.add_argument("--thorough", action="store_true", help=f"runs of {_THOROUGH} steps, up to a minute in all")
     add_setting_options(parser)
     add_option(parser, "--confined")
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
@@ -131,8 +135,9 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"{others[0]} does not go with {others[-1]}.")
     if (of_check := given_of(parser, options, _OF_CHECK)) and others:
         raise HostError(f"{of_check[0]} is of the check alone.")
-    if options.junit is not None and (table or options.soak):
-        raise HostError(f"--junit does not go with {others[0]}.")
+    written = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
+    if written and (table or options.soak):
+        raise HostError(f"--{next(iter(written))} does not go with {others[0]}.")
     if options.confined and (table or options.soak):
         raise HostError(f"--confined does not go with {others[0]}.")
     if options.soak:
@@ -140,8 +145,8 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         from hosts.soak.soak import soak
 
         return soak(options, parser.prog)
-    if options.junit is not None:
-        check_writable(options.junit)
+    for file in written.values():
+        check_writable(file)
     if options.manoeuvre is not None:
         from hosts.recordings.load_manoeuvre import check_asked
 
@@ -161,8 +166,10 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
             cases.append(Case(fmu.stem, "ali3 check", "error", str(error) or type(error).__name__))
         raise
     finally:
-        if options.junit is not None and cases:
+        if "junit" in written and cases:
             write_junit(options.junit, fmu.stem, cases)
+        if "sarif" in written and cases:
+            write_sarif(options.sarif, fmu, cases)
 
 
 def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
@@ -210,7 +217,8 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     if not limit > 0.0:
         raise HostError(f"--time-limit is {limit:g} s; it must be positive.")
     without: list[str] = []
-    checker = Checker(fmu.absolute(), _STEPS if options.steps is None else options.steps, start)
+    steps = options.steps or (_THOROUGH if options.thorough else _STEPS)
+    checker = Checker(fmu.absolute(), steps, start)
     with closing(Isolated(checker, Finding, reads=(fmu, *files_of(start)))) as process:
         for place, check in enumerate(CHECKS):
             if check.name in without:
@@ -220,8 +228,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
             result = process.do(place, limit=limit)
             finding = lost(check, result, limit) if isinstance(result, Lost) else result
             print_finding(finding)
-            verdict: Literal["good", "bad"] = "bad" if finding.verdict == "bad" else "good"
-            cases.append(Case(fmu.stem, check.name, verdict, finding.words, time.perf_counter() - begin))
+            cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))
             without += [other.name for other in left_out(finding)]
     if process.left:
         words = f"{process.left} that it had started were ended with it"

@@ -65,7 +65,11 @@ def dependencies(subject: Subject) -> Finding:
                         f"{name} goes from {one:g} to {other:g} as {known} is set, on which it is said not to depend"
                     )
                     return Finding("dependencies", "bad", f"{words}; declare it in ModelStructure {clause}")
-    loose = [name for name, listed in declared.items() if (listed is None or listed) and not moved[name]]
+    nudged = {whole[subject.places[v.name].reference] for v in subject.inputs}
+    every = {v.name for v in subject.description.modelVariables if v.causality == "input"}
+    listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
+    said = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
+    loose = [name for name, known in said.items() if known and known <= nudged and not moved.get(name)]
     if loose:
         words = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
         words += ' before the next step; masters may see loops; dependencies="" where that is so'

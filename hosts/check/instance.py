@@ -66,6 +66,9 @@ class Subject:
     start: Mapping[str, Value] = field(default_factory=dict)
     """What is set in each instance before it starts; elements of arrays by their names."""
 
+    files: dict[str, tuple[int, int]] | None = None
+    """What lay around the FMU before its first call in this process, if that was looked at: sizes and times by path."""
+
     @property
     def three(self) -> bool:
         """Whether it is FMI 3.0."""

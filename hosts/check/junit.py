@@ -25,8 +25,11 @@ class Case:
     group: str
     """What the line belongs to: the FMU, or the reference."""
     name: str
-    verdict: Literal["good", "bad", "skipped", "error"]
-    """``good``, ``bad``, ``skipped`` where there is nothing to look at, or ``error`` where that is not possible."""
+    verdict: Literal["good", "note", "bad", "skipped", "error"]
+    """``good``, ``note`` where the standard leaves it open, ``bad``.
+
+    ``skipped`` where there is nothing to look at, or ``error`` where that is not possible.
+    """
     words: str
     seconds: float = 0.0
     """How long it took."""
@@ -50,7 +53,7 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     for case in cases:
         named = {"classname": _text(case.group), "name": _text(case.name), "time": f"{case.seconds:.3f}"}
         element = ElementTree.SubElement(its, "testcase", named)
-        if case.verdict == "good":
+        if case.verdict in ("good", "note"):
             ElementTree.SubElement(element, "system-out").text = _text(case.words)
         else:
             kind = "failure" if case.verdict == "bad" else case.verdict

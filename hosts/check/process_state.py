@@ -15,13 +15,14 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from itertools import pairwise
 from pathlib import Path
+from typing import Literal
 
 from hosts.check.instance import Check, Finding, Instance, Subject
 
 _LONG, _STEPS, _BUDGET = 30, 120, 1.0  # steps before and while something is measured; s
 _LEAK, _PER_INSTANCE = 8_000, 30_000  # bytes a step, an instance
 _INSTANCES = 20
-_REST, _IDLE = 0.1, 0.02  # s between calls, and of the processor in them
+_REST, _IDLE = 0.3, 0.03  # s between calls, and of the processor in them
 _SLOW = 10.0  # times its step that a step may take
 _STATUS = Path("/proc/self/status")
 _LINUX = sys.platform == "linux"
@@ -79,11 +80,14 @@ _SETTINGS: dict[str, tuple[Callable[[], object], str]] = {
 
 def settings(subject: Subject) -> Finding:
     """Settings of the process are as they were, after each kind of call."""
+    subject.files = _files(*_folders(subject))
+    folder = Path.cwd()
     interrupt = signal.signal(signal.SIGINT, signal.default_int_handler)  # that of a host that can be stopped
     try:
         return _settings(subject)
     finally:
         signal.signal(signal.SIGINT, interrupt)
+        os.chdir(folder)
 
 
 def _settings(subject: Subject) -> Finding:
@@ -176,7 +180,7 @@ def costs_of_instances(subject: Subject) -> Finding:
         rate = (column[-1] - column[0]) / (_INSTANCES - 5)
         if rate > max(most, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
             words = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
-            verdict = "note" if name == "memory" else "bad"
+            verdict: Literal["note", "bad"] = "note" if name == "memory" else "bad"
             return Finding("costs of instances", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("costs of instances", "good", "instances that are freed leave nothing")
 
@@ -241,8 +245,8 @@ def _files(*folders: Path) -> dict[str, tuple[int, int]]:
 
 def outside(subject: Subject) -> Finding:
     """Prints and files of a run."""
-    folders = {subject.folder, Path.cwd()} | ({Path(tempfile.gettempdir())} if _own_temporary() else set())
-    before = _files(*folders)
+    folders = _folders(subject)
+    before = _files(*folders) if subject.files is None else subject.files
     with _captured() as printed:
         instance = Instance(subject).start()
         instance.run(min(subject.steps, 10))
@@ -264,9 +268,11 @@ def outside(subject: Subject) -> Finding:
     return Finding("files and prints", "good", "none")
 
 
-def _own_temporary() -> bool:
-    """Whether the folder for temporary files is that of the process, in which nobody else writes."""
-    return Path(tempfile.gettempdir()).name.startswith(("ali3", "tmp"))
+def _folders(subject: Subject) -> set[Path]:
+    """Where files of an FMU could lie, and nobody else writes."""
+    temporary = Path(tempfile.gettempdir())
+    own = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
+    return {subject.folder, Path.cwd()} | own
 
 
 def messages(subject: Subject) -> Finding:
@@ -282,7 +288,7 @@ def messages(subject: Subject) -> Finding:
         letters = set(_FORMAT.findall(text))
         if "n" in letters or (subject.three and letters & set("sn")):
             words = f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
-            verdict = "note" if subject.three else "bad"
+            verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
             return Finding("messages", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
     said = len(instance.messages)
     if said > 20 * max(1, len(rows)):
@@ -292,8 +298,8 @@ def messages(subject: Subject) -> Finding:
 
 
 PROCESS_CHECKS = (
-    Check("files and prints", outside),  # first, as files may be written once
     Check("process settings", settings),
+    Check("files and prints", outside),
     Check("costs of steps", costs_of_steps),
     Check("costs of instances", costs_of_instances),
     Check("time of steps", time_of_steps, late="note", clause="FMI sets no time for a step"),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
 import pytest
 
+from hosts.check.all_checks import CHECKS
 from hosts.check.command import main
 from tests.hosts.odd_fmus import planted_fmu
 from tests.in_process import run
@@ -79,14 +81,29 @@ def test_each_fault_is_found(tmp_path: Path, plant: str, three: bool) -> None:
     assert f"(FMI {'3' if three else '2'}.0, " in lines[check][1]
 
 
-@pytest.mark.parametrize("three", [False, True])
-def test_a_source_file_that_is_named_and_missing(tmp_path: Path, three: bool) -> None:
+def test_a_source_file_that_is_named_and_missing(tmp_path: Path) -> None:
+    """In FMI 3.0 `buildDescription.xml` names them, see `test_check_portability`."""
     old, new = (
         '"true"/>\n  <UnitD',
         '"true"><SourceFiles><File name="gone.c"/></SourceFiles></CoSimulation>\n  <UnitD',
     )
-    if three:
-        pytest.skip("FMI 3.0 names them in buildDescription.xml, see test_check_portability")
-    _, lines = found(planted_fmu(tmp_path, "NONE", three, {old: new}))
+    _, lines = found(planted_fmu(tmp_path, "NONE", False, {old: new}))
     assert lines["source files"][0] == "BAD"
     assert "1 of 1 that are named are missing: gone.c; pack them in sources (FMI 2.0, 2.3)" in lines["source files"][1]
+
+
+def test_the_verdict_as_sarif(tmp_path: Path) -> None:
+    """Rules, kinds and levels as version 2.1.0 has them."""
+    fmu, file = planted_fmu(tmp_path, "NO_END", False), tmp_path / "out" / "verdict.sarif"
+    assert run(main, fmu, "--steps", 5, "--sarif", file).returncode == 1
+    log = json.loads(file.read_text(encoding="utf-8"))
+    assert log["version"] == "2.1.0"
+    (made,) = log["runs"]
+    rules = [rule["id"] for rule in made["tool"]["driver"]["rules"]]
+    assert rules == [check.name for check in CHECKS]
+    by_rule = {result["ruleId"]: result for result in made["results"]}
+    assert [rules[result["ruleIndex"]] for result in made["results"]] == rules
+    assert (by_rule["end"]["kind"], by_rule["end"]["level"]) == ("fail", "error")
+    assert "answers with status 3" in by_rule["end"]["message"]["text"]
+    assert (by_rule["runs"]["kind"], by_rule["derivatives"]["kind"]) == ("pass", "open")
+    assert by_rule["end"]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == fmu.name

@@ -77,18 +77,6 @@ OPEN = {
 TEXTS: list[tuple[str, str, str, list[Change]]] = [
     (
         "native",
-        "dependencies",
-        "derivative by torque",
-        [(XML, 'dependencies="1" dependenciesKind="dependent"', 'dependencies=""')],
-    ),
-    (
-        "fmi3",
-        "dependencies",
-        "derivative by torque",
-        [(XML, 'dependencies="0" dependenciesKind="dependent"', 'dependencies=""')],
-    ),
-    (
-        "native",
         "unit names",
         "'N m' and 'N.m'",
         [(XML, '<Unit name="N.m">', '<Unit name="N m"><BaseUnit kg="1" m="2" s="-2" /></Unit><Unit name="N.m">')],
@@ -116,6 +104,12 @@ TEXTS: list[tuple[str, str, str, list[Change]]] = [
     ),
     (
         "fmi3",
+        "source files",
+        "are named are missing: gone.c",
+        [("sources/buildDescription.xml", '<SourceFile name="values.c"', '<SourceFile name="gone.c"')],
+    ),
+    (
+        "fmi3",
         "build description",
         "not named",
         [("sources/buildDescription.xml", '<Library name="m"', '<Library name="n"')],
@@ -134,6 +128,25 @@ def test_documents(
 
 
 CALLS: list[tuple[str, str, str, Change]] = [
+    (
+        "native",
+        "dependencies",
+        "on which it is said not to depend",
+        ("sources/values.c", "value[i] = s->value[reference[i]];", "value[i] = s->value[reference[i]] + s->value[0];"),
+    ),
+    ("fmi3", "derivatives", "differences are", ("sources/derivatives.c", "out[i] = all[unknown[i]];", "out[i] = 7.0;")),
+    (
+        "fmi3",
+        "answers of steps",
+        "lastSuccessfulTime is its end",
+        ("sources/fmi3_step.c", "= ali3_time(face->s->fidelity.kernel)", "= time"),
+    ),
+    (
+        "fmi3",
+        "answers of steps",
+        "returns early, which was not allowed",
+        ("sources/fmi3_step.c", "*early_return = face->s->returned_early", "*early_return = true"),
+    ),
     (
         "fmi3",
         "time",

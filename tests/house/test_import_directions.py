@@ -39,7 +39,7 @@ ROOMS = (
 SHARED = ("method.h", "instance.h", "system.h")
 """Contract of methods and data that all rooms share: each header may include those behind it, and none of a room."""
 PUBLIC = "../include/ali3.h"
-STANDARD = ("fmi2FunctionTypes.h",)
+STANDARD = ("fmi2FunctionTypes.h", "fmi3FunctionTypes.h")
 """Headers as the FMI standard has them: hosts know no others."""
 C_FOLDERS = {
     "fmu_src/native/src": ("ali3.h",),

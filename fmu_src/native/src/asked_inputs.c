@@ -31,16 +31,6 @@ bool slave_asked_room(slave *s, int64_t n) {
   return true;
 }
 
-/* The inputs at `elapsed` after the communication point of the step that they are kept of; room for all. */
-void slave_asked_at(const slave *s, double elapsed, double h, double *input) {
-  const size_t nu = inputs_of(s);
-  const double at = fmin(fmax(elapsed / h, 0.0), (double)s->asked.n);
-  const int64_t k = (int64_t)fmin(floor(at + 1e-9), (double)(s->asked.n - 1));
-  const double share = at - (double)k;
-  const double *from = s->asked.row + (size_t)k * nu, *to = from + nu;
-  for (size_t i = 0; i < nu; i++) input[i] = share == 1.0 ? to[i] : from[i] + share * (to[i] - from[i]);
-}
-
 slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, const double *value) {
   const slave_table *t = &slave_the_table;
   slave_status worst = SLAVE_OK;

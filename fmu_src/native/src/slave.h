@@ -311,12 +311,12 @@ slave_status slave_step(slave *s, double time, double step);
 /* slopes.c */
 void slave_add_slope(const double *slope, size_t variable, double elapsed, double *input);
 void slave_add_slopes(const double *slope, double elapsed, double *input);
+void slave_asked_at(const slave *s, double elapsed, double h, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
 /* asked_inputs.c */
 bool slave_asked_room(slave *s, int64_t n);
 void slave_asked_free(slave *s);
-void slave_asked_at(const slave *s, double elapsed, double h, double *input);
 slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, const double *value);
 ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left);
 void slave_asked_taken(slave *s);

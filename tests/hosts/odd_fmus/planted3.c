@@ -62,8 +62,8 @@ fmi3Status fmi3Reset(fmi3Instance c) {
 
 fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Float64 v[], size_t count) {
   for (size_t k = 0; k < n && n == count; k++) {
-    if (r[k] > 1) return fmi3Error;
-    v[k] = read_planted(&((face *)c)->p, r[k]);
+    if (r[k] > 2) return fmi3Error;
+    v[k] = r[k] == 2 ? ((face *)c)->p.time : read_planted(&((face *)c)->p, r[k]);
   }
   return n == count ? fmi3OK : fmi3Error;
 }

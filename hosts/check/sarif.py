@@ -1,0 +1,45 @@
+"""SARIF files of a check, which code hosts and editors show: version 2.1.0 of OASIS."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from ali3.files import whole_file
+from hosts.check.junit import Case
+
+_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+# By verdict: kind and level of a result.
+_KINDS = {
+    "good": ("pass", "none"),
+    "note": ("open", "none"),
+    "bad": ("fail", "error"),
+    "error": ("fail", "error"),
+    "skipped": ("notApplicable", "none"),
+}
+
+
+def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
+    """Write the cases as one run, each a result of the rule that its check is.
+
+    `file`: whole or not at all; its folder is made. Raises `FileError`: the file cannot be written.
+    """
+    names = list(dict.fromkeys(case.name for case in cases))
+    driver = {
+        "name": "ali3 check",
+        "version": version("ali3"),
+        "rules": [{"id": name, "shortDescription": {"text": name}} for name in names],
+    }
+    place = {"physicalLocation": {"artifactLocation": {"uri": fmu.name}}}
+    results: list[dict[str, Any]] = []
+    for case in cases:
+        kind, level = _KINDS[case.verdict]
+        found = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
+        results.append(found | {"message": {"text": case.words}, "locations": [place]})
+    run = {"tool": {"driver": driver}, "results": results}
+    with whole_file(file) as made:
+        text = json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)
+        made.write_text(text + "\n", encoding="utf-8")
