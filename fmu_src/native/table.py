@@ -79,8 +79,8 @@ def c_table(
         f"{_names('coordinate', names['coordinate'])}{_names('notice', names['notice'])}"
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    row, first_row, element, first_element, coordinate, first_coordinate, notice, first_notice, "
-        f"{len(names['row'])}, follower,\n"
+        f"{len(table)}, {known},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
+        f"notice, first_notice, {len(names['row'])}, follower,\n"
         f"    texts, {len(texts)}, {roll}, {ground},\n}};\n"
     )
 
