@@ -40,7 +40,7 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
     """
     with temporary_folder() as folder:
         table = Path(folder, "table.c")
-        names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]], "coordinate": [[]]}
+        names: dict[str, list[list[str]]] = {"row": [[]], "element": [[]], "coordinate": [[]], "notice": [[]]}
         table.write_text(c_table([_VARIABLE], names, "0" * 32, "") + c_arrays(scalars([_VARIABLE])), encoding="utf-8")
         missing = {}
         for library in ((face, target) for face, platform in work for target in TARGETS[platform]):

@@ -24,6 +24,7 @@ from fmu_src.native.table import c_table
 from fmu_src.variables.parameter_file import parameter_set
 from fmu_src.variables.text_variables import TextVariable, road_resources, text_table
 from fmu_src.variables.variables import Variable, table_records
+from mbs.system.text import notices_before
 
 GEOMETRY = "resources/geometry.json"
 """Where the scene lies in an FMU."""
@@ -88,12 +89,14 @@ class NativeContents:
 
     @property
     def names(self) -> dict[str, list[list[str]]]:
-        """Names of the constraint rows, force elements and coordinates of tables of each System, see `c_table`."""
+        """Names of the constraint rows, force elements and coordinates of tables of each System, its notices; see
+        `c_table`."""
         found = {
             what: [[item["name"] for item in system.meta[f"{what}s"]] for system in self.systems]
             for what in ("row", "element")
         }
-        return found | {"coordinate": [_over_tables(system) for system in self.systems]}
+        notices = [notices_before(system.meta) for system in self.systems]
+        return found | {"coordinate": [_over_tables(system) for system in self.systems], "notice": notices}
 
     @property
     def texts(self) -> tuple[TextVariable, ...]:

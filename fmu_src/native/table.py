@@ -47,7 +47,8 @@ def c_table(
         Inputs, parameters, outputs, constants.
     names : mapping
         Names of the constraint rows (``"row"``), force elements (``"element"``) and of coordinates that tables are over
-        (``"coordinate"``, up to the last of them, others empty) of each System, for messages.
+        (``"coordinate"``, up to the last of them, others empty) of each System, for messages; sentences that are told
+        at a start (``"notice"``).
     identity : str
         32 hexadecimal digits.
     token : str
@@ -75,11 +76,11 @@ def c_table(
         '#include <math.h>\n\n#include "slave.h"\n\n'
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
         f"{_texts(texts)}{_names('row', names['row'])}{_names('element', names['element'])}"
-        f"{_names('coordinate', names['coordinate'])}"
+        f"{_names('coordinate', names['coordinate'])}{_names('notice', names['notice'])}"
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {known},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
-        f"{len(names['row'])}, follower,\n"
+        f"notice, first_notice, {len(names['row'])}, follower,\n"
         f"    texts, {len(texts)}, {roll}, {ground},\n}};\n"
     )
 

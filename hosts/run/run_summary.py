@@ -30,6 +30,8 @@ _OTHER_WORKS = {
     "energy.added": "added elements",
 }
 _ERROR = "solver.energy_error"
+# An error of the steps beside the largest of such a work, in kJ, that is told: a held input gives the most of it.
+_OPEN, _LEAST_OPEN = 0.01, 1e-4
 
 
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
@@ -118,7 +120,14 @@ def energy_balance(result: Result) -> list[tuple[str, str]]:
     stored, works, error = sum(map(change, _STORED)), {n: change(n) for n in said}, change(_ERROR)
     parts = {"change of the energy": stored} | {f"- work of {said[n]}": w for n, w in works.items()}
     parts |= {rest: stored - sum(works.values()) - error, "- error of the steps": error}
-    return [(what, f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ") for what, part in parts.items()]
+    rows = {what: f"{round(1e-3 * part, 4) + 0.0:+.4f} kJ" for what, part in parts.items()}
+    for name in [n for n in _OTHER_WORKS if n in result]:
+        largest = float(np.abs(result[name] - result[name][0]).max())
+        if abs(error) > max(_OPEN * largest, 1e3 * _LEAST_OPEN) and largest > 1e3 * _LEAST_OPEN / _OPEN:
+            rows[f"- work of {said[name]}"] += (
+                f"; the error of the steps is {abs(error) / largest:.1%} of its largest: shorter steps make it smaller"
+            )
+    return list(rows.items())
 
 
 def _signed(value: float) -> str:

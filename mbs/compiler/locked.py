@@ -7,7 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 
+from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.dependent_rows import DEPENDENT
 from mbs.compiler.polynomial import RowTerms
@@ -58,6 +60,50 @@ def locked_gears(model: Mechanism) -> str:
         if ring:
             return ring
     return ""
+
+
+def locked_parts(
+    model: Mechanism,
+    full: Sequence[Affine],
+    new: NDArray[np.int64],
+    rows: Sequence[RowTerms],
+    Phiq: sparse.csr_matrix,
+    mass_diagonal: Array,
+) -> str:
+    """A sentence about parts that joints hold fast beside others that can move; empty where there are none.
+
+    Parts that rows tie to each other are judged together: at a dead centre one of them has no rate, but not all.
+    Conditions that drive, that can be switched off or that bind rates alone lock nothing. `full`: coordinates before
+    elimination in those of z; `new`: places of these in `Phiq`.
+    """
+    lasting = [i for i, row in enumerate(rows) if row.switch < 0 and not row.guides and not row.rates]
+    held = Phiq[lasting].tocsr()
+    ties = [held.indices[held.indptr[i] : held.indptr[i + 1]] for i in range(len(lasting))]  # of zeros too
+    owner = {i: body.name for body in model.bodies for i in range(body.start, body.start + body.size)}
+    parts: dict[str, set[int]] = {}
+    for i, expression in enumerate(full):
+        name = owner.get(i, model.coordinates[i].name)
+        parts.setdefault(name, set()).update(int(new[k]) for k in expression.terms)
+    ties += [np.array(sorted(columns), dtype=held.indices.dtype) for columns in parts.values()]
+    pattern = np.ones(sum(map(len, ties))), np.concatenate([*ties, []]), np.cumsum([0, *map(len, ties)])
+    together = sparse.csr_matrix(pattern, shape=(len(ties), held.shape[1]))
+    count, group = connected_components(together.T @ together, directed=False)
+    locked = []
+    for number in range(count):
+        columns = np.flatnonzero(group == number)
+        within = np.flatnonzero(np.diff(held[:, columns].indptr))
+        light = not mass_diagonal[columns].any()  # an angle that is measured
+        if (
+            light
+            or len(within) < len(columns)
+            or rank_at(held[within][:, columns], mass_diagonal[columns]) != len(columns)
+        ):
+            continue
+        locked.append([name for name, own in parts.items() if own and group[min(own)] == number])
+    if not locked or len(locked) == count:
+        return ""
+    names = ", ".join(f"'{name}'" for found in locked for name in found)
+    return f"Parts that cannot move, as their joints leave them no freedom: {names}."
 
 
 def check_motion(

@@ -23,7 +23,7 @@ from mbs.compiler.frames import frames_of
 from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compiler.fronts import Fronts, build_fronts
 from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
-from mbs.compiler.locked import check_motion, locked_gears
+from mbs.compiler.locked import check_motion, locked_gears, locked_parts
 from mbs.compiler.metadata import metadata
 from mbs.compiler.natural import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
@@ -195,6 +195,8 @@ class _Start:
     """Of these rows; None: it could not be computed."""
     told: str
     """What contradicts itself in the velocities that were given."""
+    locked: str
+    """What joints hold fast."""
 
 
 def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
@@ -214,7 +216,8 @@ def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
     qd, told = velocity(model, known.full, T, q[new], mass, stiffness, order, arrays, guides, guide_rates, reduced.size)
     _, Phiq, phi_t = arrays.evaluate(q, guides, guide_rates)
     check_motion(model, holding, Phiq, phi_t, qd, mass.diagonal())
-    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()), told)
+    locked = locked_gears(model) or locked_parts(model, known.full, new, holding, Phiq, mass.diagonal())
+    return _Start(q, qd, guides, holding, rank_at(Phiq, mass.diagonal()), told, locked)
 
 
 def _tables(
@@ -232,7 +235,10 @@ def _tables(
     order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
     _, Phiq, _ = arrays.evaluate(q, guides)
     carried = (T.multiply(T).T @ carried_mass(model))[order]
-    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(reduced.size))
+    diagonal = np.maximum(mass.diagonal(), carried)
+    if not diagonal.any():
+        raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate that has mass.")
+    scale, measure = row_scale(rows, Phiq, diagonal, fineness(reduced.size))
     arrays.scale(scale)
 
     gravity = full_gravity(model)
@@ -293,7 +299,7 @@ def _metadata(
         **reduced.counts,
         "tangent_nonzeros": ordered.tangent_nonzeros,
         "no_tree": no_tree,
-        "locked": locked_gears(model),
+        "locked": start.locked,
         "closed": closed,
         "length": reduced.length,
         "length_stated": model.length is not None,

@@ -33,6 +33,7 @@ from mbs.simulation.refusal import refusal
 from mbs.simulation.run_roads import run_roads
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
+from mbs.system.text import notices_before
 
 Array = NDArray[np.float64]
 NO_FORCE = 1e-6  # of the weight, as `ali3_no_force` has it
@@ -112,14 +113,11 @@ def march(
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """What a run tells beside its numbers: that nothing can move or that gears are locked, that initial velocities
-    contradict each other, and what sensors with a notice say of their columns, `values` (n, ns) at `t` (n,).
+    """What a run tells beside its numbers: `notices_before`, and what sensors with a notice say of their columns,
+    `values` (n, ns) at `t` (n,).
     """
-    meta, found = prepared(system)[1], []
-    sensors = meta["sensors"]
-    if meta["report"].get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
-        found.append(f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
-    found += filter(None, (meta["report"].get(name) for name in ("locked", "contradiction")))
+    meta = prepared(system)[1]
+    found, sensors = notices_before(meta), meta["sensors"]
     for k, sensor in enumerate(sensors):
         none = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
         there = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())

@@ -1,4 +1,4 @@
-"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros."""
+"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros; and what is told of a model."""
 
 from __future__ import annotations
 
@@ -30,9 +30,19 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     ]
     if r.get("closed"):
         lines.append(f"  closed by least squares        {_correction_text(r['closed'])}")
-    if told := r.get("contradiction"):
-        lines.append(f"  {told}")
+    lines += [f"  {told}" for name in ("locked", "contradiction") if (told := r.get(name))]
     return "\n".join(lines)
+
+
+def notices_before(meta: Mapping[str, Any]) -> list[str]:
+    """What is told of a model beside its numbers, by its metadata: that nothing or a part of it can not move, that
+    initial velocities contradict each other.
+    """
+    report = meta["report"]
+    found = [report.get("locked"), report.get("contradiction")]
+    if report.get("degrees_of_freedom") == 0 and not meta["guides"] and not meta["switches"]:
+        found.insert(0, f"Nothing moves: the joints of {meta['name']!r} leave no freedom.")
+    return list(filter(None, found))
 
 
 def _correction_text(corrections: Mapping[str, tuple[float, float]]) -> str:

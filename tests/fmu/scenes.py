@@ -289,3 +289,21 @@ def carried_off() -> mbs.Model:
     m.torque_on("pull", travel, input=force)
     m.sense_coordinate("travel", travel)
     return m
+
+
+def contradicting_arm() -> mbs.Model:
+    """A rod on a pin whose velocities do not fit together, beside a truss that cannot move."""
+    m = mbs.Model("arm", dimension=2)
+    rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    m.initial_velocity(rod, linear=(0.0, 3.0), angular=2.0)
+    m.sense_position("rod", rod, (1.0, 0.0))
+    corners = [(3.0, 0.0), (4.0, 0.0), (3.5, 0.8)]
+    bars = [
+        m.body(f"bar {k}", mass=1.0, com=np.mean([corners[k], corners[k - 2]], axis=0), inertia=0.1) for k in range(3)
+    ]
+    for k in range(3):
+        m.revolute(f"knot {k}", bars[k], bars[k - 2], point=corners[k - 2])
+    m.revolute("foot", m.ground, bars[0], point=corners[0])
+    m.revolute("other foot", m.ground, bars[1], point=corners[2])
+    return m

@@ -19,6 +19,7 @@ from mbs.scenes import assembly_defect_four_bar, prototype_car
 from mbs.vehicle import load
 from tests import kinds
 from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
+from tests.fmu.scenes import contradicting_arm
 
 SCENES = Path(__file__).parent / "scenes.py"
 TORQUE = 4.0
@@ -80,6 +81,17 @@ def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, nee
         ends.append((driven.messages, [driven.get(n) for n in (*NAMES, "solver.status", "solver.halvings")]))
     assert ends[0] == ends[1]
     assert np.isfinite(ends[0][1]).all()
+
+
+def test_a_start_tells_of_contradicting_velocities_and_of_what_cannot_move(
+    build: Callable[..., Path], host: HostMaker, kind: str
+) -> None:
+    """With both numbers, as a run in Python does."""
+    driven = host(build("contradicting_arm", kind)).start()
+    told = mbs.simulate(mbs.compile(contradicting_arm()), 0.01, 0.01, progress=False).notices
+    assert [text for text in told if "is given as 0, 3 m/s and is 0, " in text or "is given as 2 rad/s and is " in text]
+    assert [text for text in told if text.startswith("Parts that cannot move") and "'bar 0', 'bar 1'" in text]
+    assert all(any(text in message for message in driven.messages) for text in told)
 
 
 @pytest.mark.filterwarnings(

@@ -18,7 +18,7 @@ from hosts.driving.missed_inputs import missed_inputs
 from hosts.driving.result import Result
 from hosts.fmu.fmu import StepRefusedError
 from hosts.recordings.load_manoeuvre import load_manoeuvre
-from hosts.run.run_summary import summary
+from hosts.run.run_summary import energy_balance, summary
 
 H = 0.01
 
@@ -199,3 +199,16 @@ def test_there_need_be_no_outputs(every: int) -> None:
     for names in ((), ("stress.a",)):
         result = driven((0.0, 0.17), (1.0, 1.0), every, outputs=names)
         assert result.values[-1].tolist() == [1.0, pytest.approx(0.17)][: 1 + len(names)]
+
+
+@pytest.mark.parametrize(("error", "told"), [(-3.0, "3.0%"), (0.5, "")])
+def test_an_error_of_the_steps_beside_the_work_of_a_steering_is_told(error, told):
+    works = ("drive", "brakes", "tyres", "dampers", "drag", "ground", "steering")
+    names = [f"energy.{n}" for n in ("kinetic", "gravity", "elastic", *works)] + ["solver.energy_error"]
+    values = np.zeros((3, len(names)))
+    values[1, names.index("energy.steering")] = -100.0
+    values[2, -1] = error
+    run = Result(names, {}, np.arange(3.0), values, 1.0, 2.0, 0, [])
+    said = dict(energy_balance(run))["- work of steering"]
+    assert (told in said) if told else said == "+0.0000 kJ"
+    assert ("shorter steps" in said) == bool(told)

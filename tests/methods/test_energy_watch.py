@@ -171,7 +171,8 @@ def watched_rotor():
 
 def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
     """A wheel that nothing else moves. The input jumps every 8 ms and the acceleration of the guide with it: the forces
-    that steps end with, which know nothing of the next jump, leave an error of the first order.
+    that steps end with, which know nothing of the next jump, leave an error of the first order, and a force that is
+    straight between them 1e-3 of the work.
     """
     system, left = watched_rotor(), []
     for parts in (4, 8):
@@ -183,10 +184,24 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
         end = simulation.sensors
         change = end["energy"] - start["energy"]
         left.append(change - end["guides"])
-        assert left[-1] == pytest.approx(simulation.instance.report()["energy_error"], rel=1e-2)
+        assert left[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
     assert change > 0.3
-    assert abs(left[0]) < 0.01 * change
+    assert abs(left[0]) < 1e-3 * change
     assert abs(left[0]) > 3.5 * abs(left[1])
+
+
+SQUARE = ((0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5, 0.8), (0.0, 0.0, 0.5, 0.5, -0.5, -0.5, 0.5, 0.5))
+
+
+@pytest.mark.parametrize(
+    ("method", "bound"),
+    [("ali3p", 5e-4), ("ali3p_no_projection", 0.01), ("ali3p_generalised_alpha", 0.02), ("energy_momentum", 0.01)],
+)
+def test_the_work_of_a_guide_under_a_square_wave_is_the_energy_of_its_wheel(method, bound):
+    """At all times, as shares of the largest; multipliers that are straight in a step give 7e-3 and 4e-2 by ALi3-P."""
+    run = simulate(watched_rotor(), 0.8, 2e-3, {"target": SQUARE}, method=method, progress=False, estimate_error=False)
+    assert np.ptp(run["energy"]) > 10.0
+    assert np.abs(run["energy"] - run["energy"][0] - run["guides"]).max() < bound * np.ptp(run["energy"])
 
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])

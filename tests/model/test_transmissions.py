@@ -380,3 +380,48 @@ def test_a_ring_of_gears_that_cannot_turn_is_told(free):
     turning = run(ring((-2.0, -3.0, 1.0 / 6.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
     assert turning["angle"][-1] > 1e-2
     assert not turning.notices
+
+
+@pytest.mark.parametrize(("ratio", "beside", "told"), [(-1.0, True, True), (-1.0, False, True), (1.0, True, False)])
+def test_a_ring_of_racks_that_cannot_move_is_told(ratio, beside, told):
+    """Two pinions on one rack, which a gear turns against each other, also beside a wheel that turns."""
+    m = at_rest("racks")
+    angles = []
+    for k in range(3 if beside else 2):
+        body = m.body(f"wheel {k}", mass=1.0, com=(0.3 * k, 0.0), inertia=0.1)
+        m.revolute(f"pin {k}", m.ground, body, point=(0.3 * k, 0.0))
+        angles.append(m.relative_angle(f"angle {k}", m.ground, body))
+    rack = m.body("rack", mass=1.0, com=(0.0, 0.5), inertia=0.1)
+    m.prismatic("slide", m.ground, rack, axis=(1, 0), point=(0.0, 0.5))
+    for k in range(2):
+        m.rack(f"rack {k}", angles[k], rack, carrier=m.ground, axis=(1, 0), radius=0.1)
+    m.gear("gear", angles[0], angles[1], ratio=ratio)
+    notices = run(m, "ali3p", {}, t_end=0.1).notices
+    words = (
+        "Parts that cannot move, as their joints leave them no freedom: 'wheel 0', 'angle 0', 'wheel 1', 'angle 1', "
+    )
+    assert [text.startswith(words + "'rack'." if beside else "Nothing moves") for text in notices] == [True] * told
+
+
+def test_parts_at_a_dead_centre_are_not_told_to_be_locked():
+    m = at_rest("crank")
+    crank, rod, slider, wheel = (
+        m.body(name, mass=1.0, com=(x, 0.0), inertia=0.1)
+        for name, x in (("crank", 0.5), ("rod", 2.0), ("slider", 3.0), ("wheel", 5.0))
+    )
+    m.revolute("main", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("pin", crank, rod, point=(1.0, 0.0))
+    m.revolute("gudgeon", rod, slider, point=(3.0, 0.0))
+    m.prismatic("bore", m.ground, slider, axis=(1, 0), point=(3.0, 0.0))
+    m.revolute("axle", m.ground, wheel, point=(5.0, 0.0))
+    assert not run(m, "ali3p", {}, t_end=0.1).notices
+
+
+def test_an_angle_of_a_body_that_two_pins_hold_is_refused_in_words():
+    m = at_rest("held")
+    body = m.body("body", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    for k in range(2):
+        m.revolute(f"pin {k}", m.ground, body, point=(float(k), 0.0))
+    m.relative_angle("angle", m.ground, body)
+    with pytest.raises(ModelError, match="'held' cannot move: its joints fix every coordinate that has mass"):
+        compile(m)

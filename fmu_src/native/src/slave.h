@@ -64,6 +64,8 @@ typedef struct {
   const size_t *first_element; /* n_systems + 1 */
   const char *const *coordinate; /* names of the coordinates of all Systems that tables are over; of others "" */
   const size_t *first_coordinate; /* n_systems + 1 */
+  const char *const *notice; /* what a start of each System tells beside its numbers */
+  const size_t *first_notice; /* n_systems + 1 */
   size_t n_systems; /* to choose from by the fidelity */
   const int32_t *follower; /* n_systems: the one with ports that computes what each leaves out; -1: none */
   const slave_text *text; /* variables that are text; numbered by themselves */

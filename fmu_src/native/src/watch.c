@@ -114,9 +114,11 @@ void slave_watch_outputs(slave *s) {
       ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }
 
-/* A vehicle that is too heavy for its springs, or stands on uneven ground. */
+/* What its System tells; a vehicle that is too heavy for its springs, or stands on uneven ground. */
 void slave_watch_start(slave *s) {
   const slave_table *t = &slave_the_table;
+  for (size_t k = t->first_notice[s->fidelity.number]; k < t->first_notice[s->fidelity.number + 1]; k++)
+    slave_say(s, SLAVE_WARNING, "%s", t->notice[k]);
   if (t->ground >= t->n_variables || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return;
   const slave_variable *v = &t->variable[t->ground];
   const double pressed = s->sensors[v->index]; /* under a name of another program it may count the other way */

@@ -228,9 +228,10 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);
+  double guides = 0.0;
   if (in->settings.project) {
     const double left = ali3_round_left(S, c);
-    double kinetic, end, open, guides, work = ali3_constraint_work(in, h, &guides);
+    double kinetic, end, open, work = ali3_constraint_work(in, h, &guides);
     turning_rates(in, in->mu, in->Phit);
     in->report.velocity_violation =
         ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, left * in->rule.rate, MAX_SWEEPS, true);
@@ -240,10 +241,11 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
     work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
     const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
-    ali3_guides_work(in, to, guides);
   } else {
+    if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guides);
     in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0.0, 0, false);
   }
+  ali3_guides_work(in, to, guides);
   ali3_work_step(in, 0.5);
   return ali3_accept(in);
 }
@@ -251,11 +253,12 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
 ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, double t, double h), (in, t, h))
 
 static bool projects(const ali3_instance *in) { return in->settings.project; }
+static bool always(const ali3_instance *in) { return in != NULL; }
 
 const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
-                                       .has_guides_work = projects,
+                                       .has_guides_work = always,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};

@@ -11,9 +11,9 @@
  * that after (25), which sensors show: it differs from lam1 by a term of order h where the rate of a guide bends, and the
  * energy that (24) gives by another; each alone adds up to an error of first order, and together they cancel.
  *
- * Guides that follow an input begin to move within a step: the mean of Phi_t at both ends would be wrong by half. Where
- * one moves, lam0 is that before a jump of its acceleration, for which Newton's loop makes up: there the force is the
- * mean of lam0 and lam1 with what (24) adds, and the work of drives is that of this force. */
+ * Guides that follow an input begin to move within a step, and their acceleration changes much in it. Where one moves,
+ * lam0 is that before a jump of its acceleration, for which Newton's loop makes up: there the work of drives is that of
+ * their rows, the force of the step times its own travel, with what (24) adds; so too where nothing is projected. */
 #include "../algebra/processor.h"
 #include "../algebra/stretch.h"
 #include "../flexible/mass.h"
@@ -36,10 +36,11 @@ static void drives(ali3_instance *in, double h) {
   }
 }
 
-/* Whether filtered guides move. */
-static truth follows(const ali3_instance *in) {
+/* Whether the work of drives is that of their rows: filtered guides move, or nothing is projected. */
+static truth by_rows(const ali3_instance *in) {
   truth any = {0};
   for (int32_t g = 0; g < in->system->size.ng; g++) any |= in->guide_follows[g] != 0.0;
+  if (!in->settings.project) any |= ali3_not(any);
   return any;
 }
 
@@ -48,24 +49,26 @@ static truth follows(const ali3_instance *in) {
  * in in->mu, with which (24) begins. */
 ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guides) {
   const ali3_system *S = in->system;
-  real work = {0}, first = {0}, newton = {0};
+  real work = {0}, first = {0}, second = {0}, newton = {0};
+  truth own = {0};
   if (S->n_driven > 0) {
     drives(in, h);
-    const truth filtered = follows(in);
+    own = by_rows(in);
     for (int32_t i = 0; i < S->n_driven; i++) {
       const int32_t k = S->driven_row[i];
-      const real at_start = h * in->mu[k] - in->drive[k];
-      work += in->drive[k] * in->now.lam[k];
-      first += at_start * in->now.lam[k];
-      newton += at_start * in->next.lam[k];
-      in->drive[k] = ali3_where(filtered, in->drive[k] - at_start, in->drive[k]);
+      first += (h * in->mu[k] - in->drive[k]) * in->now.lam[k];
+      second += in->drive[k] * in->now.lam[k];
+      in->drive[k] = ali3_where(own, ali3_same(0.0), in->drive[k]);
     }
-    newton = ali3_where(filtered, newton, ali3_same(0.0));
   }
   ali3_rows_times_both(S, in->J, in->D, in->next.qd, in->gamma, in->mu);
   for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
-  *guides = first + newton;
-  return work - newton;
+  for (int32_t i = 0; i < S->n_driven; i++) {
+    const int32_t k = S->driven_row[i];
+    newton -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
+  }
+  *guides = first + ali3_where(own, second + newton, ali3_same(0.0));
+  return work + ali3_where(own, -newton, second);
 }
 
 ALI3_BY_PROCESSOR(in->system, real, constraint_work, (ali3_instance * in, double h, real *guides), (in, h, guides))
@@ -96,9 +99,9 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
   *end = 0.5 * (twice + given);
   *open = power;
   if (S->n_driven == 0) return given;
-  const truth filtered = follows(in);
-  *guides += ali3_where(filtered, given + drive, drive);
-  return ali3_where(filtered, -drive, given - drive);
+  const truth own = by_rows(in);
+  *guides += ali3_where(own, given, drive);
+  return ali3_where(own, ali3_same(0.0), given - drive);
 }
 
 ALI3_BY_PROCESSOR(in->system, real, projection_work,
