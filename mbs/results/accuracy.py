@@ -23,6 +23,7 @@ WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
+GROWTH = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 AGREED = 0.005  # estimate by two runs with an order that hardly agree so well by chance
@@ -172,6 +173,23 @@ def balance_text(report: Report) -> str:
     return (
         f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
         f"of the {report.energy_size:.3g} J in the motion; they should do none."
+    )
+
+
+def growth_text(report: Report, system: System, method: str) -> str:
+    """That the energy of a free System grows or falls from step to step, with a remedy; empty where it does not."""
+    share = report.energy_growth / report.kinetic_peak if report.energy_growth else 0.0
+    if abs(share) <= GROWTH:
+        return ""
+    kept = (
+        "method='energy_momentum' keeps it"
+        if method != "energy_momentum" and len(system.arrays["tabled_size"]) == 0
+        else "shorter steps keep it better"
+    )
+    return (
+        f"Nothing acts on {system.name!r} but forces with a potential, so its energy should stay, but it "
+        f"{'grows' if share > 0.0 else 'falls'} by {_percent(abs(share))} of the largest kinetic energy in "
+        f"{report.steps} steps, and goes on so; {kept}."
     )
 
 

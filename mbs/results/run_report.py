@@ -7,6 +7,9 @@ from dataclasses import dataclass, fields
 
 from mbs.kernel.header.limits import BALANCE_WRONG
 
+LINE = 0.5  # square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15
+TURNED = 12.0  # rad of the motion from which it is told apart
+
 
 @dataclass(frozen=True)
 class Report:
@@ -45,6 +48,11 @@ class Report:
         Sums of the squares of what the steps add to these two, kg m^2/s^2.
     energy_floor : float
         What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
+    free_states : int
+        Of a System on which nothing acts but forces with a potential, whose energy stays: states that were looked at;
+        0 for others, and where parameters or switches changed last.
+    free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
+        Means of the steps and of the energy, J, at these, and sums of squares and products of what they are off these.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     coarse_event, coarse_time : float
@@ -98,6 +106,12 @@ class Report:
     velocity_squares: float = 0.0
     predictor_squares: float = 0.0
     energy_floor: float = 0.0
+    free_states: int = 0
+    free_steps: float = 0.0
+    free_energy: float = 0.0
+    free_steps_squares: float = 0.0
+    free_energy_squares: float = 0.0
+    free_product: float = 0.0
     rim_pressed: float = 0.0
     rim_time: float = 0.0
     rim_x: float = 0.0
@@ -142,6 +156,17 @@ class Report:
     def balance_wrong(self) -> bool:
         """Whether it is above what any right run had, by more than the tolerance of the residual leaves open."""
         return self.energy_balance > BALANCE_WRONG and abs(self.energy_error) > self.energy_floor
+
+    @property
+    def energy_growth(self) -> float:
+        """By what the energy of a free System grows over the run, J, by the straight line through it.
+
+        0 where the line is less than half of how the energy changes: it then swings and comes back.
+        """
+        squares = self.free_steps_squares * self.free_energy_squares
+        if not self.free_product**2 > LINE * squares or self.velocity_path < TURNED * self.speed_peak:
+            return 0.0
+        return self.free_product / self.free_steps_squares * self.steps
 
     @property
     def capped_text(self) -> str:

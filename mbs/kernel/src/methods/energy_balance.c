@@ -39,6 +39,13 @@ double ali3_kinetic_energy(ali3_instance *in) {
   return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
 }
 
+/* Kinetic and potential energy of in->now, J. */
+double ali3_energy(ali3_instance *in) {
+  const double kinetic = ali3_kinetic_energy(in);
+  if (kinetic > in->report.kinetic_peak) in->report.kinetic_peak = kinetic;
+  return kinetic + potential(in, &in->now, NULL);
+}
+
 /* The energy of in->now, from which the next step counts where the method has a balance. */
 void ali3_balance_open(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;

@@ -1,7 +1,9 @@
-/* The refusal of steps that do not resolve the motion. */
+/* The refusal of steps that do not resolve the motion, and the trend of an energy that should stay. */
 #include <math.h>
 
 #include "../instance.h"
+#include "../method.h"
+#include "check_method.h"
 #include "energy_balance.h"
 #include "energy_watch.h"
 
@@ -28,4 +30,20 @@ ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double 
 
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
   return ali3_energy_judge(in, h, error, ali3_energy_size(in, h, kinetic), end, open, NULL);
+}
+
+/* After a whole step whose state is read: the straight line through the energies since the start. */
+void ali3_energy_trend(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  ali3_report *r = &in->report;
+  if (S->size.nu > 0 || S->size.ng > 0 || !ali3_conservative(in)) return;
+  if (r->free_states == 0)
+    r->free_steps = r->free_energy = r->free_steps_squares = r->free_energy_squares = r->free_product = 0.0;
+  const double energy = ali3_has_balance(in) ? r->energy : ali3_energy(in);
+  const double n = (double)++r->free_states, steps = (double)r->steps - r->free_steps, off = energy - r->free_energy;
+  r->free_steps += steps / n;
+  r->free_energy += off / n;
+  r->free_steps_squares += steps * ((double)r->steps - r->free_steps);
+  r->free_energy_squares += off * (energy - r->free_energy);
+  r->free_product += steps * (energy - r->free_energy);
 }

@@ -102,8 +102,14 @@ static bool load_valid(const ali3_report *r) {
          r->load_begin - r->load_begin == 0.0 && r->load_left - r->load_left == 0.0;
 }
 
+static bool trend_valid(const ali3_report *r) {
+  return counted(r->free_states) && magnitude(r->free_steps) && r->free_energy - r->free_energy == 0.0 &&
+         magnitude(r->free_steps_squares) && magnitude(r->free_energy_squares) &&
+         r->free_product - r->free_product == 0.0;
+}
+
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
-  return branch_valid(s, r) && stop_valid(r) && load_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
+  return branch_valid(s, r) && stop_valid(r) && load_valid(r) && trend_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
          magnitude(r->speed_peak) && magnitude(r->velocity_path) && magnitude(r->predictor_path) &&
          magnitude(r->velocity_squares) && magnitude(r->predictor_squares) && r->energy - r->energy == 0.0 &&
          r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) && magnitude(r->rim_pressed) &&
