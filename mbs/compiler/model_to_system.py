@@ -232,7 +232,8 @@ def _tables(
     order, q, guides, nz = fronts.order, start.q, start.guides, len(remaining)
     _, Phiq, _ = arrays.evaluate(q, guides)
     carried = (T.multiply(T).T @ carried_mass(model))[order]
-    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fineness(reduced.size))
+    fine = fineness(reduced.size)
+    scale, measure = row_scale(rows, Phiq, np.maximum(mass.diagonal(), carried), fine)
     arrays.scale(scale)
 
     gravity = full_gravity(model)
@@ -255,6 +256,7 @@ def _tables(
         **arrays.arrays,
         "row_scale": scale,
         "row_measure": measure,
+        **({"fineness": [fine]} if fine != 1.0 else {}),
         "row_switch": [row.switch for row in rows],
         "switch_start": [int(s.on) for s in model.switches],
         **row_fronts(arrays, locate),

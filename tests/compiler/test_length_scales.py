@@ -115,9 +115,9 @@ def sprung(size):
 
 
 def crank_and_slider(size):
-    """A crank that falls and turns on, its rod and a slider on a spring, which keeps away from the dead points."""
+    """A crank that swings about its rest, its rod and a slider on a spring."""
     m = Model("slider-crank", dimension=2, gravity=(0.0, -9.81))
-    elbow, end = size * np.array([0.3, 0.4]), size * np.array([1.7, 0.0])
+    elbow, end = size * np.array([0.3, -0.4]), size * np.array([1.7, 0.0])
     crank = m.body("crank", mass=1.0, com=0.5 * elbow, inertia=0.02 * size**2)
     rod = m.body("rod", mass=1.0, com=0.5 * (elbow + end), inertia=0.2 * size**2)
     slider = m.body("slider", mass=0.5, com=end, inertia=0.01 * size**2)
@@ -125,7 +125,7 @@ def crank_and_slider(size):
     m.revolute("elbow", crank, rod, point=elbow)
     m.revolute("pin", rod, slider, point=end)
     m.prismatic("guide", slider, m.ground, axis=(1.0, 0.0))
-    m.spring_damper("spring", (m.ground, (3.0 * size, 0.0)), (slider, end), stiffness=4.0 / size, free_length=size)
+    m.spring_damper("spring", (m.ground, (3.0 * size, 0.0)), (slider, end), stiffness=4.0 / size, free_length=1.3 * size)
     m.sense_position("p", slider, end, "x")
     return m
 

@@ -54,7 +54,7 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   double rest = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];
   for (int32_t i = 0; i < in->system->size.nq; i++)
-    in->report.energy_floor += in->settings.tolerance_r * fabs(in->gravity_force[i]);
+    in->report.energy_floor += in->system->fine * in->settings.tolerance_r * fabs(in->gravity_force[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }
