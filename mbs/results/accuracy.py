@@ -23,7 +23,7 @@ WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
-GROWTH = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
+ENERGY_KEPT = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.025, 0.15)  # estimates between which a third run decides
 AGREED = 0.005  # estimate by two runs with an order that hardly agree so well by chance
@@ -99,7 +99,8 @@ def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | 
         return REPEAT
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
     miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
-    return "" if miss <= 1.0 and drift(report) <= SMOOTH_DRIFT and whole else SCREEN
+    kept = drift(report) <= SMOOTH_DRIFT and abs(report.energy_change) <= ENERGY_KEPT
+    return "" if miss <= 1.0 and kept and whole else SCREEN
 
 
 def summed_miss(report: Report) -> float:
@@ -176,20 +177,18 @@ def balance_text(report: Report) -> str:
     )
 
 
-def growth_text(report: Report, system: System, method: str) -> str:
-    """That the energy of a free System grows or falls from step to step, with a remedy; empty where it does not."""
-    share = report.energy_growth / report.kinetic_peak if report.energy_growth else 0.0
-    if abs(share) <= GROWTH:
+def energy_text(report: Report, system: System, method: str) -> str:
+    """That the energy of a free System does not stay, with a remedy; empty where it does."""
+    share = report.energy_change
+    if abs(share) <= ENERGY_KEPT:
         return ""
-    kept = (
-        "method='energy_momentum' keeps it"
-        if method != "energy_momentum" and len(system.arrays["tabled_size"]) == 0
-        else "shorter steps keep it better"
-    )
+    keeps = method != "energy_momentum" and not any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame"))
+    grows = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
     return (
         f"Nothing acts on {system.name!r} but forces with a potential, so its energy should stay, but it "
         f"{'grows' if share > 0.0 else 'falls'} by {_percent(abs(share))} of the largest kinetic energy in "
-        f"{report.steps} steps, and goes on so; {kept}."
+        f"{report.steps} steps, {grows}; {'method=' + repr('energy_momentum') + ' keeps' if keeps else 'shorter steps keep'} "
+        "it better."
     )
 
 

@@ -51,8 +51,9 @@ class Report:
     free_states : int
         Of a System on which nothing acts but forces with a potential, whose energy stays: states that were looked at;
         0 for others, and where parameters or switches changed last.
-    free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
-        Means of the steps and of the energy, J, at these, and sums of squares and products of what they are off these.
+    free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
+        The energy of the first of these, J, means of the steps and of the energy, and sums of squares and products of
+        what they are off these.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     coarse_event, coarse_time : float
@@ -107,6 +108,7 @@ class Report:
     predictor_squares: float = 0.0
     energy_floor: float = 0.0
     free_states: int = 0
+    free_start: float = 0.0
     free_steps: float = 0.0
     free_energy: float = 0.0
     free_steps_squares: float = 0.0
@@ -167,6 +169,14 @@ class Report:
         if not self.free_product**2 > LINE * squares or self.velocity_path < TURNED * self.speed_peak:
             return 0.0
         return self.free_product / self.free_steps_squares * self.steps
+
+    @property
+    def energy_change(self) -> float:
+        """By what the energy of a free System is off, in parts of the largest kinetic energy: it grows, or its mean has
+        left that of the start.
+        """
+        off = self.energy_growth or (self.free_energy - self.free_start if self.free_states else 0.0)
+        return off / self.kinetic_peak if abs(off) > self.energy_floor else 0.0
 
     @property
     def capped_text(self) -> str:

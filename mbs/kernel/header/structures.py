@@ -56,6 +56,7 @@ class ReportFields(Structure):
         ("open_power", c_double),
         ("energy_floor", c_double),
         ("free_states", c_int64),
+        ("free_start", c_double),
         ("free_steps", c_double),
         ("free_energy", c_double),
         ("free_steps_squares", c_double),

@@ -32,15 +32,17 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   return ali3_energy_judge(in, h, error, ali3_energy_size(in, h, kinetic), end, open, NULL);
 }
 
-/* After a whole step whose energy is known or whose state is read: the straight line through the energies since the start. */
+/* At the start, and after a whole step whose energy is known or whose state is read: the straight line through the
+ * energies. */
 void ali3_energy_trend(ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_report *r = &in->report;
   if (S->size.nu > 0 || S->size.ng > 0 || !ali3_conservative(in)) return;
-  if (in->unobserved && !ali3_has_balance(in)) return;
-  if (r->free_states == 0)
-    r->free_steps = r->free_energy = r->free_steps_squares = r->free_energy_squares = r->free_product = 0.0;
   const double energy = ali3_has_balance(in) ? r->energy : ali3_energy(in);
+  if (r->free_states == 0) {
+    r->free_steps = r->free_energy = r->free_steps_squares = r->free_energy_squares = r->free_product = 0.0;
+    r->free_start = energy;
+  }
   const double n = (double)++r->free_states, steps = (double)r->steps - r->free_steps, off = energy - r->free_energy;
   r->free_steps += steps / n;
   r->free_energy += off / n;

@@ -103,7 +103,7 @@ static bool load_valid(const ali3_report *r) {
 }
 
 static bool trend_valid(const ali3_report *r) {
-  return counted(r->free_states) && magnitude(r->free_steps) && r->free_energy - r->free_energy == 0.0 &&
+  return counted(r->free_states) && magnitude(r->free_steps) && r->free_start - r->free_start == 0.0 && r->free_energy - r->free_energy == 0.0 &&
          magnitude(r->free_steps_squares) && magnitude(r->free_energy_squares) &&
          r->free_product - r->free_product == 0.0;
 }
