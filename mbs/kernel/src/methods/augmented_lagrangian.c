@@ -162,6 +162,9 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
     if (settles) call.reach = REACH * in->rule.rate * in->report.residual;
     ali3_elements_forces(in, &call);
   }
+  if (most > 0 && in->report.residual <= fine * settings->tolerance_r &&
+      ali3_closed_here(in->system, in->Phi, in->next.q, fine * settings->tolerance_phi))
+    return ALI3_OK; /* far from the drawing no iteration closes rows further */
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
 
