@@ -59,7 +59,7 @@ def check_near(model: Mechanism, rows: Sequence[RowTerms], kinds: Sequence[str],
 
 
 def fineness(length: float) -> float:
-    """Factor of tolerances in m, of the compiler and of steps, for a model of this length, m; of those in m2 its square."""
+    """Factor of tolerances in m, of the compiler and of steps, for a model of this length, m; in m2 its square."""
     return min(1.0, length / SMALL) * max(1.0, length / LARGE)
 
 

@@ -22,6 +22,7 @@ from mbs.system.system import System
 WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
+OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 SURE_BALANCE = 0.2  # above, no repeat is needed to know
 ENERGY_KEPT = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
@@ -182,13 +183,12 @@ def energy_text(report: Report, system: System, method: str) -> str:
     share = report.energy_change
     if abs(share) <= ENERGY_KEPT:
         return ""
-    keeps = method != "energy_momentum" and not any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame"))
-    grows = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
+    other = any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame")) or method == "energy_momentum"
+    goes_on = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
     return (
         f"Nothing acts on {system.name!r} but forces with a potential, so its energy should stay, but it "
         f"{'grows' if share > 0.0 else 'falls'} by {_percent(abs(share))} of the largest kinetic energy in "
-        f"{report.steps} steps, {grows}; {'method=' + repr('energy_momentum') + ' keeps' if keeps else 'shorter steps keep'} "
-        "it better."
+        f"{report.steps} steps, {goes_on}; {OTHER_STEPS if other else OTHER_METHOD}."
     )
 
 

@@ -125,7 +125,9 @@ def crank_and_slider(size):
     m.revolute("elbow", crank, rod, point=elbow)
     m.revolute("pin", rod, slider, point=end)
     m.prismatic("guide", slider, m.ground, axis=(1.0, 0.0))
-    m.spring_damper("spring", (m.ground, (3.0 * size, 0.0)), (slider, end), stiffness=4.0 / size, free_length=1.3 * size)
+    m.spring_damper(
+        "spring", (m.ground, (3.0 * size, 0.0)), (slider, end), stiffness=4.0 / size, free_length=1.3 * size
+    )
     m.sense_position("p", slider, end, "x")
     return m
 

@@ -241,7 +241,8 @@ static void newton(ali3_lane_group *in) {
     const truth ended = active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & closed(in);
     *in->good |= ended;
     active &= ~ended;
-    kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) & (*in->residual <= KEPT_RESIDUAL * before);
+    kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
+           (*in->residual <= KEPT_RESIDUAL * before);
     const truth settles = ali3_settles(in->system, iteration + 1) ? *in->residual <= before : (truth){0};
     mixes = kept | ~settles;
     *in->reach = ali3_where(settles, REACH * in->rule.rate * *in->residual, (real){0});

@@ -152,7 +152,8 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
     if (in->report.residual <= fine * settings->tolerance_r &&
         ali3_closed(in->system, in->Phi, fine * settings->tolerance_phi))
       return ALI3_OK;
-    kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
+    kept = settings->update == ALI3_UPDATE_LINEARISED &&
+           in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
            in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
     const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= before;
     mixes = kept || !settles;
