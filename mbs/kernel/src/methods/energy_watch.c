@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "../instance.h"
-#include "../method.h"
 #include "check_method.h"
 #include "energy_balance.h"
 #include "energy_watch.h"
@@ -32,13 +31,13 @@ ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double 
   return ali3_energy_judge(in, h, error, ali3_energy_size(in, h, kinetic), end, open, NULL);
 }
 
-/* At the start, and after a whole step whose energy is known or whose state is read: the straight line through the
- * energies. */
-void ali3_energy_trend(ali3_instance *in) {
+/* At the start, and after a whole step whose energy is known, as it is where the method has a balance, or whose state is
+ * read: the straight line through the energies. */
+void ali3_energy_trend(ali3_instance *in, bool balanced) {
   const ali3_system *S = in->system;
   ali3_report *r = &in->report;
   if (S->size.nu > 0 || S->size.ng > 0 || !ali3_conservative(in)) return;
-  const double energy = ali3_has_balance(in) ? r->energy : ali3_energy(in);
+  const double energy = balanced ? r->energy : ali3_energy(in);
   if (r->free_states == 0) {
     r->free_steps = r->free_energy = r->free_steps_squares = r->free_energy_squares = r->free_product = 0.0;
     r->free_start = energy;

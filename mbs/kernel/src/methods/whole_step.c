@@ -59,7 +59,8 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
   if (in->report.halvings != step->before.halvings || in->report.divisions != step->before.divisions)
     ali3_iterations_since(in, step->before.iterations); /* not of the last half only */
   in->report.steps++;
-  if (!in->unobserved || ali3_has_balance(in)) ali3_energy_trend(in);
+  const bool balanced = ali3_has_balance(in);
+  if (balanced || !in->unobserved) ali3_energy_trend(in, balanced);
   if (in->capped) {
     in->report.capped++;
     in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
