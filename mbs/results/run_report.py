@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
@@ -167,8 +168,8 @@ class Report:
 
         0 where the line is less than half of how the energy changes: it then swings and comes back.
         """
-        squares = self.free_steps_squares * self.free_energy_squares
-        if not self.free_product**2 > LINE * squares or self.velocity_path < TURNED * self.speed_peak:
+        scatter = math.sqrt(self.free_steps_squares) * math.sqrt(self.free_energy_squares)
+        if not abs(self.free_product) > math.sqrt(LINE) * scatter or self.velocity_path < TURNED * self.speed_peak:
             return 0.0
         return self.free_product / self.free_steps_squares * self.steps
 

@@ -10,6 +10,7 @@
  * halved again may have what it might have if it had been asked for: else ten short steps pass where a long one does
  * not. */
 static const double MOST = 0.1, MOST_OF_A_PART = 0.02;
+static const double MOST_ENERGY = 1e100; /* J */
 
 /* Adds an error of the energy to the balance and, where no row is driven, judges it beside `size`; so also with what the
  * forces left without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its
@@ -38,6 +39,7 @@ void ali3_energy_trend(ali3_instance *in, bool balanced) {
   ali3_report *r = &in->report;
   if (S->size.nu > 0 || S->size.ng > 0 || !ali3_conservative(in)) return;
   const double energy = balanced ? r->energy : ali3_energy(in);
+  if (!(fabs(energy) < MOST_ENERGY)) return; /* whose squares are no numbers */
   if (r->free_states == 0) {
     r->free_steps = r->free_energy = r->free_steps_squares = r->free_energy_squares = r->free_product = 0.0;
     r->free_start = energy;
