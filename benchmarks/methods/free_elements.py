@@ -20,6 +20,11 @@ from mbs.elements import (
     TorsionBar,
     Wind,
 )
+from mbs.flexible.component_modes import craig_bampton
+from mbs.flexible.fixed_interface import Interface
+from mbs.flexible.frame import Beam, Frame
+from mbs.flexible.material import Material
+from mbs.flexible.section import round_bar
 from mbs.model.body import Body
 
 O, X, Y, Z = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -313,6 +318,18 @@ def bounced(friction: float, loss: float) -> Callable[[float], Free]:
     return build
 
 
+def beam(rate: float) -> Free:
+    """A flexible bar that is thrown and turns."""
+    free = Free(3)
+    material = Material(E=2e7 * rate**2, nu=0.3, rho=1000.0)
+    x = np.c_[np.linspace(-0.5, 0.5, 9), np.zeros((9, 2))]
+    frame = Frame(x, [Beam(k, k + 1, round_bar(0.02), material) for k in range(8)])
+    reduced = craig_bampton(frame.finite_element_model(), 0, [Interface(8, rotations=True)], 4)
+    body = free.model.flexible_body("beam", reduced)
+    free.model.initial_velocity(body, (0.1 * rate, 0.0, 0.0), (0.0, 0.3 * rate, rate))
+    return free
+
+
 ROD = (0.6, 0.64, 0.48)
 ELEMENTS: dict[str, Callable[[float], Free]] = {
     "no joint, in space": turned(lambda m, b: None, ROD, (0.176, -0.264, 0.132)),
@@ -359,4 +376,5 @@ ELEMENTS: dict[str, Callable[[float], Free]] = {
     "friction": pushed("friction"),
     "contact": bounced(0.0, 0.0),
     "contact, friction": bounced(0.5, 0.5),
+    "flexible beam": beam,
 }

@@ -54,8 +54,9 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
     if told and row["energy"] > WRONG and not row["told"]:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            mbs.simulate(system, steps * STEP, STEP, **options)
-        row["told"] = ", ".join(sorted({w.category.__name__ for w in said}))
+            checked = mbs.simulate(system, steps * STEP, STEP, **options)
+        words = {w.category.__name__ for w in said} | {"notice" for _ in checked.notices}
+        row["told"] = ", ".join(sorted(words))
     if free.angles:
         way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
         slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in free.ties]

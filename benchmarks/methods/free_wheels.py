@@ -39,9 +39,9 @@ class Free:
         for body in self.model.bodies:
             self.model.sense_position(f"x of {body.name}", body, None, "x")
             if not body.is_point:
-                self.model.sense_position(
-                    f"x beside {body.name}", body, body.com + 0.1 * np.eye(len(body.com))[-1], "x"
-                )
+                nodes = body.flexibility.nodes if body.flexibility is not None else [body.com]
+                beside = nodes[-1] if len(nodes) > 1 else body.com + 0.1 * np.eye(len(body.com))[-1]
+                self.model.sense_position(f"x beside {body.name}", body, beside, "x")
         self.model.sense_energy("energy")
         if self.model.guides:
             self.model.sense_energy("work", "with guides", list(self.model.elements))

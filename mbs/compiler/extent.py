@@ -18,8 +18,8 @@ SPIN = 0.1
 EPS = float(np.finfo(float).eps)
 FAR = 1e-8
 """Round-off of a square, in parts of that of the length, that moves a point by as much of the length."""
-SMALL = 1e-3
-"""Length of a model, m, below which tolerances of the compiler are those of this length in parts of it."""
+SMALL, LARGE = 0.1, 100.0
+"""Lengths of a model, m, below and above which tolerances in m are those of these lengths in parts of them."""
 
 
 def model_length(model: Mechanism) -> float:
@@ -59,8 +59,8 @@ def check_near(model: Mechanism, rows: Sequence[RowTerms], kinds: Sequence[str],
 
 
 def fineness(length: float) -> float:
-    """Factor of tolerances in m for a model of this length, m; of those in m2 its square."""
-    return min(1.0, length / SMALL)
+    """Factor of tolerances in m, of the compiler and of steps, for a model of this length, m; in m2 its square."""
+    return min(1.0, length / SMALL) * max(1.0, length / LARGE)
 
 
 def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> list[float]:

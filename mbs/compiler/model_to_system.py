@@ -238,7 +238,8 @@ def _tables(
     diagonal = np.maximum(mass.diagonal(), carried)
     if not diagonal.any():
         raise ModelError(f"The model '{model.name}' cannot move: its joints fix every coordinate that has mass.")
-    scale, measure = row_scale(rows, Phiq, diagonal, fineness(reduced.size))
+    fine = fineness(reduced.size)
+    scale, measure = row_scale(rows, Phiq, diagonal, fine)
     arrays.scale(scale)
 
     gravity = full_gravity(model)
@@ -261,6 +262,7 @@ def _tables(
         **arrays.arrays,
         "row_scale": scale,
         "row_measure": measure,
+        **({"fineness": [fine]} if fine != 1.0 else {}),
         "row_switch": [row.switch for row in rows],
         "switch_start": [int(s.on) for s in model.switches],
         **row_fronts(arrays, locate),

@@ -27,7 +27,7 @@ def row_scale(rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, diagonal: Array
             f"The condition of {names} does not move with any coordinate at the start; change the drawing there."
         )
     # a row over coordinates without mass, which are angles, is scaled as if they had the mean mass at a lever
-    mean = fine**2 * float(np.mean(diagonal[diagonal > 0.0]))
-    by_mass = np.where(by_mass > 0.0, by_mass, length**2 / mean)
+    lever = np.where(by_mass > 0.0, 1.0, fine)
+    by_mass = np.where(by_mass > 0.0, by_mass, (length / fine) ** 2 / float(np.mean(diagonal[diagonal > 0.0])))
     scale = 1.0 / np.sqrt(by_mass)
-    return scale, 1.0 / (length * scale)
+    return scale, lever / (length * scale)

@@ -22,7 +22,9 @@ from mbs.system.system import System
 WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
+OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 SURE_BALANCE = 0.2  # above, no repeat is needed to know; a drift above it leaves none alone: two may be off alike
+ENERGY_KEPT = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
 NEAR_LIMIT = (0.01, 0.15)  # estimates between which a third run decides: half the step may be off alike
 MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
@@ -95,7 +97,8 @@ def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | 
         return REPEAT
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
     miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
-    return "" if miss <= 1.0 and drift(report) <= SMOOTH_DRIFT and whole else SCREEN
+    kept = drift(report) <= SMOOTH_DRIFT and abs(report.energy_change) <= ENERGY_KEPT
+    return "" if miss <= 1.0 and kept and whole else SCREEN
 
 
 def summed_miss(report: Report) -> float:
@@ -169,6 +172,20 @@ def balance_text(report: Report) -> str:
     return (
         f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
         f"of the {report.energy_size:.3g} J in the motion; they should do none."
+    )
+
+
+def energy_text(report: Report, system: System, method: str) -> str:
+    """That the energy of a free System does not stay, with a remedy; empty where it does."""
+    share = report.energy_change
+    if abs(share) <= ENERGY_KEPT:
+        return ""
+    other = any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame")) or method == "energy_momentum"
+    goes_on = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
+    return (
+        f"Nothing acts on {system.name!r} but forces with a potential, so its energy should stay, but it "
+        f"{'grows' if share > 0.0 else 'falls'} by {_percent(abs(share))} of the largest kinetic energy in "
+        f"{report.steps} steps, {goes_on}; {OTHER_STEPS if other else OTHER_METHOD}."
     )
 
 

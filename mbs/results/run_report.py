@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 from mbs.kernel.header.limits import BALANCE_WRONG
+
+LINE = (
+    0.5  # square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15
+)
+TURNED = 12.0  # rad of the motion from which it is told apart
 
 
 @dataclass(frozen=True)
@@ -45,6 +51,12 @@ class Report:
         Sums of the squares of what the steps add to these two, kg m^2/s^2.
     energy_floor : float
         What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
+    free_states : int
+        Of a System on which nothing acts but forces with a potential, whose energy stays: states that were looked at;
+        0 for others, and where parameters or switches changed last.
+    free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
+        The energy of the first of these, J, means of the steps and of the energy, and sums of squares and products of
+        what they are off these.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     coarse_event, coarse_time : float
@@ -98,6 +110,13 @@ class Report:
     velocity_squares: float = 0.0
     predictor_squares: float = 0.0
     energy_floor: float = 0.0
+    free_states: int = 0
+    free_start: float = 0.0
+    free_steps: float = 0.0
+    free_energy: float = 0.0
+    free_steps_squares: float = 0.0
+    free_energy_squares: float = 0.0
+    free_product: float = 0.0
     rim_pressed: float = 0.0
     rim_time: float = 0.0
     rim_x: float = 0.0
@@ -142,6 +161,25 @@ class Report:
     def balance_wrong(self) -> bool:
         """Whether it is above what any right run had, by more than the tolerance of the residual leaves open."""
         return self.energy_balance > BALANCE_WRONG and abs(self.energy_error) > self.energy_floor
+
+    @property
+    def energy_growth(self) -> float:
+        """By what the energy of a free System grows over the run, J, by the straight line through it.
+
+        0 where the line is less than half of how the energy changes: it then swings and comes back.
+        """
+        scatter = math.sqrt(self.free_steps_squares) * math.sqrt(self.free_energy_squares)
+        if not abs(self.free_product) > math.sqrt(LINE) * scatter or self.velocity_path < TURNED * self.speed_peak:
+            return 0.0
+        return self.free_product / self.free_steps_squares * self.steps
+
+    @property
+    def energy_change(self) -> float:
+        """By what the energy of a free System is off, in parts of the largest kinetic energy: it grows, or its mean has
+        left that of the start.
+        """
+        off = self.energy_growth or (self.free_energy - self.free_start if self.free_states else 0.0)
+        return off / self.kinetic_peak if abs(off) > self.energy_floor else 0.0
 
     @property
     def capped_text(self) -> str:

@@ -27,7 +27,8 @@ class Settings:
     eps_rel : float
         Regularisation of the multipliers relative to h^2, used by the rule.
     tolerance_r : float
-        Bound on the residual ``max |r_i| / m_i`` of a converged step, coordinate units (m).
+        Bound on the residual ``max |r_i| / m_i`` of a converged step, coordinate units (m). Of drawings smaller than
+        0.1 m and larger than 100 m this and `tolerance_phi` are those of such drawings in parts of their length.
     tolerance_phi : float
         Bound on the constraint violation of a converged step, m, beside the round-off of the constraint itself. At
         singular positions a violation hides a displacement of its square root and an error of the multipliers of

@@ -73,7 +73,7 @@ class ControlledRun:
         meta = prepared(simulation.system)[1]
         self.simulation, self.task = simulation, task
         self.length = length_of(simulation.system)
-        self.settings = tightened(settings, tolerance * self.length, simulation.state.q)
+        self.settings = tightened(settings, tolerance * self.length, simulation.state.q, simulation.system.fineness)
         simulation.change_settings(self.settings)
         self.tolerance = tolerance
         nq = simulation.system.nq
@@ -163,9 +163,10 @@ class ControlledRun:
         return float(np.max(np.abs(self.positions - other.positions) * self.scale, initial=0.0)) / self.length
 
 
-def tightened(settings: Settings, error: float, q: Array) -> Settings:
-    """Settings whose Newton loop does not spoil an error of so many metres."""
-    least = ROUND_OFF * max(1.0, float(np.max(np.abs(q), initial=0.0)))
+def tightened(settings: Settings, error: float, q: Array, fine: float) -> Settings:
+    """Settings whose Newton loop does not spoil an error of so many metres; `fine`: `System.fineness`."""
+    least = ROUND_OFF * max(1.0, float(np.max(np.abs(q), initial=0.0))) / fine
+    error /= fine
     return replace(
         settings,
         tolerance_r=min(settings.tolerance_r, max(least, BALANCE * error)),

@@ -153,6 +153,7 @@ def trajectory_of(
 ) -> Trajectory:
     """What was recorded, with the counters since `before`; `left_out` makes of the number of samples what was not."""
     sensors, report = prepared(simulation.system)[1]["sensors"], simulation.report
+    energy = accuracy.energy_text(report, simulation.system, simulation.settings.method)
     t = t0 + interval * np.arange(len(values), dtype=float)
     return Trajectory(
         t,
@@ -163,7 +164,7 @@ def trajectory_of(
         simulation.settings,
         wall,
         accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text])],
+        notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text, energy])],
         branch_change=simulation.branch_change,
         poses=record.poses(t),
         drawing=record.drawing,

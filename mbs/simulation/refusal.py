@@ -158,7 +158,7 @@ def _worst_equations(simulation: SteppedSystem, report: dict[str, float]) -> str
     worst = open_row(report, [row["name"] for row in meta["rows"]])
     if worst:
         said += f" Worst constraint: {worst}."
-    if simulation.settings.tolerance_r < report["residual"] < math.inf:
+    if simulation.system.fineness * simulation.settings.tolerance_r < report["residual"] < math.inf:
         name = meta["coordinates"][int(report["worst_coordinate"])]
         said += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
     return said

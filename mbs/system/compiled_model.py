@@ -59,6 +59,11 @@ class CompiledModel:
         loaded: dict[str, Any] = json.loads(self._meta_text)
         return loaded
 
+    @property
+    def fineness(self) -> float:
+        """Factor of tolerances in m: of a very small or large drawing not 1."""
+        return float(self.arrays["fineness"][0]) if len(self.arrays["fineness"]) else 1.0
+
     def kernel_bytes(self, *, modes: bool = True) -> bytes:
         """The System file without what is drawn, which the kernel does not read.
 

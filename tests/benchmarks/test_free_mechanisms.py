@@ -53,7 +53,7 @@ def test_a_force_that_gives_energy_is_seen():
     found = measure("spring, stops", 0.5, 500, "runge_kutta_8", told=True)
     assert found["energy"] > WRONG
     assert found["grows"]
-    assert found["told"] == "AccuracyWarning"
+    assert "AccuracyWarning" in found["told"]
 
 
 def test_the_command_gives_the_tables(capsys):

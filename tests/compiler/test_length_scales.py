@@ -8,6 +8,7 @@ from scipy.interpolate import PPoly
 from scipy.special import ellipk
 
 from mbs import Model, ModelError, Simulation, compile, simulate
+from mbs.elements import ContactPoints, PlaneRoad
 from mbs.scenes import slider_crank
 
 SIZES = [1e-9, 1e-7, 1e-6, 1.0, 1e3, 1e5]
@@ -113,7 +114,57 @@ def sprung(size):
     return m
 
 
+def crank_and_slider(size):
+    """A crank that swings about its rest, its rod and a slider on a spring."""
+    m = Model("slider-crank", dimension=2, gravity=(0.0, -9.81))
+    elbow, end = size * np.array([0.3, -0.4]), size * np.array([1.7, 0.0])
+    crank = m.body("crank", mass=1.0, com=0.5 * elbow, inertia=0.02 * size**2)
+    rod = m.body("rod", mass=1.0, com=0.5 * (elbow + end), inertia=0.2 * size**2)
+    slider = m.body("slider", mass=0.5, com=end, inertia=0.01 * size**2)
+    m.revolute("root", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("elbow", crank, rod, point=elbow)
+    m.revolute("pin", rod, slider, point=end)
+    m.prismatic("guide", slider, m.ground, axis=(1.0, 0.0))
+    m.spring_damper(
+        "spring", (m.ground, (3.0 * size, 0.0)), (slider, end), stiffness=4.0 / size, free_length=1.3 * size
+    )
+    m.sense_position("p", slider, end, "x")
+    return m
+
+
+def geared(size):
+    """Two wheels that a gear ties, one of them out of balance, and a rack that the other moves on a spring."""
+    m = Model("gears", dimension=2, gravity=(0.0, -9.81))
+    angles = []
+    for name, x, off, inertia in (("first", 0.0, 0.1, 0.1), ("second", 1.0, 0.0, 0.05)):
+        wheel = m.body(name, mass=1.0, com=((x + off) * size, 0.0), inertia=inertia * size**2)
+        m.revolute(f"pin {name}", m.ground, wheel, point=(x * size, 0.0))
+        angles.append(m.relative_angle(name, m.ground, wheel))
+    m.gear("mesh", *angles, ratio=-2.0)
+    rack = m.body("rack", mass=0.5, com=(1.5 * size, -0.2 * size), inertia=0.01 * size**2)
+    m.prismatic("guide", rack, m.ground, axis=(1.0, 0.0))
+    m.rack("teeth", angles[1], rack, carrier=m.ground, axis=(1.0, 0.0), radius=0.2 * size)
+    end = rack, (1.5 * size, -0.2 * size)
+    m.spring_damper("spring", (m.ground, (3.0 * size, -0.2 * size)), end, stiffness=20.0 / size, free_length=size)
+    m.sense_position("p", rack, end[1], "x")
+    return m
+
+
+def bouncing(size):
+    """A ball that bounces and slides on a road until it rests."""
+    m = Model("ball")
+    ball = m.body("ball", mass=1.0, com=(0.0, 0.0, 1.3 * size), inertia=3 * (0.4 * size**2,))
+    rest = ContactPoints.for_mass(1.0, 0.1 * size, onset=0.1 * size, friction_factor=0.5, radius=size)
+    m.contact_point("contact", ball, (0.0, 0.0, 1.3 * size), road=m.road(PlaneRoad()), contact=rest)
+    m.initial_velocity(ball, (np.sqrt(size), 0.0, 0.0), (0.0, 0.0, 0.0))
+    m.sense_position("p", ball, (0.0, 0.0, 1.3 * size), "z")
+    return m
+
+
 MECHANISMS = {
+    "slider-crank": crank_and_slider,
+    "gears": geared,
+    "contact": bouncing,
     "spherical": lambda size: double_pendulum(size, "spherical"),
     "universal": lambda size: double_pendulum(size, "universal"),
     "four-bar": four_bar,

@@ -18,7 +18,8 @@ REALS = {
     "tree_base", "tree_mass", "tree_centre", "tree_inertia", "tree_gravity", "tree_out_local", "tree_cut_place",
     "tree_angle_sign", "tree_angle_inertia",
     "static_value", "static_q", "payload_mass", "payload_gravity", "tree_payload_place", "ported_val",
-    "ported_const", "armature_inertia", "armature_ratio", "tabled_axis", "tabled_coef", "tabled_mass", "tabled_gravity",
+    "fineness", "ported_const", "armature_inertia", "armature_ratio", "tabled_axis", "tabled_coef", "tabled_mass",
+    "tabled_gravity",
     "inertia_real", "inertia_gravity", "axis_real", "axis_vector", "axis_inertia", "axis_rolling",
 }  # fmt: skip
 INTS = {

@@ -275,6 +275,8 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
         ({"ported_row": [0, 5, 2]}, "'ported_row' is 5"),
         ({"ported_row": [0, -1, 2]}, "'ported_row' is -1"),
         ({"ported_val": [1.0]}, "'ported_val' has 1 items instead of 3"),
+        ({"fineness": [1.0, 1.0]}, "'fineness' has 2 items instead of 1"),
+        ({"fineness": [0.0]}, "the fineness is 0"),
         ({"ported_const": [0.0]}, "'ported_const' has 1 items instead of 5"),
         ({"ported_ptr": []}, "'ported_const' has 5 items instead of 0"),
         ({"ported_ptr": [], "ported_const": []}, "'ported_row' has 3 items instead of 0"),

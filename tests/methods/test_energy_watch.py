@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references import motions as references
@@ -228,3 +229,86 @@ def test_the_work_of_a_guide_is_the_same_whether_steps_are_read_or_not(method):
         works.append(simulation.sensors["guides"])
     assert works[0] > 1.0
     assert works[1] == works[0]
+
+
+def pendulum(amplitude, step, mass=1.0):
+    """A planar body of J = 1.1 kg m2 that swings; the run of 4000 steps and the mean of (rate times acceleration)^2."""
+    m = Model("pendulum", dimension=2, gravity=(0.0, -9.81))
+    rod = m.body("rod", mass=mass, com=(np.sin(amplitude), -np.cos(amplitude)), inertia=0.1)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    stiff = 9.81 / 1.1
+    exact = solve_ivp(
+        lambda t, y: (y[1], -stiff * np.sin(y[0])), (0.0, 100.0), (amplitude, 0.0), rtol=1e-9, max_step=0.02
+    )
+    t, (angle, rate) = exact.t, exact.y
+    mean = np.trapezoid((stiff * np.sin(angle) * rate) ** 2, t) / t[-1]
+    return simulate(compile(m), 4000 * step, step, progress=False, estimate_error=False), mean
+
+
+@pytest.mark.parametrize(("step", "within"), [(0.0167, 0.01), (0.0335, 0.02)])
+def test_a_pendulum_loses_what_the_theory_says(step, within):
+    run, mean = pendulum(0.5, step)
+    assert run.report.energy_growth / 4000 == pytest.approx(-3.0 / 8.0 * 1.1 * mean * step**4, rel=within)
+
+
+def test_a_body_without_joints_loses_what_the_theory_says():
+    """-1/32 of the rate of the multipliers squared, of a body of three axes: U'' G = U Lam, Lam = (W^2 + W') G."""
+    inertia, spin, step = np.array([0.05, 0.08, 0.1]), 5.0 * np.array([0.6, 0.64, 0.48]), 0.01
+    m = Model("body", gravity=(0.0, 0.0, 0.0))
+    body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=inertia)
+    m.initial_velocity(body, (0.0, 0.0, 0.0), spin)
+    run = simulate(compile(m), 40.0, step, progress=False, estimate_error=False)
+    G = np.diag(0.5 * inertia.sum() - inertia)
+
+    def turn(w):
+        return np.cross(inertia * w, w) / inertia
+
+    def cross(w):
+        return np.cross(np.eye(3), w)
+
+    exact = solve_ivp(lambda t, w: turn(w), (0.0, 40.0), spin, rtol=1e-10, t_eval=np.linspace(0.0, 40.0, 40001))
+    lam = np.array([(cross(-w) @ cross(-w) + cross(-turn(w))) @ G for w in exact.y.T])
+    rates = np.gradient(lam, exact.t, axis=0)
+    mean = np.mean(np.einsum("tij,j,tji->t", rates, 1.0 / np.diag(G), rates))
+    assert run.report.energy_growth / 4000 == pytest.approx(-mean * step**4 / 32.0, rel=0.02)
+
+
+def sprung(damping=0.0, pushed=False):
+    m = Model("sprung", gravity=(0.0, 0.0, 0.0))
+    bob = m.point_mass("bob", mass=1.0, position=(1.2, 0.0, 0.0))
+    m.spring_damper("spring", (m.ground, (0.0, 0.0, 0.0)), bob, stiffness=1.0, damping=damping, free_length=1.0)
+    m.initial_velocity(bob, (0.0, 0.3, 0.1))
+    if pushed:
+        m.force("push", bob, bob.com, inputs=[m.input("push"), None, None])
+    return compile(m)
+
+
+def test_a_swing_of_the_energy_is_told_from_a_drift():
+    swings = simulate(sprung(), 400.0, 0.2, progress=False, estimate_error=False)
+    assert swings.report.free_states == 2001
+    assert swings.report.energy_growth == 0.0
+    drifts = simulate(sprung(), 400.0, 0.5, method="radau_5", progress=False, estimate_error=False)
+    assert drifts.report.energy_growth < 0.0
+    lost, _ = pendulum(0.5, 0.0335)
+    assert len(lost.notices) == 1
+    assert "falls by 0.9" in lost.notices[0] or "falls by 0.8" in lost.notices[0]
+    assert "and goes on so; method='energy_momentum' keeps it better" in lost.notices[0]
+
+
+@pytest.mark.parametrize("system", [sprung(0.01), sprung(pushed=True)])
+def test_what_may_gain_or_lose_energy_is_not_watched(system):
+    run = simulate(system, 20.0, 0.2, progress=False, estimate_error=False)
+    assert run.report.free_states == 0
+    assert run.report.energy_change == 0.0
+    assert run.notices == ()
+
+
+def test_the_trend_goes_on_in_a_restored_state():
+    whole, parts = (Simulation(sprung()) for _ in range(2))
+    whole.run(20.0, 0.2, progress=False)
+    parts.run(10.0, 0.2, progress=False)
+    other = Simulation(sprung())
+    other.restore(parts.save())
+    other.run(20.0, 0.2, progress=False)
+    assert other.report.free_states == whole.report.free_states == 101
+    assert other.report.free_product == whole.report.free_product

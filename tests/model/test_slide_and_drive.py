@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 from scipy.interpolate import PPoly
 
-from mbs import Model, ModelError, Simulation, compile
+from mbs import Model, ModelError, Simulation, compile, simulate
 
 CLOSED = 1e-9  # m
 
@@ -195,3 +195,17 @@ def test_a_guide_of_another_model_is_refused():
     m = Model("this")
     with pytest.raises(ModelError, match="guide made by model 'this'"):
         m.slide("s", m.ground, point=(0, 0, 0), direction=(1, 0, 0), guide=guide)
+
+
+def test_a_rod_whose_end_slides_far_from_the_drawing_turns_on():
+    """50 km away squares of coordinates are good to 5e-7 m2: rows are closed to that, and steps are not halved."""
+    m = Model("far", dimension=2, gravity=(0.0, 0.0))
+    bob = m.point_mass("bob", mass=1.0, position=(0.0, -1.0))
+    guide = m.guide_time("way", PPoly([[250.0], [0.0]], [0.0, 1e6]), unit="m")
+    m.distance("rod", m.slide("end", m.ground, point=(0.0, 0.0), direction=(1.0, 0.0), guide=guide), bob)
+    m.initial_velocity(bob, (255.0, 0.0))
+    for axis in "xy":
+        m.sense_position(f"v{axis}", bob, None, axis, order=1)
+    run = simulate(compile(m), 200.0, 0.01, progress=False, estimate_error=False, every=100)
+    assert run.report.halvings == 0
+    assert np.hypot(run["vx"] - 250.0, run["vy"]) == pytest.approx(5.0, rel=1e-4)

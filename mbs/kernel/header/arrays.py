@@ -69,6 +69,7 @@ FLOAT_ARRAYS = (
     "tabled_coef",
     "tabled_mass",
     "tabled_gravity",
+    "fineness",
     "ported_val",
     "ported_const",
 )
@@ -217,6 +218,7 @@ OPTIONAL_ARRAYS = (
     "tabled_coef",
     "tabled_mass",
     "tabled_gravity",
+    "fineness",
     "ported_ptr",
     "ported_row",
     "ported_val",

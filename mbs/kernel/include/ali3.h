@@ -17,7 +17,7 @@
 #endif
 
 #define ALI3_SYSTEM_VERSION 1
-#define ALI3_STATE_VERSION 9
+#define ALI3_STATE_VERSION 10
 
 typedef enum {
   ALI3_OK = 0,
@@ -140,6 +140,11 @@ typedef struct {
                           what is geared turns too far, its rate, rad/s */
   double open_power; /* of forces at the state that (25) left without balance, W; they work in the next step */
   double energy_floor; /* what gravity does over tolerance_r, J: a smaller energy_error tells nothing */
+  /* Systems on which nothing acts but forces with a potential, whose energy stays: states that were looked at, set to 0
+   * where it may jump; the energy of the first, means of their number of steps and of their energy, J, and sums of the
+   * squares and products of what they are off these */
+  int64_t free_states;
+  double free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product;
   /* how much deeper than it holds a rim was pressed into a road at the start of a step, m, 0: never; when, s, where, m,
    * and of which element */
   double rim_pressed, rim_time, rim_x, rim_y;

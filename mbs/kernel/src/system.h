@@ -25,7 +25,7 @@
   X(int32_t, 1, guide_second) \
   X(int32_t, 1, tabled_size) X(int32_t, 1, tabled_frame) X(int32_t, 1, tabled_param) X(double, 2, tabled_axis) \
   X(double, 2, tabled_coef) X(double, 2, tabled_mass) X(double, 2, tabled_gravity) \
-  X(int32_t, 1, ported_ptr) X(int32_t, 1, ported_row) X(double, 2, ported_val) X(double, 2, ported_const)
+  X(double, 2, fineness) X(int32_t, 1, ported_ptr) X(int32_t, 1, ported_row) X(double, 2, ported_val) X(double, 2, ported_const)
 
 #define ALI3_SYSTEM_ARRAYS(X) \
   X(unsigned char, 3, meta) \
@@ -149,6 +149,7 @@ struct ali3_system {
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
   double largest_round; /* of these */
+  double fine; /* factor of tolerances in m: of a very small or large drawing not 1 */
   double fall; /* acceleration of coordinates by their weight: root of the mean square, m/s2 */
   int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
   unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */

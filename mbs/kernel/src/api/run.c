@@ -7,6 +7,7 @@
 #include "../method.h"
 #include "../methods/branch_watch.h"
 #include "../methods/energy_balance.h"
+#include "../methods/energy_watch.h"
 #include "../methods/newton.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
@@ -39,6 +40,7 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   in->to_lift = false;
   in->initialised = 1;
   ali3_balance_open(in, ali3_has_balance(in));
+  ali3_energy_trend(in, ali3_has_balance(in));
   return ALI3_OK;
 }
 

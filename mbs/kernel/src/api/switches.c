@@ -45,6 +45,7 @@ ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
     return status;
   }
   in->report.energy_jump = ali3_kinetic_energy(in) - before;
+  in->report.free_states = 0;
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
   ali3_balance_open(in, ali3_has_balance(in));
   return ALI3_OK;

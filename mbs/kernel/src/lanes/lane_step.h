@@ -162,7 +162,7 @@ static truth closed(const ali3_lane_group *in) {
   const ali3_system *S = in->system;
   truth all = {0};
   for (int32_t k = 0; k < S->size.nc; k++)
-    all |= ~(ali3_abs(in->Phi[k]) * S->row_measure[k] <= in->settings.tolerance_phi + S->row_round[k]);
+    all |= ~(ali3_abs(in->Phi[k]) * S->row_measure[k] <= S->fine * in->settings.tolerance_phi + S->row_round[k]);
   return ~all;
 }
 
@@ -238,10 +238,11 @@ static void newton(ali3_lane_group *in) {
     *in->iterations -= active;
     evaluate(in, active, false);
     active &= judge(in);
-    const truth ended = active & (*in->residual <= in->settings.tolerance_r) & closed(in);
+    const truth ended = active & (*in->residual <= in->system->fine * in->settings.tolerance_r) & closed(in);
     *in->good |= ended;
     active &= ~ended;
-    kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4)) & (*in->residual <= KEPT_RESIDUAL * before);
+    kept = (*in->violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * in->system->fine)) &
+           (*in->residual <= KEPT_RESIDUAL * before);
     const truth settles = ali3_settles(in->system, iteration + 1) ? *in->residual <= before : (truth){0};
     mixes = kept | ~settles;
     *in->reach = ali3_where(settles, REACH * in->rule.rate * *in->residual, (real){0});

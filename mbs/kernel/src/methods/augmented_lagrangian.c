@@ -122,7 +122,7 @@ ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int3
 /* The last iterate is as good as the limit lets it be; one that is far from the rows is none. */
 static ali3_status capped(ali3_instance *in) {
   const double left = fmax(in->report.residual, in->report.violation);
-  if (left > ALI3_LOST) return ALI3_NOT_CONVERGED;
+  if (left > ALI3_LOST * in->system->fine) return ALI3_NOT_CONVERGED;
   in->capped = true;
   in->capped_residual = left;
   return ALI3_OK;
@@ -134,6 +134,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
   const bool limited = settings->step_iterations > 0;
   const int64_t most = limited ? in->iterations_end - in->report.iterations : settings->max_iterations;
   bool kept = false, mixes = false;
+  const double fine = in->system->fine;
   double before = HUGE_VAL;
   evaluate(in, h, true);
   in->report.last_iterations = 0;
@@ -148,9 +149,11 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
     if (!judge(in)) return ALI3_NOT_FINITE;
-    if (in->report.residual <= settings->tolerance_r && ali3_closed(in->system, in->Phi, settings->tolerance_phi))
+    if (in->report.residual <= fine * settings->tolerance_r &&
+        ali3_closed(in->system, in->Phi, fine * settings->tolerance_phi))
       return ALI3_OK;
-    kept = settings->update == ALI3_UPDATE_LINEARISED && in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4) &&
+    kept = settings->update == ALI3_UPDATE_LINEARISED &&
+           in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
            in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
     const bool settles = ali3_settles(in->system, in->report.last_iterations) && in->report.residual <= before;
     mixes = kept || !settles;
@@ -160,6 +163,9 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
     if (settles) call.reach = REACH * in->rule.rate * in->report.residual;
     ali3_elements_forces(in, &call);
   }
+  if (most > 0 && in->report.residual <= fine * settings->tolerance_r &&
+      ali3_closed_here(in->system, in->Phi, in->next.q, fine * settings->tolerance_phi))
+    return ALI3_OK; /* far from the drawing no iteration closes rows further */
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
 

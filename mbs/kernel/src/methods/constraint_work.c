@@ -111,7 +111,7 @@ ALI3_BY_PROCESSOR(in->system, real, projection_work,
 /* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and
  * what the tolerance of the residual leaves open. */
 ALI3_INLINED real energy_size(const ali3_instance *in, double h, real kinetic) {
-  const double left = 2.0 * in->settings.tolerance_r / h;
+  const double left = 2.0 * in->system->fine * in->settings.tolerance_r / h;
   const double rest = left * left, square = h * h;
   const real *Q = in->Q, *inverse = in->mass_floor_inverse, *m = in->mass_floor;
   real even = {0}, odd = {0}; /* so that additions need not wait for each other */

@@ -38,7 +38,7 @@ static real defect(ali3_instance *in, double h, truth lanes, real *last, real *c
 /* in->x is the correction by the tangent; forces and signals are those of the present iterate. */
 void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, truth lanes) {
   const int32_t nq = in->system->size.nq;
-  const double tolerance = in->settings.tolerance_r;
+  const double tolerance = in->system->fine * in->settings.tolerance_r;
   real *last = in->stage, *change = last + nq, before = ali3_same(HUGE_VAL);
   const real largest = ali3_largest(in->x, nq);
   truth open = lanes & ali3_not(largest < SMALL * tolerance);

@@ -39,6 +39,13 @@ double ali3_kinetic_energy(ali3_instance *in) {
   return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
 }
 
+/* Kinetic and potential energy of in->now, J. */
+double ali3_energy(ali3_instance *in) {
+  const double kinetic = ali3_kinetic_energy(in);
+  if (kinetic > in->report.kinetic_peak) in->report.kinetic_peak = kinetic;
+  return kinetic + potential(in, &in->now, NULL);
+}
+
 /* The energy of in->now, from which the next step counts where the method has a balance. */
 void ali3_balance_open(ali3_instance *in, bool balanced) {
   in->report.open_power = in->report.energy_floor = 0.0;
@@ -47,7 +54,7 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   double rest = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];
   for (int32_t i = 0; i < in->system->size.nq; i++)
-    in->report.energy_floor += in->settings.tolerance_r * fabs(in->gravity_force[i]);
+    in->report.energy_floor += in->system->fine * in->settings.tolerance_r * fabs(in->gravity_force[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }

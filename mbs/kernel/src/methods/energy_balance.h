@@ -4,6 +4,7 @@
 #include "../instance.h"
 
 double ali3_kinetic_energy(ali3_instance *in);
+double ali3_energy(ali3_instance *in);
 void ali3_balance_open(ali3_instance *in, bool balanced);
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight);
 void ali3_balance_motion(ali3_instance *in, double h, double speed, double change, double miss);

@@ -162,8 +162,8 @@ static ali3_status correct(ali3_instance *in, double weight, double alpha, int32
 
 /* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
 static double error(const ali3_instance *in, double *r, double *v) {
-  *r = in->report.residual / in->settings.tolerance_r;
-  *v = ali3_opening(in->system, in->Phi) / in->settings.tolerance_phi;
+  *r = in->report.residual / (in->system->fine * in->settings.tolerance_r);
+  *v = ali3_opening(in->system, in->Phi) / (in->system->fine * in->settings.tolerance_phi);
   return fmax(*r, *v);
 }
 

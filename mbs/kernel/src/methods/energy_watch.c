@@ -1,7 +1,8 @@
-/* The refusal of steps that do not resolve the motion. */
+/* The refusal of steps that do not resolve the motion, and the trend of an energy that should stay. */
 #include <math.h>
 
 #include "../instance.h"
+#include "check_method.h"
 #include "energy_balance.h"
 #include "energy_watch.h"
 
@@ -9,6 +10,7 @@
  * halved again may have what it might have if it had been asked for: else ten short steps pass where a long one does
  * not. */
 static const double MOST = 0.1, MOST_OF_A_PART = 0.02;
+static const double MOST_ENERGY = 1e100; /* J */
 
 /* Adds an error of the energy to the balance and, where no row is driven, judges it beside `size`; so also with what the
  * forces left without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its
@@ -28,4 +30,24 @@ ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double 
 
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
   return ali3_energy_judge(in, h, error, ali3_energy_size(in, h, kinetic), end, open, NULL);
+}
+
+/* At the start, and after a whole step whose energy is known, as it is where the method has a balance, or whose state is
+ * read: the straight line through the energies. */
+void ali3_energy_trend(ali3_instance *in, bool balanced) {
+  const ali3_system *S = in->system;
+  ali3_report *r = &in->report;
+  if (S->size.nu > 0 || S->size.ng > 0 || !ali3_conservative(in)) return;
+  const double energy = balanced ? r->energy : ali3_energy(in);
+  if (!(fabs(energy) < MOST_ENERGY)) return; /* whose squares are no numbers */
+  if (r->free_states == 0) {
+    r->free_steps = r->free_energy = r->free_steps_squares = r->free_energy_squares = r->free_product = 0.0;
+    r->free_start = energy;
+  }
+  const double n = (double)++r->free_states, steps = (double)r->steps - r->free_steps, off = energy - r->free_energy;
+  r->free_steps += steps / n;
+  r->free_energy += off / n;
+  r->free_steps_squares += steps * ((double)r->steps - r->free_steps);
+  r->free_energy_squares += off * (energy - r->free_energy);
+  r->free_product += steps * (energy - r->free_energy);
 }

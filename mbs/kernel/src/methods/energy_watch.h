@@ -10,4 +10,5 @@ real ali3_energy_size(const ali3_instance *in, double h, real kinetic);
 ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double size, double end, double open,
                               const double *weight);
 ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open);
+void ali3_energy_trend(ali3_instance *in, bool balanced);
 #endif

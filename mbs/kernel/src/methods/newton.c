@@ -26,7 +26,7 @@ bool ali3_judge(ali3_instance *in, const double *r) {
 
 /* A correction could not be computed; where the iterates are far from the rows the tangent is not the cause. */
 ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status) {
-  return status == ALI3_SINGULAR && in->report.violation > ALI3_LOST ? ALI3_NOT_CONVERGED : status;
+  return status == ALI3_SINGULAR && in->report.violation > ALI3_LOST * in->system->fine ? ALI3_NOT_CONVERGED : status;
 }
 
 /* One step has made its iterations; `before` it there were so many. */

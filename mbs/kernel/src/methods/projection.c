@@ -1,5 +1,8 @@
 /* Projections (24), (25) of velocities and accelerations with the factorised tangent. */
 #include "projection.h"
+
+#include <math.h>
+
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
 #include "../algebra/stretch.h"
@@ -13,7 +16,8 @@ ALI3_INLINED truth rates_below(ali3_instance *in, const real *b, const real *v, 
   const ali3_system *S = in->system;
   ali3_add(in->mu, b, S->size.nc);
   *violation = ali3_largest_product(in->mu, S->row_measure, S->size.nc);
-  return (*violation <= known) | (*violation <= tolerance * ali3_largest(v, S->size.nq));
+  const double part = tolerance * fmin(S->fine, 1.0); /* in a small drawing the largest are rates of angles */
+  return (*violation <= known) | (*violation <= part * ali3_largest(v, S->size.nq));
 }
 
 ALI3_INLINED truth rates_closed(ali3_instance *in, const real *b, const real *v, double tolerance, double known,

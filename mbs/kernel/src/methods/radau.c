@@ -219,17 +219,18 @@ static double opening(const ali3_instance *in) {
  * / h^2 times itself. */
 static ali3_status newton(ali3_instance *in, double t, double h, double alpha, bool near) {
   const ali3_settings *settings = &in->settings;
+  const double most = in->system->fine * settings->tolerance_r, widest = in->system->fine * settings->tolerance_phi;
   double last, change = 0.0, need = ROUND_OFF;
   bool fresh = true;
   int32_t refinements = 0;
   if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
-  last = fmax(in->report.residual / settings->tolerance_r, opening(in) / settings->tolerance_phi);
+  last = fmax(in->report.residual / most, opening(in) / widest);
   for (int32_t iteration = 0; iteration < settings->max_iterations; iteration++) {
     ali3_status status = fresh ? factorise(in, t, h, alpha) : ALI3_OK;
     if (status == ALI3_OK) status = correct(in, h, alpha, &change);
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     if (!evaluate(in, t, h)) return ALI3_NOT_FINITE;
-    const double r = in->report.residual / settings->tolerance_r, v = opening(in) / settings->tolerance_phi;
+    const double r = in->report.residual / most, v = opening(in) / widest;
     const double size = fmax(r, v), left = size < last ? change * size / last : change;
     if (iteration == 0 && near) need = fmax(ROUND_OFF, SHARE * change * change);
     if (r <= LEAST && v <= LEAST && left <= need) return ALI3_OK;

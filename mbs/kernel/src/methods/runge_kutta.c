@@ -72,7 +72,7 @@ static ali3_status close(ali3_instance *in) {
   for (int sweep = 0;; sweep++) {
     ali3_constraints(in, v->q, v->s, in->Phi, in->J);
     in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
-    if (ali3_closed(S, in->Phi, in->settings.tolerance_phi)) break;
+    if (ali3_closed(S, in->Phi, S->fine * in->settings.tolerance_phi)) break;
     if (!(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
     if (sweep == in->settings.max_iterations) return ALI3_NOT_CONVERGED;
     for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] = ALPHA * in->Phi[k];

@@ -180,7 +180,7 @@ static ali3_status close(ali3_instance *in) {
     ali3_loops_rows(S, w, false);
     const double violation = largest(w->Phi, T->n_row);
     in->report.violation = violation;
-    if (violation <= in->settings.tolerance_phi) break;
+    if (violation <= S->fine * in->settings.tolerance_phi) break;
     if (sweep == in->settings.max_iterations || !(violation < BROKEN)) return ALI3_NOT_CONVERGED;
     ali3_loops_correct(T, w, w->Phi, w->sum);
   }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../method.h"
 #include "../start/initialise.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"
@@ -11,6 +12,7 @@
 #include "../tabled/tabled.h"
 #include "branch_watch.h"
 #include "energy_balance.h"
+#include "energy_watch.h"
 #include "newton.h"
 
 /* The inputs go straight to `end` (nu), or are held where it is NULL. */
@@ -57,6 +59,8 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
   if (in->report.halvings != step->before.halvings || in->report.divisions != step->before.divisions)
     ali3_iterations_since(in, step->before.iterations); /* not of the last half only */
   in->report.steps++;
+  const bool balanced = ali3_has_balance(in);
+  if (balanced || !in->unobserved) ali3_energy_trend(in, balanced);
   if (in->capped) {
     in->report.capped++;
     in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);

@@ -93,6 +93,7 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (in->initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
   const ali3_status status = take(in, index, value);
   if (status != ALI3_OK) take(in, index, before);
+  in->report.free_states = 0;
   const bool axes = writes_to(in->system, index, ALI3_TARGET_AXIS);
   const bool masses = axes || writes_to(in->system, index, ALI3_TARGET_PAYLOAD) ||
                       writes_to(in->system, index, ALI3_TARGET_ARMATURE) ||

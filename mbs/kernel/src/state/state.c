@@ -102,18 +102,24 @@ static bool load_valid(const ali3_report *r) {
          r->load_begin - r->load_begin == 0.0 && r->load_left - r->load_left == 0.0;
 }
 
+static bool trend_valid(const ali3_report *r) {
+  return counted(r->free_states) && magnitude(r->free_steps) && r->free_start - r->free_start == 0.0 &&
+         r->free_energy - r->free_energy == 0.0 && magnitude(r->free_steps_squares) &&
+         magnitude(r->free_energy_squares) && r->free_product - r->free_product == 0.0;
+}
+
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
-  return branch_valid(s, r) && stop_valid(r) && load_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
-         magnitude(r->speed_peak) && magnitude(r->velocity_path) && magnitude(r->predictor_path) &&
-         magnitude(r->velocity_squares) && magnitude(r->predictor_squares) && r->energy - r->energy == 0.0 &&
-         r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) && magnitude(r->rim_pressed) &&
-         magnitude(r->event_miss) && magnitude(r->event_squares) && magnitude(r->event_path) &&
-         r->event_left - r->event_left == 0.0 && magnitude(r->coarse_event) && r->coarse_time - r->coarse_time == 0.0 &&
-         r->rim_time - r->rim_time == 0.0 && r->rim_x - r->rim_x == 0.0 && r->rim_y - r->rim_y == 0.0 &&
-         counted(r->rim_element) && (r->rim_pressed == 0.0 || r->rim_element < s->size.ne) && counted(r->steps) &&
-         counted(r->iterations) && counted(r->factorizations) && counted(r->solves) && counted(r->halvings) &&
-         counted(r->failures) && counted(r->capped) && magnitude(r->capped_residual) &&
-         r->energy_error - r->energy_error == 0.0;
+  return branch_valid(s, r) && stop_valid(r) && load_valid(r) && trend_valid(r) && magnitude(r->work) &&
+         magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
+         magnitude(r->predictor_path) && magnitude(r->velocity_squares) && magnitude(r->predictor_squares) &&
+         r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) &&
+         magnitude(r->rim_pressed) && magnitude(r->event_miss) && magnitude(r->event_squares) &&
+         magnitude(r->event_path) && r->event_left - r->event_left == 0.0 && magnitude(r->coarse_event) &&
+         r->coarse_time - r->coarse_time == 0.0 && r->rim_time - r->rim_time == 0.0 && r->rim_x - r->rim_x == 0.0 &&
+         r->rim_y - r->rim_y == 0.0 && counted(r->rim_element) &&
+         (r->rim_pressed == 0.0 || r->rim_element < s->size.ne) && counted(r->steps) && counted(r->iterations) &&
+         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
+         counted(r->capped) && magnitude(r->capped_residual) && r->energy_error - r->energy_error == 0.0;
 }
 
 /* Vectors, inputs and parameters, one after the other. */

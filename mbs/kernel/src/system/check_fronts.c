@@ -152,6 +152,9 @@ ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   CHECK(ali3_check_pointers(m, "quad_ptr", s->quad_ptr, s->n_quad_ptr, nc, s->n_quad_a));
   CHECK(ali3_check_length(m, "quad_b", s->n_quad_b, s->n_quad_a));
   CHECK(ali3_check_length(m, "quad_h", s->n_quad_h, s->n_quad_a));
+  CHECK(ali3_check_length(m, "fineness", s->n_fineness, s->n_fineness > 0 ? 1 : 0));
+  if (s->n_fineness > 0 && !(s->fineness[0] > 0.0 && s->fineness[0] < 1e300))
+    return ali3_bad(m, "the fineness is %g", s->fineness[0]);
   for (int32_t k = 0; k < nc; k++) {
     if (!(s->row_measure[k] > 0.0)) return ali3_bad(m, "the measure of row %d is %g", (int)k, s->row_measure[k]);
     CHECK(check_row_pattern(s, k, m));

@@ -48,9 +48,10 @@ void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front,
       positive++;
     }
   }
-  const double typical = positive > 0 ? sum / positive : 1.0;
+  /* what has no mass is an angle, whose lever is that of the drawing */
+  const double mean = positive > 0 ? sum / positive : 1.0, lever = s->fine * s->fine, typical = lever * mean;
   for (int32_t i = 0; i < nq; i++) {
-    const bool massless = !(floor[i] > 1e-12 * typical);
+    const bool massless = !(floor[i] > 1e-12 * (lever < 1.0 ? typical : mean));
     missing[i] = massless ? typical : 0.0;
     if (massless) floor[i] = typical;
   }

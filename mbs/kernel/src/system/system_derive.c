@@ -193,6 +193,7 @@ static void derive_round(ali3_system *s) {
     s->row_round[k] = unit * most > DECIDES ? unit * most : unit * sum;
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
+  s->fine = s->n_fineness > 0 ? s->fineness[0] : 1.0;
   s->largest_round = 0.0;
   for (int32_t k = 0; k < s->size.nc; k++) s->largest_round = fmax(s->largest_round, s->row_round[k]);
 }
