@@ -6,6 +6,7 @@
 #include "../instance.h"
 #include "../lanes/lanes.h"
 #include "../method.h"
+#include "../methods/contact_event.h"
 #include "../methods/energy_balance.h"
 #include "../methods/energy_watch.h"
 #include "../methods/generalised_alpha.h"
@@ -85,6 +86,9 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_vectors *from = &in->now, *to = &in->next;
   if (ali3_parted(in, step->t, step->h)) return false;
   in->halves_left = false;
+  in->events_left = ALI3_EVENTS;
+  in->parts_at_events = in->settings.max_halvings > 0;
+  in->event = 1.0;
   in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
   if (ali3_divides_ahead(in, step->h) || fastest_turn(in) * step->h > MOST_TURN || !goes_on(in, step->h)) return false;
   if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
@@ -107,7 +111,7 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
     ali3_history_shift(in, step->h);
   }
   ali3_lane_elements_accept(g, l);
-  if (ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
+  if (ali3_contact_event(in, step->h) || ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
   const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l];
   const double *square = g->squares + l;
   const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l], weight);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "contact_law.h"
+#include "crossing.h"
 
 /* Laws of the bump stop and the rebound stop over the length beyond them. */
 static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
@@ -70,6 +71,15 @@ double ali3_rebound_change(const double *p, int progressive, double l0, double l
   double slope = 0.0, energy = 0.0;
   ali3_contact_force(&law[1], beyond, &slope, &energy);
   return slope * fabs(l1 - l0);
+}
+
+double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h) {
+  double first = 1.0;
+  for (int side = ALI3_BUMP_LENGTH; side < ALI3_LINEAR_STOPS; side += ALI3_REBOUND_LENGTH - ALI3_BUMP_LENGTH) {
+    const double gap[2] = {length[0] - p[side], length[1] - p[side]};
+    if (p[side + 1] > 0.0) first = fmin(first, ali3_crossing(h, gap, rate));
+  }
+  return first;
 }
 
 const char *ali3_end_stops_check(const double *p, int progressive) {

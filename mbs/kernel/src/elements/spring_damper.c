@@ -56,6 +56,11 @@ static double rebound(const double *real, int32_t nreal, double from, double to)
   return ali3_rebound_change(real + STOPS, progressive(nreal), from, to);
 }
 
+static double event(const ali3_element_args *from, const ali3_element_args *to, double h) {
+  return ali3_end_stops_event(from->real + STOPS, (double[]){from->out[0], to->out[0]},
+                              (double[]){from->out[2], to->out[2]}, h);
+}
+
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
   (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
@@ -75,6 +80,7 @@ const ali3_element_type ali3_spring_damper = {
     .conservative = true,
     .lossy = lossy,
     .rebound = rebound,
+    .event = event,
     .nsig = -1,
     .nreal = -1,
     .nout = 4,

@@ -102,6 +102,11 @@ static double rebound(const double *real, int32_t nreal, double from, double to)
   return ali3_rebound_change(real + STOPS, 1, from, to);
 }
 
+static double event(const ali3_element_args *from, const ali3_element_args *to, double h) {
+  return ali3_end_stops_event(from->real + STOPS, (double[]){from->out[0], to->out[0]},
+                              (double[]){from->out[2], to->out[2]}, h);
+}
+
 /* A damper never gives energy: its force rises through nothing at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
   double slope;
@@ -136,6 +141,7 @@ const ali3_element_type ali3_spring_damper_table = {
     .conservative = true,
     .lossy = lossy,
     .rebound = rebound,
+    .event = event,
     .nsig = -1,
     .nreal = -1,
     .nint = INTEGERS,

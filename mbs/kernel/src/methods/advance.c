@@ -11,6 +11,7 @@
 #include "../state/road_files.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "contact_event.h"
 #include "energy_balance.h"
 #include "quick_stop.h"
 #include "steps.h"
@@ -34,7 +35,8 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 
 enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
 
-/* A part of a step to time t, in halves where it does not converge or a force changes abruptly in it. With a limit of
+/* A part of a step to time t, in halves where it does not converge or a force changes abruptly in it, and up to and from
+ * where a tyre or a stop is met or left. With a limit of
  * the step's iterations they go up to iterations_end, and only what changes abruptly is divided. */
 static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t depth, int64_t iterations_end) {
   const ali3_method *method = ali3_method_of(in);
@@ -45,6 +47,7 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   in->halves_left = depth > 0 && depth < in->settings.max_halvings && !limited;
   in->may_divide = ali3_may_divide(in, depth);
   in->changed = -1.0;
+  in->event = 1.0;
   in->iterations_end = iterations_end;
   const int64_t divisions = in->report.divisions;
   const ali3_status status = ali3_divides_ahead(in, h) ? ALI3_UNRESOLVED : by_method(in, t, h);
@@ -59,8 +62,11 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   if (!divided) in->report.halvings++;
   ali3_back_up(in);
   const int64_t made = in->report.iterations, half = made + (iterations_end - made) / 2;
-  const ali3_status first = advance_part(in, t - 0.5 * h, 0.5 * h, depth - 1, half);
-  return first == ALI3_OK ? advance_part(in, t, 0.5 * h, depth - 1, iterations_end) : first;
+  const bool located = divided && in->event < 1.0;
+  const double share = located ? in->event : 0.5;
+  if (!located) depth--;
+  const ali3_status first = advance_part(in, t - (1.0 - share) * h, share * h, depth, half);
+  return first == ALI3_OK ? advance_part(in, t, (1.0 - share) * h, depth, iterations_end) : first;
 }
 
 static const double AT_END = 1e-6; /* of a step: a jump so near to its end is at it */
@@ -99,6 +105,8 @@ bool ali3_parted(const ali3_instance *in, double t, double h) {
  * jump. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   double guide;
+  in->events_left = ALI3_EVENTS;
+  in->parts_at_events = depth > 0;
   const double until = part_end(in, t, h, &guide);
   if (until == t && guide == HUGE_VAL)
     return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);

@@ -19,6 +19,7 @@
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "ali3p.h"
+#include "contact_event.h"
 #include "defect_correction.h"
 #include "energy_balance.h"
 #include "energy_watch.h"
@@ -230,7 +231,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
                                 .out = to->out,
                                 .potential = to->potential};
   ali3_forces_accept(in, &call);
-  if (ali3_divides(in, h)) return ALI3_UNRESOLVED;
+  if (ali3_contact_event(in, h) || ali3_divides(in, h)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);

@@ -9,6 +9,10 @@
 static const double QUICK = 0.047;  /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
 static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
+/* 1/s, of the largest load or force: steps are divided where the load of a tyre or the force of a contact changes more
+ * quickly. A rate, and no change in a step, so that a run and its refinement divide the same stretches and the parts
+ * shrink with the step. Those of cars and boxes in docs/theory.md. */
+static const double TYRE_RATE = 20.0, CONTACT_RATE = 5.0;
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
 enum { ENOUGH = 4 };    /* iterations of a half that is made without trying the whole, where they are limited */
@@ -67,40 +71,47 @@ bool ali3_may_divide(const ali3_instance *in, int32_t depth) {
   return depth > 0 && depth > in->settings.max_halvings - DIVISIONS && in->system->nr > 0;
 }
 
-/* Whether a part in which a force changes abruptly is made in halves: where a limit of the step's iterations leaves so
- * many for each. Else the limit ends the step, as one whose iterations it stops. The parts may change less; who judges
- * abrupt steps afterwards is told of the whole. */
-static bool divided(ali3_instance *in, bool abrupt, int32_t iterations) {
-  if (!(in->may_divide && abrupt)) return false;
+bool ali3_leaves_parts(ali3_instance *in, int32_t iterations) {
   const int64_t left = in->iterations_end - in->report.iterations;
   if (in->settings.step_iterations > 0 && left < 2 * (int64_t)iterations) {
     in->capped = true;
     return false;
   }
   in->report.divisions++;
-  in->report.abrupt_steps++;
+  return true;
+}
+
+/* Whether a part of size h with such a report.change_rate is made in halves. Its parts may change less; who judges
+ * abrupt steps afterwards is told of the whole. */
+static bool divided(ali3_instance *in, double h, int32_t iterations) {
+  if (!(in->may_divide && in->report.change_rate > 1.0 && ali3_leaves_parts(in, iterations))) return false;
+  if (in->report.change_rate * TYRE_RATE * h > ABRUPT) in->report.abrupt_steps++;
   return true;
 }
 
 bool ali3_divides_ahead(ali3_instance *in, double h) {
-  return divided(in, in->report.change_rate * h > ABRUPT, ENOUGH);
+  return divided(in, h, ENOUGH);
 }
 
-/* A load is measured by the largest load there was, other forces by the largest force. */
+/* A load is measured by the largest load there was, the force of a contact by the largest force. That of a stop is smooth
+ * between the ends of steps, see contact_event.c. */
 bool ali3_divides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   if (S->nr == 0) return false;
-  double load = 0.0, force = 0.0, largest_load = in->report.largest_load, largest_force = in->report.largest_force;
+  enum { STOP, CONTACT, TYRE, KINDS };
+  double most[KINDS] = {0.0}, largest_load = in->report.largest_load, largest_force = in->report.largest_force;
   for (int32_t c = 0; c < S->n_contact; c++) {
     const ali3_contact_forces_of *contact = S->contact + c;
-    double *most = contact->tyre ? &load : &force, *largest = contact->tyre ? &largest_load : &largest_force;
-    *most = more(*most, change_of(contact, in->now.out, in->next.out, largest));
+    const int32_t kind = contact->tyre ? TYRE : contact->touches ? CONTACT : STOP;
+    double *largest = kind == TYRE ? &largest_load : &largest_force;
+    most[kind] = more(most[kind], change_of(contact, in->now.out, in->next.out, largest));
   }
-  in->changed = fmax(load, force);
+  in->changed = fmax(fmax(most[TYRE], most[CONTACT]), most[STOP]);
   largest_force = fmax(largest_force, largest_load);
-  const double change = fmax(load > 0.0 ? load / largest_load : 0.0, force > 0.0 ? force / largest_force : 0.0);
-  in->report.change_rate = change / h;
-  return divided(in, change > ABRUPT, in->report.last_iterations);
+  const double load = most[TYRE] > 0.0 ? most[TYRE] / (TYRE_RATE * largest_load) : 0.0,
+               force = most[CONTACT] > 0.0 ? most[CONTACT] / (CONTACT_RATE * largest_force) : 0.0;
+  in->report.change_rate = fmax(load, force) / h;
+  return divided(in, h, in->report.last_iterations);
 }
 
 /* Forces of a contact after the step, and a hit of its rebound stop. */
