@@ -280,9 +280,9 @@ class Repeats:
         tables = self._table(coarse), self._table(fine)
         units, sensors, self._sizes = differences(*tables, self.judged, self.before, self.length)
         order = float(METHOD_TABLE[run.settings.method].order)
-        reports = coarse[0].report, fine[0].report
-        if round(ratio) < 4 and reports[0] is not None and reports[1] is not None:  # else the order hardly counts
-            order = accuracy.measured_order(run.settings.method, *reports, max(ratio, 1.0 / ratio))
+        before, after = coarse[0].report, fine[0].report
+        if round(ratio) < 4 and before is not None and after is not None:  # else the order hardly counts
+            order = accuracy.measured_order(run.settings.method, before, after, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
             run.accuracy,
