@@ -255,7 +255,7 @@ PORTABILITY_CHECKS = (
     Check("quiet steps", quiet_steps),
     Check("careless calls", careless_calls, crash="note", late="note", clause=NOT_ALLOWED),
     Check("stop time", stop_time),
-    Check("resources", capital_scheme),
+    Check("resources", capital_scheme, crash="note", clause="capitals of a scheme are of RFC 3986, 3.1"),
     Check("arrays", arrays, calls=False),
     Check("refused steps", refused_steps, late="note", clause=_NO_LIMIT),
     Check("far from zero", far_clock, late="note", clause=_NO_LIMIT),
