@@ -9,10 +9,10 @@
 static const double QUICK = 0.047;  /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
 static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
-/* 1/s, of the largest load or force: steps are divided where the load of a tyre or the force of a contact changes more
- * quickly. A rate, and no change in a step, so that a run and its refinement divide the same stretches and the parts
- * shrink with the step. Those of cars and boxes in docs/theory.md. */
-static const double TYRE_RATE = 20.0, CONTACT_RATE = 5.0;
+/* 1/s, times the step that is asked for: of the largest load or force, a change in a part that halves it, where that is
+ * less than ABRUPT. So a run and its refinement divide the same stretches, and the parts shrink with the step: of stops
+ * below 2 ms, of tyres below 5 ms, of contacts below 20 ms. Measured in docs/theory.md. */
+static const double STOP_RATE = 50.0, TYRE_RATE = 20.0, CONTACT_RATE = 5.0;
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
 enum { ENOUGH = 4 };    /* iterations of a half that is made without trying the whole, where they are limited */
@@ -81,11 +81,14 @@ bool ali3_leaves_parts(ali3_instance *in, int32_t iterations) {
   return true;
 }
 
+/* The change from which on parts of the present step are halved. */
+static double most_change(const ali3_instance *in, double rate) { return fmin(rate * in->whole_length, ABRUPT); }
+
 /* Whether a part of size h with such a report.change_rate is made in halves. Its parts may change less; who judges
  * abrupt steps afterwards is told of the whole. */
 static bool divided(ali3_instance *in, double h, int32_t iterations) {
-  if (!(in->may_divide && in->report.change_rate > 1.0 && ali3_leaves_parts(in, iterations))) return false;
-  if (in->report.change_rate * TYRE_RATE * h > ABRUPT) in->report.abrupt_steps++;
+  if (!(in->may_divide && in->report.change_rate * h > 1.0 && ali3_leaves_parts(in, iterations))) return false;
+  if (in->report.change_rate * most_change(in, TYRE_RATE) * h > ABRUPT) in->report.abrupt_steps++;
   return true;
 }
 
@@ -93,8 +96,7 @@ bool ali3_divides_ahead(ali3_instance *in, double h) {
   return divided(in, h, ENOUGH);
 }
 
-/* A load is measured by the largest load there was, the force of a contact by the largest force. That of a stop is smooth
- * between the ends of steps, see contact_event.c. */
+/* A load is measured by the largest load there was, other forces by the largest force. */
 bool ali3_divides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   if (S->nr == 0) return false;
@@ -108,9 +110,10 @@ bool ali3_divides(ali3_instance *in, double h) {
   }
   in->changed = fmax(fmax(most[TYRE], most[CONTACT]), most[STOP]);
   largest_force = fmax(largest_force, largest_load);
-  const double load = most[TYRE] > 0.0 ? most[TYRE] / (TYRE_RATE * largest_load) : 0.0,
-               force = most[CONTACT] > 0.0 ? most[CONTACT] / (CONTACT_RATE * largest_force) : 0.0;
-  in->report.change_rate = fmax(load, force) / h;
+  const double load = most[TYRE] > 0.0 ? most[TYRE] / (most_change(in, TYRE_RATE) * largest_load) : 0.0,
+               force = most[CONTACT] > 0.0 ? most[CONTACT] / (most_change(in, CONTACT_RATE) * largest_force) : 0.0;
+  const double stop = most[STOP] > 0.0 ? most[STOP] / (most_change(in, STOP_RATE) * largest_force) : 0.0;
+  in->report.change_rate = fmax(fmax(load, force), stop) / h;
   return divided(in, h, in->report.last_iterations);
 }
 

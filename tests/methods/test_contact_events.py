@@ -1,0 +1,88 @@
+"""Steps end where a stop is met or left: errors fall with the square of the step through each impact."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+import mbs
+from mbs.elements import EndStops, SpringDamper
+
+Array = NDArray[np.float64]
+SPAN = 1.2  # s
+STEPS = (0.008, 0.004, 0.002, 0.001)  # s
+GAPS = np.linspace(0.011, 0.047, 7)  # m
+
+
+def between_stops(gap: float) -> mbs.System:
+    """A mass of 1 kg on a line without a spring, but for stops `gap` to both sides."""
+    m = mbs.Model("mass between stops", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
+    m.point_on_line("line", (mass, None), (m.ground, (1.0, 0.0)), axis=(1.0, 0.0))
+    m.initial_velocity(mass, linear=(1.0, 0.0))
+    stops = EndStops(1.0 - gap, 4e3, 1.0 + gap, 4e3)
+    m.add(SpringDamper(0.0, 0.0, 1.0, stops).record("stops", mass.point() - m.ground.point((0.0, 0.0))))
+    m.sense_position("x", mass, None, "x")
+    return mbs.compile(m)
+
+
+def exact(gap: float, t: Array) -> Array:
+    def rates(_: float, y: Array) -> Array:
+        beyond = abs(y[0]) - gap
+        return np.array([y[1], -4e3 * np.sign(y[0]) * max(beyond, 0.0)])
+
+    found = solve_ivp(rates, (0.0, SPAN), [0.0, 1.0], t_eval=t, method="DOP853", rtol=1e-10, atol=1e-11, max_step=2e-3)
+    return np.asarray(1.0 + found.y[0])
+
+
+def errors(system: mbs.System, gap: float, settings: mbs.Settings | None = None) -> Array:
+    found = []
+    for h in STEPS:
+        every = round(STEPS[0] / h)
+        run = mbs.simulate(system, SPAN, h, every=every, settings=settings, estimate_error=False, progress=False)
+        found.append(float(np.abs(run["x"] - exact(gap, run.t)).max()))
+    return np.array(found)
+
+
+def orders(found: Array) -> Array:
+    return np.asarray(np.log2(found[..., :-1] / found[..., 1:]))
+
+
+def test_every_impact_keeps_order_two_where_whole_steps_have_it_on_the_mean_only() -> None:
+    whole = mbs.Settings(max_halvings=0)
+    located, left = [], []
+    for gap in GAPS:
+        system = between_stops(float(gap))
+        located.append(errors(system, float(gap)))
+        left.append(errors(system, float(gap), whole))
+    kept, lost = orders(np.array(located))[:, 1:], orders(np.array(left))[:, 1:]
+    assert np.median(kept) > 1.8
+    assert np.quantile(kept, 0.25) > 1.7
+    assert np.ptp(kept) < 0.5 * np.ptp(lost)
+
+
+def test_a_located_event_is_counted_and_loses_no_energy() -> None:
+    run = mbs.simulate(between_stops(0.02), SPAN, 0.002, estimate_error=False, progress=False)
+    assert run.report is not None
+    assert run.report.divisions > 20
+    assert run.report.halvings == 0
+    free = np.abs(run["x"] - 1.0) < 0.015
+    speed = np.abs(np.gradient(run["x"], run.t))[free]
+    assert speed == pytest.approx(np.ones(len(speed)), abs=5e-3)
+
+
+def test_lanes_and_a_saved_state_have_the_bits_of_a_single_run() -> None:
+    system, h = between_stops(0.02), 0.004
+    run = mbs.simulate(system, SPAN, h, estimate_error=False, progress=False)
+    many = mbs.simulate_many(system, [mbs.Variant(), mbs.Variant()], SPAN, h, estimate_error=False, progress=False)
+    assert all((part["x"] == run["x"]).all() for part in many.trajectories if part is not None)
+    by_hand = mbs.Simulation(system)
+    for _ in range(50):
+        state = by_hand.save()
+        by_hand.step(h)
+        ended = by_hand.sensors["x"]
+        by_hand.restore(state)
+        by_hand.step(h)
+        assert by_hand.sensors["x"] == ended
