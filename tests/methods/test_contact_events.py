@@ -50,6 +50,7 @@ def orders(found: Array) -> Array:
     return np.asarray(np.log2(found[..., :-1] / found[..., 1:]))
 
 
+@pytest.mark.slow
 def test_every_impact_keeps_order_two_where_whole_steps_have_it_on_the_mean_only() -> None:
     whole = mbs.Settings(max_halvings=0)
     located, left = [], []
