@@ -20,7 +20,7 @@ def between_stops(gap: float) -> mbs.System:
     """A mass of 1 kg on a line without a spring, but for stops `gap` to both sides."""
     m = mbs.Model("mass between stops", dimension=2, gravity=(0.0, 0.0))
     mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
-    m.point_on_line("line", (mass, None), (m.ground, (1.0, 0.0)), axis=(1.0, 0.0))
+    m.point_on_line("line", (mass, (1.0, 0.0)), (m.ground, (1.0, 0.0)), axis=(1.0, 0.0))
     m.initial_velocity(mass, linear=(1.0, 0.0))
     stops = EndStops(1.0 - gap, 4e3, 1.0 + gap, 4e3)
     m.add(SpringDamper(0.0, 0.0, 1.0, stops).record("stops", mass.point() - m.ground.point((0.0, 0.0))))
