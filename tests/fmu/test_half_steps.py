@@ -147,7 +147,7 @@ def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host
     told = []
     for torques in ((450.0, 450.0), (450.0, 400.0)):
         driven = host(prototype_fmu).start(
-            {"initial.z": 0.6, "initial.speed": 30.0, "steering": 0.3, "step_size": 2.5e-3}
+            {"initial.z": 1.2, "initial.speed": 20.0, "steering": 0.4, "step_size": 2.5e-3}
         )
         rows = []
         for k in range(1040):

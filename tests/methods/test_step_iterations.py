@@ -15,7 +15,7 @@ from mbs.scenes import cart_pole, double_four_bar, prototype_car
 from mbs.settings.settings import LIMITED, Settings
 
 H = 0.005
-DEEP = 200
+DEEP = 30
 SWEEPS = 3  # of a projection, at most
 
 

@@ -160,10 +160,8 @@ typedef struct {
   double largest_force, quick_change, quick_time, quick_step;
   double hit_change, hit_time, hit_h, hit_left;
   int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest */
-  int64_t
-      divisions; /* of steps where such a force changes quickly, where a tyre or a stop is met or left, or at breaks of inputs */
-  double
-      change_rate; /* of a load or a contact's force in the last part of a step, over that from which parts are halved */
+  int64_t divisions; /* of steps where such a force changes quickly, a stop is met or left, or at breaks of inputs */
+  double change_rate; /* of such a force in the last part of a step, over that from which parts are halved, 1/s */
   /* Systems with tyres: largest load, N; where loads changed too quickly for the step, the worst h sqrt(h) times the
    * root of the squares of their changes in a step over the largest load, s^1.5, 0: nowhere; when the first began, s; a
    * step that would do, s. The sum of the squares now, N^2; largest h^3 times it that is not judged yet, N^2 s^3, when it

@@ -53,7 +53,7 @@ struct ali3_instance {
   ali3_report report;
   ali3_report report_before; /* of the step that branch_watch.c may repeat */
   double t_base, h_last; /* time = t_base + count * h_last */
-  double event; /* the share of the present part at which a contact or stop opens or closes, see contact_event.c */
+  double event; /* the share of the present part at which a stop is met or left, see contact_event.c */
   int32_t events_left; /* at which the present step may still be parted */
   bool parts_at_events; /* it may be parted there at all */
   bool may_divide; /* the present step is halved where a force changes abruptly in it */

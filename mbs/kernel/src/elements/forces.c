@@ -200,30 +200,3 @@ void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call) {
     ali3_element_accept(in, call, e, u, ud);
   }
 }
-
-ali3_element_args ali3_element_at(ali3_instance *in, const ali3_vectors *v, const ali3_contact_forces_of *contact,
-                                  double *u, double *ud) {
-  const ali3_system *S = in->system;
-  const int32_t e = contact->element;
-  const ali3_force_call call = {
-      .q = v->q, .qd = v->qd, .y_old = v->y, .y_new = in->y_work, .out = v->out, .potential = in->potential_work};
-  ali3_element_args a = common(in, &call);
-  prepare(in, &call, e, u, ud, NULL, NULL, &a);
-  if (!contact->touches) return a;
-  const double *q = v->q, *qd = v->qd;
-  if (S->n_tabled > 0) {
-    ali3_tabled_prepare(in, q);
-    ali3_tabled_extend(in, q, qd, NULL, false);
-    q = in->extended[0], qd = in->extended[1];
-  }
-  for (int32_t i = 0; i < a.nsig; i++) {
-    const int32_t signal = S->el_sig[S->el_sig_ptr[e] + i];
-    u[i] = S->sig_const[signal];
-    ud[i] = 0.0;
-    for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) {
-      u[i] += S->sig_val[k] * q[S->sig_col[k]];
-      ud[i] += S->sig_val[k] * qd[S->sig_col[k]];
-    }
-  }
-  return a;
-}

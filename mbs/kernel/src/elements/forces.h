@@ -2,7 +2,6 @@
 #ifndef ALI3_FORCES_H
 #define ALI3_FORCES_H
 #include "../instance.h"
-#include "element.h"
 
 typedef struct {
   const double *q, *qd, *y_old;
@@ -18,7 +17,4 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
                          double *f, double *tangent);
 void ali3_element_accept(ali3_instance *in, const ali3_force_call *call, int32_t e, const double *u, const double *ud);
 void ali3_forces_accept(ali3_instance *in, const ali3_force_call *call);
-/* The element of a contact in a state: data and outputs, of what touches a road its signals u and their rates ud too. */
-ali3_element_args ali3_element_at(ali3_instance *in, const ali3_vectors *v, const ali3_contact_forces_of *contact,
-                                  double *u, double *ud);
 #endif

@@ -56,9 +56,8 @@ static double rebound(const double *real, int32_t nreal, double from, double to)
   return ali3_rebound_change(real + STOPS, progressive(nreal), from, to);
 }
 
-static double event(const ali3_element_args *from, const ali3_element_args *to, double h) {
-  return ali3_end_stops_event(from->real + STOPS, (double[]){from->out[0], to->out[0]},
-                              (double[]){from->out[2], to->out[2]}, h);
+static double event(const double *real, const double *from, const double *to, double h) {
+  return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);
 }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,

@@ -254,7 +254,6 @@ const ali3_element_type ali3_tyre = {
     .start = ali3_tyre_start,
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
-    .event = ali3_tyre_event,
     .nsig = 7,
     .nreal = -1,
     .nint = -1,

@@ -1,7 +1,6 @@
 #include "tyre_contact.h"
 
 #include "../algebra/elementary.h"
-#include "crossing.h"
 #include "element_math.h"
 #include "road.h"
 
@@ -191,26 +190,5 @@ ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised) {
   return (ali3_start_verdict){.excess = deepest - a->real[0],
                               .rise = deepest > CLEAR ? deepest * part : 0.0,
                               .pressed = deepest - a->real[0] + RIM_HOLDS * a->real[1]};
-}
-
-/* How far a tyre is from the road, and the rate of that. */
-static void gap_at(const ali3_element_args *a, double *gap, double *rate) {
-  double e[3];
-  ali3_contact contact[2];
-  ali3_tyre_axis(a->u + 3, e);
-  const int count = ali3_road_contacts(&a->roads[a->integer[0]], a->u, e, a->real[0], contact);
-  *gap = INFINITY;
-  for (int k = 0; k < count; k++) {
-    if (!(-contact[k].penetration < *gap)) continue;
-    *gap = -contact[k].penetration;
-    *rate = ali3_dot(contact[k].normal, a->ud) / contact[k].cosine;
-  }
-}
-
-double ali3_tyre_event(const ali3_element_args *from, const ali3_element_args *to, double h) {
-  double gap[2], rate[2] = {0.0, 0.0};
-  gap_at(from, &gap[0], &rate[0]);
-  gap_at(to, &gap[1], &rate[1]);
-  return ali3_crossing(h, gap, rate);
 }
 #endif

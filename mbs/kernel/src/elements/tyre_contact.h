@@ -71,7 +71,6 @@ void ali3_tyre_semidefinite(real C[3]);
 
 /* Of an element whose first number is its radius and first integer its road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);
-double ali3_tyre_event(const ali3_element_args *from, const ali3_element_args *to, double h);
 ali3_start_verdict ali3_tyre_start(const ali3_element_args *a, double raised);
 #define ALI3_TYRE_START_WORDS "lies deeper in the road than its radius"
 #endif

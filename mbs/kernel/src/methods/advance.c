@@ -36,8 +36,7 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
 
 /* A part of a step to time t, in halves where it does not converge or a force changes abruptly in it, and up to and from
- * where a tyre or a stop is met or left. With a limit of
- * the step's iterations they go up to iterations_end, and only what changes abruptly is divided. */
+ * where a stop is met or left. With a limit of the step's iterations they go up to iterations_end, and only what changes abruptly is divided. */
 static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t depth, int64_t iterations_end) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;

@@ -1,4 +1,4 @@
-/* Contacts and stops that open or close within a step. */
+/* Stops that are met or left within a step. */
 #ifndef ALI3_METHODS_CONTACT_EVENT_H
 #define ALI3_METHODS_CONTACT_EVENT_H
 #include "../instance.h"

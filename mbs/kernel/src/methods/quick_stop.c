@@ -9,10 +9,10 @@
 static const double QUICK = 0.047;  /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
 static const double SAFE = 0.3;     /* of the limit: what a step would do with */
 static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
-/* 1/s, times the step that is asked for: of the largest load or force, a change in a part that halves it, where that is
- * less than ABRUPT. So a run and its refinement divide the same stretches, and the parts shrink with the step: of stops
- * below 2 ms, of tyres below 5 ms, of contacts below 20 ms. Measured in docs/theory.md. */
-static const double STOP_RATE = 50.0, TYRE_RATE = 20.0, CONTACT_RATE = 5.0;
+/* 1/s, times the step that is asked for: of the largest force, a change in a part that halves it, where that is less
+ * than ABRUPT. So a run and its refinement divide the same stretches, and the parts shrink with the step: of stops below
+ * 2 ms, of contacts below 20 ms. Measured in docs/theory.md. */
+static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
 static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
 enum { ENOUGH = 4 };    /* iterations of a half that is made without trying the whole, where they are limited */
@@ -88,13 +88,11 @@ static double most_change(const ali3_instance *in, double rate) { return fmin(ra
  * abrupt steps afterwards is told of the whole. */
 static bool divided(ali3_instance *in, double h, int32_t iterations) {
   if (!(in->may_divide && in->report.change_rate * h > 1.0 && ali3_leaves_parts(in, iterations))) return false;
-  if (in->report.change_rate * most_change(in, TYRE_RATE) * h > ABRUPT) in->report.abrupt_steps++;
+  in->report.abrupt_steps++;
   return true;
 }
 
-bool ali3_divides_ahead(ali3_instance *in, double h) {
-  return divided(in, h, ENOUGH);
-}
+bool ali3_divides_ahead(ali3_instance *in, double h) { return divided(in, h, ENOUGH); }
 
 /* A load is measured by the largest load there was, other forces by the largest force. */
 bool ali3_divides(ali3_instance *in, double h) {
@@ -110,7 +108,7 @@ bool ali3_divides(ali3_instance *in, double h) {
   }
   in->changed = fmax(fmax(most[TYRE], most[CONTACT]), most[STOP]);
   largest_force = fmax(largest_force, largest_load);
-  const double load = most[TYRE] > 0.0 ? most[TYRE] / (most_change(in, TYRE_RATE) * largest_load) : 0.0,
+  const double load = most[TYRE] > 0.0 ? most[TYRE] / (ABRUPT * largest_load) : 0.0,
                force = most[CONTACT] > 0.0 ? most[CONTACT] / (most_change(in, CONTACT_RATE) * largest_force) : 0.0;
   const double stop = most[STOP] > 0.0 ? most[STOP] / (most_change(in, STOP_RATE) * largest_force) : 0.0;
   in->report.change_rate = fmax(fmax(load, force), stop) / h;
