@@ -304,6 +304,10 @@ def _jumps(signals: Sequence[Signal]) -> int:
     for s in moved:
         steps = np.abs(np.diff(s.values))
         usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else np.inf
-        for t in s.time[1:][steps > 30.0 * usual].tolist():
+        around = np.pad(steps, 2)
+        near = np.max(
+            [around[:-4], around[1:-3], around[3:-1], around[4:]], axis=0
+        )  # a quick motion takes several steps
+        for t in s.time[1:][(steps > 30.0 * usual) & (steps > 5.0 * near)].tolist():
             times[t] = times.get(t, 0) + 1
     return sum(count > 0.6 * len(moved) for count in times.values())
