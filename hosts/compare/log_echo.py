@@ -69,7 +69,7 @@ def log_echo(what: str, signals: Signals) -> Echo:
 
 
 def consistent(echo: Echo) -> set[str]:
-    """Names of signals that are in a relation, and all relations of which hold: no factor is wrong in them."""
+    """Names of signals that are in a relation, and all relations of which hold: no factor, no sign is wrong."""
     inside: dict[str, bool] = {}
     for value in echo.values:
         if value.quantity in _RELATIONS:
@@ -78,7 +78,10 @@ def consistent(echo: Echo) -> set[str]:
     return {name for name, holds in inside.items() if holds}
 
 
-_RELATIONS = [QUANTITIES[k] for k in ("turn", "accelerate", "way", "heading", "wheel")]
+_RELATIONS = [
+    QUANTITIES[k]
+    for k in ("turn", "turn_alike", "accelerate", "accelerate_alike", "way", "heading", "heading_alike", "wheel")
+]
 
 
 def log_values(signals: Signals) -> list[Value]:

@@ -140,6 +140,11 @@ def test_a_right_drive_has_nothing_odd(seed: int) -> None:
     assert log_echo("log.csv", coarse).warnings() == []
 
 
+@pytest.mark.parametrize("name", ["chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"])
+def test_a_signal_of_the_other_sign_is_not_consistent(name: str) -> None:
+    assert name not in consistent(log_echo("log.csv", scaled(name, -1.0)(drive())))
+
+
 @pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
 def test_a_signal_that_no_usual_mistake_mends_is_told_without_a_cause(factor: float) -> None:
     """A hint names a signal only if correcting it alone mends all relations it is in."""
