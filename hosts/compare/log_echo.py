@@ -24,6 +24,10 @@ Signals: TypeAlias = Mapping[str, Signal]
 WINDOW = 1.0  # s over which rates are compared
 LEAST = {"turn": 0.6, "accelerate": 0.3, "move": 2.0, "yaw": 0.03}
 """m/s2, m/s2, m/s, rad/s: of less nothing is said."""
+STILL = {"chassis.ax": LEAST["accelerate"], "chassis.ay": LEAST["turn"], "chassis.wz": LEAST["yaw"]} | {
+    "chassis.x": 0.5, "chassis.y": 0.5}  # fmt: skip
+"""m/s2, rad/s, m: spreads that are less are those of a car that stands."""
+SPINS = 2.0  # rad/s: a wheel that is faster rolls
 FEWEST_EQUAL = 10  # samples
 MOVED = {"speed": 1.5, "ay": 1.0}
 """m/s, m/s2: of more than that a sensor tells something."""
@@ -65,7 +69,7 @@ def log_echo(what: str, signals: Signals) -> Echo:
 
 
 def consistent(echo: Echo) -> set[str]:
-    """Names of signals that are in a relation, and all relations of which hold: no factor is wrong in them."""
+    """Names of signals that are in a relation, and all relations of which hold: no factor, no sign is wrong."""
     inside: dict[str, bool] = {}
     for value in echo.values:
         if value.quantity in _RELATIONS:
@@ -74,7 +78,10 @@ def consistent(echo: Echo) -> set[str]:
     return {name for name, holds in inside.items() if holds}
 
 
-_RELATIONS = [QUANTITIES[k] for k in ("turn", "accelerate", "way", "heading", "wheel")]
+_RELATIONS = [
+    QUANTITIES[k]
+    for k in ("turn", "turn_alike", "accelerate", "accelerate_alike", "way", "heading", "heading_alike", "wheel")
+]
 
 
 def log_values(signals: Signals) -> list[Value]:
@@ -94,11 +101,18 @@ def log_values(signals: Signals) -> list[Value]:
                     found.append(Value(QUANTITIES["wheel"], abs(radius), _keys(signals, v, name), name))
     found += _ratio_of_rates(signals, "heading", "chassis.yaw", "chassis.wz", LEAST["yaw"])
     for key, name in (("speed", v or "speed"), ("ay", "chassis.ay"), ("ax", "chassis.ax"), ("yaw", "chassis.wz")):
-        if name in signals:
+        if name in signals and not (key == "speed" and _stood(signals)):
             share = 1.0 if key == "speed" else 0.99
             largest = float(np.quantile(np.abs(signals[name].values), share))
             found.append(Value(QUANTITIES[key], largest, _keys(signals, name)))
     return found
+
+
+def _stood(signals: Signals) -> bool:
+    """Whether the signals beside the speed are those of a car that stands; False where there are none."""
+    still = [float(np.std(signals[n].values)) < least for n, least in STILL.items() if n in signals]
+    still += [float(np.abs(signals[n].values).max()) < SPINS for n in WHEELS if n in signals]
+    return bool(still) and all(still)
 
 
 def _keys(signals: Signals, *names: str) -> dict[str, str]:
@@ -124,6 +138,8 @@ def _turning(signals: Signals, v: str) -> Iterator[Value]:
 
 def _delay(late: Signal, early: Array) -> float:
     """By how much a signal is behind values at its times, s; 0 where that is not clear."""
+    if np.std(early) <= 0.0:
+        return 0.0
     delays = np.arange(-LATEST, LATEST + 1e-9, FINE)
     alike = []
     for delay in delays:

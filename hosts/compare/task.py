@@ -8,6 +8,7 @@ from collections.abc import Mapping, Set
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ali3.echo import Echo
 from ali3.near_names import did_you_mean
@@ -32,6 +33,7 @@ from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable, default_step
@@ -64,6 +66,8 @@ class Task:
     """What was understood of the log."""
     scales: dict[str, Signal] = field(default_factory=dict)
     """Measured speed and lateral acceleration at the places of the outputs."""
+    turnable: list[str] = field(default_factory=list)
+    """Inputs that the FMU would take with the other sign, too."""
 
     @property
     def end(self) -> float:
@@ -134,6 +138,7 @@ def prepare(options: argparse.Namespace) -> Task:
             held_speed = None if speed is None else cut({"": speed}, begin, begin + length)[""]
             stretches.append(Stretch(manoeuvre, held_speed, 0.0, begin, len(stretches) * (length + GAP)))
         notes += missed[:1]
+        turnable = [n for n in inputs if all(_can_turn(s.manoeuvre.inputs[n], fmu.table[n]) for s in stretches)]
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in held}
     if speed is not None:
         stretches = starting_pedals(options.fmu, aliases, stretches, step)
@@ -149,7 +154,9 @@ def prepare(options: argparse.Namespace) -> Task:
         outputs = {n: in_spans(s, moved) for n, s in outputs.items()}
     windowed = options.windows is not None
     echo = log_echo(options.log.name, everything)
-    return Task(aliases, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, echo, scales)
+    return Task(
+        aliases, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, echo, scales, turnable
+    )
 
 
 def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> list[tuple[float, float]]:
@@ -172,6 +179,10 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
     if not found:
         raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
     return [(t, options.windows) for t in found]
+
+
+def _can_turn(values: NDArray[np.float64], variable: Variable) -> bool:
+    return bool((values != 0.0).any()) and not beyond_range(variable, -values)
 
 
 def _missed(manoeuvre: Manoeuvre, step: float, slopes: bool, whole: Set[str], begin: float) -> list[str]:

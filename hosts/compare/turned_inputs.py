@@ -22,11 +22,10 @@ def turned_signals(compared: Comparison) -> dict[str, ComparedSignal]:
 def turned_input(fmu: Path, task: Task, compared: Comparison, odd: dict[str, ComparedSignal]) -> str:
     """A sentence on the input with which all these signals, turned, have the sign of the simulation; else empty.
 
-    Each input that is not 0 is tried in a run. `odd`: from `turned_signals`.
+    Each input that can be turned is tried in a run. `odd`: from `turned_signals`.
     """
-    for name, signal in task.inputs.items() if odd else ():
-        if not all(_can_turn(stretch, name) for stretch in task.stretches):
-            continue
+    for name in task.turnable if odd else ():
+        signal = task.inputs[name]
         with Replay(fmu, task.aliases, [_turned(s, name) for s in task.stretches], task.step) as replay:
             result = replay.run()
         curves = {n: Curve(result, n) for n in compared.signals}
@@ -41,11 +40,6 @@ def turned_input(fmu: Path, task: Task, compared: Comparison, odd: dict[str, Com
             "simulation, which they have not as it is. factor = -1.0 in the alias file turns it."
         )
     return ""
-
-
-def _can_turn(stretch: Stretch, name: str) -> bool:
-    values = stretch.manoeuvre.inputs.get(name)
-    return values is not None and bool((values != 0.0).any())
 
 
 def _turned(stretch: Stretch, name: str) -> Stretch:

@@ -59,12 +59,12 @@ def steps_of(interval: float, step: float, what: str) -> int:
 
 def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
     """Refuse a table with a column that is no input and no tunable parameter of the FMU, not of its kind, or beyond
-    its range, and a table that begins where the run ends.
+    its range, and a table that begins after the end of the run.
 
     Raises `HostError` with the column, and what it would have to be.
     """
     inputs, tunable = fmu.names("input"), fmu.tunable
-    if manoeuvre.inputs and len(manoeuvre.time) and manoeuvre.time[0] >= manoeuvre.stop_time > 0.0:
+    if manoeuvre.inputs and len(manoeuvre.time) and manoeuvre.time[0] > manoeuvre.stop_time > 0.0:
         raise HostError(
             f"The table of the manoeuvre '{manoeuvre.name}' begins at {manoeuvre.time[0]:g} s, and the run ends at "
             f"{manoeuvre.stop_time:g} s; take the first time from all its times."

@@ -42,6 +42,7 @@ class Slider:
             for c, names in self._names.items()
             for n in names
         }
+        self.table = {n: SimpleNamespace(low=-np.inf, high=np.inf) for n in self.variables}
         self._given = {"steering": 0.0, "throttle": 0.0}
         self._speed, self._force = 0.0, 0.0
 

@@ -152,7 +152,7 @@ def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys
         (["--cheapest", "--travel", "-3cm", "2.5e1mm"], "--travel goes with --kinematics."),
         (["--cheapest", "--travel", "-1", "1"], "--travel goes with --kinematics."),
         (["--kinematics", "--cheapest"], "--cheapest goes with a call without --kinematics."),
-        (["--json", "x.json"], "--json goes with --kinematics or --cheapest."),
+        (["folder", "--json", "x.json"], "--json goes with a CAR alone, --kinematics or --cheapest."),
         (["folder", "--cheapest"], "A car is copied to a FOLDER, or its levels are compared"),
         (["--cheapest", "drive=none.csv"], "none.csv"),
     ],

@@ -140,9 +140,27 @@ def test_a_right_drive_has_nothing_odd(seed: int) -> None:
     assert log_echo("log.csv", coarse).warnings() == []
 
 
+@pytest.mark.parametrize("name", ["chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"])
+def test_a_signal_of_the_other_sign_is_not_consistent(name: str) -> None:
+    assert name not in consistent(log_echo("log.csv", scaled(name, -1.0)(drive())))
+
+
 @pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
 def test_a_signal_that_no_usual_mistake_mends_is_told_without_a_cause(factor: float) -> None:
     """A hint names a signal only if correcting it alone mends all relations it is in."""
     (sentence,) = log_echo("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
     assert "would explain" not in sentence
     assert "'wz'" in sentence
+
+
+def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:
+    """A car on a rig or parked is a log like others; a speed that is 0 while something moves is a dead channel."""
+    moving = drive()
+    dead = moving | {"speed": replace(moving["speed"], values=0.0 * moving["speed"].values)}
+    still = {n: replace(s, values=1e-3 * s.values) for n, s in dead.items()}
+    words = "largest speed is 0 m/s"
+    assert not any(words in sentence for sentence in log_echo("log.csv", still).warnings())
+    for name in UNITS.keys() - {"speed", "chassis.yaw"}:
+        told = log_echo("log.csv", still | {name: dead[name]}).warnings()
+        assert any(words in sentence for sentence in told), name
+    assert any(words in sentence for sentence in log_echo("log.csv", {"speed": dead["speed"]}).warnings())
