@@ -14,7 +14,7 @@ from mbs.results.judged import ALIKE, Judged, is_open, rows_judged, sizes_of
 
 Array = NDArray[np.float64]
 WIDTH = 3  # samples: of the means of loads that are compared, and by how many one run may be late
-EVENT_ORDER = 1.75  # behind abrupt events: between that of the event's time, one, and that of the method, nearer to it
+EVENT_ORDER = 2.0  # behind abrupt events: of ALi3-P, where stops are located and parts of steps shrink with the step
 
 
 def differences(

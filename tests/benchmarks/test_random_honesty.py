@@ -122,12 +122,12 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
 def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, number, h, monkeypatch):
     """The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
 
-    By the largest range in a unit. There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.1 %: a
+    By the largest range in a unit. There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.0 %: a
     16th, of which the larger counts, would have told 4.8 %.
     """
     run, error = told_and_true(seed, number, h)
     assert run.accuracy.repeated_with == pytest.approx(h / 8.0)
-    assert run.accuracy.error == pytest.approx(error, rel=0.14)
+    assert run.accuracy.error == pytest.approx(error, rel=0.15)
 
 
 def test_a_run_with_divided_steps_is_not_plainly_smooth():

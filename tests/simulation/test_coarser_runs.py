@@ -97,46 +97,52 @@ def test_the_missed_share_is_half_a_step_times_the_frequency_of_an_impact(stiffn
 
 
 def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
-    """Two steps in a contact: the ball comes back 24 % too slow, and by chance as slow with eight times the step."""
-    system, h = ball(8e4, 0.5), 0.01
-    run = mbs.simulate(system, 1.25, h, estimate_error=False, progress=False)
-    coarse = mbs.simulate(
-        system, 1.2, 8 * h, settings=mbs.Settings(step_iterations=1), estimate_error=False, progress=False
+    """Half a step in a contact: the ball is 31 % off, and by chance alike with twice the step."""
+    rate, gap, h, steps = 577.55155, 0.684585, 0.01, 196
+    system, settings = ball(rate**2, gap), mbs.Settings(step_iterations=8)
+    run, twice = (
+        mbs.simulate(system, steps * h, n * h, every=2 // n, settings=settings, estimate_error=False, progress=False)
+        for n in (1, 2)
     )
-    assert np.abs(run["x"] - place(8e4, 0.5, run.t)).max() > 0.3
-    assert np.abs(coarse["x"] - run["x"][:121:8]).max() < 0.1 * np.ptp(run["x"])
+    truth = place(rate**2, gap, run.t)
+    assert np.abs(run["x"] - truth).max() > 0.3 * np.ptp(truth)
+    assert np.abs(run["x"] - twice["x"]).max() < 0.01 * np.ptp(truth)
     with pytest.warns(mbs.AccuracyWarning, match="off by at least"):
-        mbs.simulate(system, 1.25, h, progress=False)
+        mbs.simulate(system, steps * h, h, settings=settings, progress=False)
 
 
 @pytest.mark.parametrize(
-    ("rate", "h", "gap", "steps", "error"),
+    ("rate", "h", "gap", "steps", "parts", "error"),
     [
-        (330.3695, 0.01, 0.267577, 194, 0.26),
-        (1844.962, 0.001, 0.0297127, 191, 0.078),
-        (774.38958, 0.005, 0.59697745, 196, 0.061),
+        (739.47287, 0.01, 0.69299187, 194, 2, 0.064),
+        (12159.35409, 0.001, 0.04219393, 164, 2, 0.089),
+        (3664.95899, 0.005, 0.22970663, 134, 4, 0.125),
     ],
-    ids=["twice the step", "half", "half and a quarter"],
+    ids=["half", "half, quick", "a quarter"],
 )
-def test_runs_that_do_not_resolve_an_impact_agree_by_chance(rate, h, gap, steps, error) -> None:
-    """With a run that is wrong by so much they agree within 1 %; what resolves it tells."""
-    run = mbs.simulate(ball(rate**2, gap), steps * h, h, estimate_error=False, progress=False)
+def test_runs_that_do_not_resolve_an_impact_agree_by_chance(rate, h, gap, steps, parts, error) -> None:
+    """With a run that is wrong by so much finer ones agree within 1 %; what resolves it tells."""
+    system = ball(rate**2, gap)
+    run, finer = (
+        mbs.simulate(system, steps * h, h / n, every=n, estimate_error=False, progress=False) for n in (1, parts)
+    )
     truth = place(rate**2, gap, run.t)
     assert np.abs(run["x"] - truth).max() / np.ptp(truth) == pytest.approx(error, rel=0.05)
+    assert np.abs(run["x"] - finer["x"]).max() < 0.01 * np.ptp(truth)
     with pytest.warns(mbs.AccuracyWarning, match="off by about"):
-        mbs.simulate(ball(rate**2, gap), steps * h, h, progress=False)
+        mbs.simulate(system, steps * h, h, progress=False)
 
 
 def test_half_a_step_is_off_alike_behind_abrupt_forces() -> None:
-    """A box that falls on its edges: its load is 5.8 % off, of which half the step tells 1.5 % and a quarter 3.8."""
-    m, mass, half = mbs.Model("box", gravity=(0.0, 0.0, -9.81)), 16.588, np.array([0.1276, 0.1647, 0.3659])
-    m.floating, com = True, np.array([0.0, 0.0, 1.8044])
-    road = m.road(PlaneRoad(friction=0.5449))
+    """A box that falls on its edges: its load is 12.9 % off, with half the step 10.5, and both differ by 2.8."""
+    m, mass, half = mbs.Model("box", gravity=(0.0, 0.0, -9.81)), 6.33, np.array([0.1559, 0.3407, 0.3198])
+    m.floating, com = True, np.array([0.0, 0.0, 1.2477])
+    road = m.road(PlaneRoad(friction=0.2313))
     box = m.body("box", mass=mass, com=com, inertia=mass / 3.0 * (half @ half - half**2))
     corners = com + half * list(product((-1.0, 1.0), repeat=3))
-    contact = ContactPoints.for_mass(mass, depth=0.01333, onset=0.00604, loss=0.30255)
+    contact = ContactPoints.for_mass(mass, depth=0.01274, onset=0.00425, loss=0.43826)
     m.contact_points("feet", box, corners, road=road, contact=contact)
-    m.initial_velocity(box, linear=(-0.7123, -1.0302, 0.7981), angular=(0.1641, -0.186, -0.1413))
+    m.initial_velocity(box, linear=(0.0582, 0.2498, -0.7341), angular=(0.1363, 0.2519, 0.0597))
     m.sense_position("z", box, None, "z")
     m.sense_element("load", "feet", "normal_force")
     system, span, h = mbs.compile(m), 1.45, 0.01
@@ -144,9 +150,9 @@ def test_half_a_step_is_off_alike_behind_abrupt_forces() -> None:
         mbs.simulate(system, span, h / n, every=n, estimate_error=False, progress=False) for n in (1, 2, 32)
     )
     size = np.abs(fine["load"]).max()
-    assert np.abs(run["load"] - fine["load"]).max() > 0.055 * size
-    assert np.abs(run["load"] - half_run["load"]).max() < 0.015 * size
-    with pytest.warns(mbs.AccuracyWarning, match="off by about 5.* sensor 'load'"):
+    assert np.abs(run["load"] - fine["load"]).max() > 0.12 * size
+    assert np.abs(run["load"] - half_run["load"]).max() < 0.03 * size
+    with pytest.warns(mbs.AccuracyWarning, match="off by about 1[23] % .*sensor 'load'"):
         mbs.simulate(system, span, h, progress=False)
 
 
@@ -273,11 +279,11 @@ def test_half_a_step_of_high_order_decides_nothing_near_the_limit(number, method
 
 
 def test_coarser_runs_that_do_not_come_nearer_clear_no_contact() -> None:
-    """A mass in a play of 3 mm, 5.9 % off: runs with eight, four and twice the step are off alike, 4 to 5 % from it."""
+    """A mass in a play of 3 mm, 5.3 % off: runs with eight, four and twice the step are off alike, 5 to 7 % from it."""
     kind, machine = random_machines.machine(np.random.default_rng([102, 0]))
     assert kind == "play"
     system = mbs.compile(random_machines.model_of(machine))
-    with pytest.warns(mbs.AccuracyWarning, match=r"off by about (5\.[89]|6\.[0-5]) %"):
+    with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.[5-8] %"):
         mbs.simulate(system, machine.span, machine.span / 1800, every=36, progress=False)
 
 
