@@ -137,9 +137,10 @@ static slave_status add(slave *s, replay *r, double part, double weight, bool le
   const bool otherwise = r->divisions >= 0 && made.divisions != r->divisions;
   r->divisions = made.divisions;
   if (otherwise)
-    return slave_say(s, SLAVE_ERROR,
-                     "There is no directional derivative of this communication step: a force changes abruptly in it, and "
-                     "its inner steps are divided there otherwise with inputs a little higher than lower.");
+    return slave_say(
+        s, SLAVE_ERROR,
+        "There is no directional derivative of this communication step: a force changes abruptly in it, and "
+        "its inner steps are divided there otherwise with inputs a little higher than lower.");
   s->outputs_fresh = false;
   if (!slave_outputs(s) || (left_out && !slave_follow(s))) return SLAVE_ERROR;
   for (size_t i = t->n_known; i < t->n_variables; i++)
