@@ -50,7 +50,7 @@ def test_a_start_that_closes_to_round_off_is_one(size):
 
 
 def test_an_inertia_without_mass_is_no_length():
-    """As of wheels whose mass their carrier has; by their radii of gyration tolerances of steps were 200 times wider."""
+    """Of wheels whose mass their carrier has: by their radii of gyration tolerances of steps were 200 times wider."""
     m = Model("wheels", dimension=2)
     box = m.body("box", mass=2.0, com=(0.0, 0.0), inertia=0.5)
     wheel = m.body("wheel", mass=1e-9, com=(0.1, 0.0), inertia=0.1)
