@@ -30,12 +30,14 @@ def model_length(model: Mechanism) -> float:
 def drawn_length(model: Mechanism) -> float:
     """The diagonal of the box around all bodies and joints as drawn, m.
 
-    A single body without joints has twice its radius of gyration; where nothing has an extent the length is 1 m.
+    A single body without joints has twice its radius of gyration, several have that of their mean by mass, so that an
+    inertia without mass has no length; where nothing has an extent the length is 1 m.
     """
     points = _all_points(model)
     extent = float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
-    widest = max((2.0 * _gyration(body) for body in model.bodies), default=0.0)
-    found = max(extent, widest)
+    mass = sum(body.mass for body in model.bodies)
+    polar = sum(body.mass * _gyration(body) ** 2 for body in model.bodies)
+    found = max(extent, 2.0 * float(np.sqrt(polar / mass))) if mass else extent
     return found if found > 0.0 else 1.0
 
 

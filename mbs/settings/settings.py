@@ -64,9 +64,9 @@ class Settings:
         Start value of a step of ALi3-P: accelerations and multipliers of past steps go on along a parabola where they
         are smooth, or the present ones stay, as in the paper. The first needs fewer iterations.
     step_iterations : int
-        Of ALi3-P and generalised-alpha: most Newton iterations of a step, so that its work is bounded. The iterate that
-        is reached then is accepted as it is, steps are halved at abrupt forces only, where there is room below the
-        limit, and `Report.capped` and `Report.capped_residual` say
+        Of ALi3-P and generalised-alpha: most Newton iterations of a step with its parts, so that its work is bounded;
+        of each part also `max_iterations`. The iterate that is reached then is accepted as it is, steps are halved at
+        abrupt forces only, where there is room below the limit, and `Report.capped` and `Report.capped_residual` say
         how often and what was left, m. 0, the default: no such limit.
     rho_infinity : float
         Of generalised-alpha: spectral radius at infinite frequency, 0 to 1.

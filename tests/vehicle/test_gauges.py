@@ -52,7 +52,8 @@ def stresses(direction: tuple[float, float, float], place: float, **gauge: Any) 
     section = TubeGauge(tube=("A", "B"), place=place, **gauge)
     ends = frame.positions[0], frame.positions[-1]
     readings = section.readings(section.strain_gauge("G", ends, 0.5 * DIAMETER, range(4)), frame)
-    return {reading.quantity: float(reading.row @ u) for reading in readings}
+    # forces act at the nodes only: nothing loads the beams between their ends
+    return {reading.quantity: float(reading.row[: model.n_dof] @ u) for reading in readings}
 
 
 def closed_form(direction: tuple[float, float, float], place: float, fibre: np.ndarray) -> float:
@@ -111,7 +112,7 @@ def test_axial_and_torsion_bridges_read_pull_and_twist_alone():
 
 def test_bridges_of_several_gauges_are_sums_of_single_ones():
     frame = straight(3, direction=(-0.4, 0.3, 0.2))
-    u = np.random.default_rng(5).normal(size=6 * 4) * 1e-3
+    u = np.random.default_rng(5).normal(size=9 * 4) * 1e-3  # displacements, then accelerations of the nodes
     single = {fibre: _reading(frame, u, bridge="quarter", fibre=fibre) for fibre in ("top", "bottom", 90.0, 270.0)}
     half, axial = _reading(frame, u), _reading(frame, u, bridge="axial")
     assert half == pytest.approx(single["top"] - single["bottom"], rel=ROUND_OFF)

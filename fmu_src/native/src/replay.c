@@ -6,7 +6,8 @@
 #include "slave.h"
 
 static const double PART = 3e-4; /* of an input's range: the difference to each side */
-enum { ITERATIONS = 12 }; /* of an inner step: Newton's loop converges by a factor of ten or more */
+/* Of an inner step or a part of it: Newton's loop converges by a factor of ten or more. And parts that it may have. */
+enum { ITERATIONS = 12, PARTS = 32 };
 
 typedef struct { /* in one block, but for the settings */
   void *end;                        /* snapshot of the kernel */
@@ -15,6 +16,8 @@ typedef struct { /* in one block, but for the settings */
   unsigned char *before, *after;    /* ne: contacts */
   slave_kinks kinks;
   double size, plus, minus; /* of the direction; ends of the difference, one of them 0 at the end of a range */
+  bool divided; /* the step was, at abrupt forces */
+  int64_t divisions; /* counted in the replay before; below 0: there is none */
   ali3_settings settings;
 } replay;
 
@@ -35,6 +38,7 @@ static bool allocate(slave *s, replay *r) {
   r->after = r->before + ne;
   r->kinks = (slave_kinks){piece, piece + ne, piece + 2 * ne, r->after + ne, z.ne};
   memset(r->kinks.passed, 0, ne);
+  r->divisions = -1;
   return true;
 }
 
@@ -87,7 +91,9 @@ static ali3_status begin(slave *s, const replay *r, double part) {
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
   ali3_instance *kernel = s->fidelity.kernel;
   ali3_settings exact = r->settings;
-  exact.step_iterations = ITERATIONS;
+  exact.max_iterations = ITERATIONS;
+  exact.step_iterations = ITERATIONS * PARTS;
+  if (!r->divided) exact.max_halvings = 0; /* nor are the replays, however abrupt their inputs are */
   exact.tolerance_r = 1e-300;
   ali3_snapshot_restore(kernel, s->fidelity.start);
   for (int32_t i = 0; i < z.nu; i++) r->set[i] = r->held[i] + part * r->unit[i];
@@ -126,6 +132,15 @@ static slave_status add(slave *s, replay *r, double part, double weight, bool le
                      "There is no directional derivative of this communication step: a contact with the road was made "
                      "or lost in it.");
   if (slave_kinks_say(s, &r->kinks) != SLAVE_OK) return SLAVE_ERROR;
+  ali3_report made;
+  ali3_report_get(s->fidelity.kernel, &made);
+  const bool otherwise = r->divisions >= 0 && made.divisions != r->divisions;
+  r->divisions = made.divisions;
+  if (otherwise)
+    return slave_say(
+        s, SLAVE_ERROR,
+        "There is no directional derivative of this communication step: a force changes abruptly in it, and "
+        "its inner steps are divided there otherwise with inputs a little higher than lower.");
   s->outputs_fresh = false;
   if (!slave_outputs(s) || (left_out && !slave_follow(s))) return SLAVE_ERROR;
   for (size_t i = t->n_known; i < t->n_variables; i++)
@@ -134,12 +149,13 @@ static slave_status add(slave *s, replay *r, double part, double weight, bool le
 }
 
 /* A step that had to be halved is another function of its inputs nearby. */
-static slave_status check_halvings(slave *s) {
+static slave_status check_halvings(slave *s, replay *r) {
   ali3_report start, end;
   ali3_report_get(s->fidelity.kernel, &end);
   ali3_snapshot_restore(s->fidelity.kernel, s->fidelity.start);
   ali3_report_get(s->fidelity.kernel, &start);
-  if (start.halvings == end.halvings && start.divisions == end.divisions) return SLAVE_OK;
+  r->divided = start.divisions != end.divisions;
+  if (start.halvings == end.halvings) return SLAVE_OK;
   return slave_say(s, SLAVE_ERROR,
                    "There is no directional derivative of this communication step: an inner step of it was halved; "
                    "a smaller step_size may leave it whole.");
@@ -160,7 +176,7 @@ slave_status slave_step_derivative(slave *s, const double *direction, bool left_
   if (!allocate(s, &r)) return slave_say(s, SLAVE_ERROR, "There is not enough memory for the derivatives.");
   look(s, &r);
   aim(&r, direction);
-  slave_status status = r.size > 0.0 ? check_halvings(s) : SLAVE_OK;
+  slave_status status = r.size > 0.0 ? check_halvings(s, &r) : SLAVE_OK;
   const double weight = r.size / (r.plus - r.minus);
   if (r.size > 0.0 && status == SLAVE_OK) status = add(s, &r, r.plus, weight, left_out, out);
   if (r.size > 0.0 && status == SLAVE_OK) status = add(s, &r, r.minus, -weight, left_out, out);

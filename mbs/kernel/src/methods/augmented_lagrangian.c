@@ -129,11 +129,12 @@ static ali3_status capped(ali3_instance *in) {
   return ALI3_OK;
 }
 
-/* With a limit of a whole step the iterations go up to its part's share of them. */
+/* With a limit of a whole step the iterations go up to its part's share of them, at most as many as without. */
 ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
-  const int64_t most = limited ? in->iterations_end - in->report.iterations : settings->max_iterations;
+  const int64_t share = in->iterations_end - in->report.iterations, any = settings->max_iterations;
+  const int64_t most = limited && share < any ? share : any;
   bool kept = false, mixes = false;
   const double fine = in->system->fine;
   double before = HUGE_VAL;
