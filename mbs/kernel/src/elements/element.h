@@ -58,9 +58,9 @@ typedef struct ali3_element_type {
   /* Of springs with end stops, whose first outputs are length and force: by how much the force of the rebound stop
    * changes between two lengths by its tangent at the longer one, N. */
   double (*rebound)(const double *real, int32_t nreal, double from, double to);
-  /* Of springs with end stops: the share of a step of size h at which the first of them is met or left, from the
-   * outputs at its start and at its end; 1: none is. */
-  double (*event)(const double *real, const double *from, const double *to, double h);
+  /* Of springs with end stops: the share of a step of size h at which the first of those with a kink is met or left, from
+   * the outputs at its start and at its end; 1: none is. */
+  double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
   bool conservative; /* a potential, or a force of inputs alone: steps of order four may be composed of it */
   /* whether a conservative element takes energy with these data */
   bool (*lossy)(const double *real, int32_t nreal, const int32_t *integer);

@@ -56,7 +56,9 @@ static double rebound(const double *real, int32_t nreal, double from, double to)
   return ali3_rebound_change(real + STOPS, progressive(nreal), from, to);
 }
 
-static double event(const double *real, const double *from, const double *to, double h) {
+/* Progressive stops have an onset without a kink. */
+static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
+  if (progressive(nreal)) return 1.0;
   return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);
 }
 

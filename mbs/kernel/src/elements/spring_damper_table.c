@@ -102,10 +102,6 @@ static double rebound(const double *real, int32_t nreal, double from, double to)
   return ali3_rebound_change(real + STOPS, 1, from, to);
 }
 
-static double event(const double *real, const double *from, const double *to, double h) {
-  return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);
-}
-
 /* A damper never gives energy: its force rises through nothing at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
   double slope;
@@ -140,7 +136,6 @@ const ali3_element_type ali3_spring_damper_table = {
     .conservative = true,
     .lossy = lossy,
     .rebound = rebound,
-    .event = event,
     .nsig = -1,
     .nreal = -1,
     .nint = INTEGERS,

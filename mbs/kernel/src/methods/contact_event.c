@@ -18,7 +18,8 @@ static double first_event(const ali3_instance *in, double h) {
     const ali3_element_type *kind = S->el_kind[e];
     if (kind->event == NULL) continue;
     const ali3_element_size *at = S->el_size + e;
-    first = fmin(first, kind->event(in->el_real + at->real, in->now.out + at->out, in->next.out + at->out, h));
+    first =
+        fmin(first, kind->event(in->el_real + at->real, at->nreal, in->now.out + at->out, in->next.out + at->out, h));
   }
   return first;
 }
