@@ -33,6 +33,7 @@ OWN = {
     # What this program wrote a moment before, or what is installed with it.
     "ali3/call_mark.py",
     "ali3/chart_words.py",
+    "ali3/echo/quantity.py",
     "ali3/guard.py",
     "hosts/driving/recorded_rows.py",
     "ali3/isolated.py",
@@ -40,8 +41,10 @@ OWN = {
     "fmu_src/native/compile.py",
     "fmu_src/native/sources.py",
     "fmu_src/python_slave/package.py",
+    "hosts/check/dependencies.py",
     "hosts/check/documents.py",
     "hosts/check/portability.py",
+    "hosts/check/process_state.py",
     "hosts/common/program.py",
     "hosts/compare/report.py",
     "hosts/study/analysis/pictures.py",

@@ -41,10 +41,10 @@ OPTIONAL = {
     *("wire", "coils", "rim", "axis", "normals", "stress", "constant", "unit", "limit", "sign", "frictions", "height"),
     *("flexible", "arrows", "roads", "missing", "variable", "path", "rule", "computed", "limit_name"),
     *("names", "note", "range", "direction", "origin", "width", "variables", "file"),
-    *("scenery", "colour", "dash", "seed", "length"),
+    *("scenery", "colour", "dash", "seed", "length", "gauges"),
 }
 NEEDED = {(("roads", 1), "origin"), (("shapes", 8), "width"), (("frames", "spinning wheel"), "axis")}
-NEEDED |= {(("missing", 0), "name"), (("arrows", 1), "at")}
+NEEDED |= {(("missing", 0), "name"), (("arrows", 1), "at"), (("flexible", 0, "gauges", 0), "name")}
 NEEDED |= {(("roads", 5, "patches", 0), "origin"), (("roads", 5, "surface"), "origin")}
 NEEDED |= {(("roads", 5, "surface"), key) for key in ("names", "frictions")} | {(("scenery", 0), "width")}
 NEEDED |= {(("scenery", k), "at") for k in (1, 2, 3, 5, 6, 7)} | {(("scenery", 2), "height")}

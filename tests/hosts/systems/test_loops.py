@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import fmpy
-import networkx
 import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from hosts.systems import CoupledFmus
 from tests.hosts.systems import controlled, weak_coupling
@@ -25,15 +26,20 @@ def loops(parts: Mapping[str, Path], wires: Mapping[str, str], declared: bool = 
     `DirectedGraph::getSortedConnections`): an output without a list depends on all inputs of its FMU. `declared`:
     False: every output is taken so.
     """
-    graph = networkx.DiGraph((source, target) for target, source in wires.items())
+    edges = [(source, target) for target, source in wires.items()]
     for part, path in parts.items():
         description = fmpy.read_model_description(str(path))
         inputs = [v.name for v in description.modelVariables if v.causality == "input"]
         for unknown in description.outputs:
             listed = unknown.dependencies if declared else None
             known = inputs if listed is None else [v.name for v in listed]
-            graph.add_edges_from((f"{part}.{name}", f"{part}.{unknown.variable.name}") for name in known)
-    return [found for found in networkx.strongly_connected_components(graph) if len(found) > 1]
+            edges += [(f"{part}.{name}", f"{part}.{unknown.variable.name}") for name in known]
+    names = sorted({name for edge in edges for name in edge})
+    rows, columns = ([names.index(edge[k]) for edge in edges] for k in (0, 1))
+    graph = coo_array(([1] * len(edges), (rows, columns)), shape=(len(names), len(names)))
+    count, labels = connected_components(graph, directed=True, connection="strong")
+    parts_of = [{name for name, label in zip(names, labels, strict=True) if label == k} for k in range(count)]
+    return [found for found in parts_of if len(found) > 1]
 
 
 @pytest.mark.slow
