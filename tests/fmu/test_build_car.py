@@ -126,7 +126,8 @@ def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
     change(car, lambda text: text.replace("damping = 1000.0", "damping = 0.0"))
     assert build_fmu.main(command(car, tmp_path / "out")) == 0
     said = capsys.readouterr().err
-    assert f"warning: {car / 'car.toml'}: front.damper.damping is 0 N.s/m: " in said
+    assert f"warning: {car / 'car.toml'}: front damping ratio in bump is 0; usual is " in said
+    assert "It follows from front.damper.damping = 0, " in said
     assert ".py" not in said
     assert "CarWarning" not in said
 

@@ -129,7 +129,11 @@ def test_a_failing_stretch_is_saved_and_repeated(
     for source in (failure.manoeuvre, str(folder)):
         with Fmu(car) as fmu:
             again = run(fmu, load_manoeuvre(source), STEP)
-        assert np.array_equal(again.values[1:], rows.values[1:])
+            given = np.isin(again.names, fmu.names("input"))
+        assert given.any()
+        assert np.array_equal(again.values[1:, ~given], rows.values[1:, ~given])
+        # a row of a recording has the inputs of the step that ends there, one of a run those of the step that begins
+        assert np.array_equal(again.values[1:-1, given], rows.values[2:, given])
         assert again["solver.energy_balance"][-1] > 1e-6
 
 

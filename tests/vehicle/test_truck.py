@@ -62,11 +62,16 @@ def larger_car(car):
 
 @pytest.mark.slow
 def test_a_truck_of_10_t_moves_as_the_car_that_it_is_similar_to():
-    """It stands as drawn without a word but of its frame, which is the car's, and brakes in a turn as the car does."""
+    """It stands as drawn without a word but of its frame, which is the car's, and brakes in a turn as the car does.
+
+    Its tracks, 1.6 times the car's, are wider than those of trucks, and this alone is told besides.
+    """
     car = load("hatchback")
-    with pytest.warns(CarWarning, match="frame") as told:
+    with pytest.warns(CarWarning) as told:
         truck = larger_car(car)
-    assert len(told) == 1
+    others = [text for text in (str(w.message) for w in told) if " track is 2.3" not in text]
+    assert len(others) == 1
+    assert "frame" in others[0]
     assert truck.vehicle.mass == pytest.approx(9400.0)
     runs = []
     for of, length, time in ((car, 1.0, 1.0), (truck, L, T)):
