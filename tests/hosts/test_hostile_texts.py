@@ -118,7 +118,7 @@ def check(shown: Any, *texts: str) -> None:
 @pytest.mark.slow
 def test_view_with_arrows(foreign: Path, tmp_path: Path, chromium: Any) -> None:
     file = tmp_path / "Foreign.html"
-    arguments = ["--arrows", "--plot", SIGNAL, "--stop-time", "0.1", "--out", str(tmp_path), "--no-open"]
+    arguments = ["--arrows", "--stress", "--plot", SIGNAL, "--stop-time", "0.1", "--out", str(tmp_path), "--no-open"]
     assert main([str(foreign), *arguments]) == 0
     shown = opened(chromium, file)
     assert shown.evaluate("async () => { await player.ready; return player.problem; }") == ""

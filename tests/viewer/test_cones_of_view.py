@@ -42,6 +42,8 @@ def opened(
     page("""() => {
       player.view.parts.group.visible = false;
       document.querySelector('.ali3-name').style.visibility = 'hidden';
+      window.player.player.instruments.toggle();
+      window.player.set({ quality: 'medium' });
     }""")
     yield page, cone_places(course_of(request.param, load("prototype").vehicle.width).gates)
     page.page.close()

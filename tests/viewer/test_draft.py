@@ -80,7 +80,7 @@ def test_a_draft_has_few_calls_and_triangles_and_the_same_things_at_the_same_pla
     white = [(p.min(axis=2) > 150) & (np.ptp(p, axis=2) < 25) for p in (fine, draft)]
     lines = [mask[85:140].sum() for mask in white]
     assert lines[1] > 0.6 * lines[0] > 20, "lines are still there"
-    drawn.ask("view.set({ quality: 'low' })")
+    drawn.ask("view.set({ quality: 'medium' })")
     assert np.abs(drawn.picture() - fine).max() <= 2, "back to the picture of before"
 
 
@@ -120,7 +120,7 @@ def test_a_frame_that_bends_has_few_triangles_in_a_draft_and_all_of_them_again(d
     drawn.picture()
     draft = _cost(drawn)[1]
     assert draft < MOST_TRIANGLES
-    drawn.ask("view.set({ quality: 'low' })")
+    drawn.ask("view.set({ quality: 'medium' })")
     drawn.picture()
     assert _cost(drawn)[1] == fine > 2 * draft
 

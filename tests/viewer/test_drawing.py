@@ -351,7 +351,7 @@ def test_a_coarse_picture_shows_the_same_as_a_fine_one(drawn):
     fine = drawn.picture()
     drawn.ask("view.set({ quality: 'low' })")
     assert red(drawn.picture()) == pytest.approx(red(fine), abs=1)
-    assert drawn.ask("view.look.quality") == "medium"
+    assert drawn.ask("view.look.quality") == "low"
 
 
 def test_a_picture_fits_its_element_again_when_that_changes_without_being_asked(drawn):

@@ -207,6 +207,7 @@ def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opene
     far.columns["body.y"] = 4.0 * np.sin(7.0 * T)
     page = opened(far, camera="orbit")
     page("""() => {
+      window.player.set({ quality: 'medium' });
       const { cameras } = window.player.view;
       cameras.moved = true;
       cameras.free.position.set(-150, -240, 87);
