@@ -6,8 +6,10 @@
  * set are start values of parameters and inputs: real ones by their reference, those of any type by their name, which
  * the host looks up in the modelDescription.xml that lies three folders above the library.
  *
- * It needs the headers of the FMI 2.0 standard (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in
- * the folder that  python -c "import fmpy; print(fmpy.__path__[0] + '/c-code')"  prints:
+ * It needs library.h beside it and the headers of the FMI 2.0 standard
+ * (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in the folder that
+ *   python -c "import fmpy; print(fmpy.__path__[0] + '/c-code')"
+ * prints:
  *
  *   cc -I FOLDER_OF_THE_HEADERS hosts/c/host.c -ldl -o host */
 #include <errno.h>
@@ -19,17 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#if defined(_WIN32)
-#include <windows.h>
-static void *open_library(const char *path) { return (void *)LoadLibraryA(path); }
-static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
-#else
-#include <dlfcn.h>
-static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
-static void *find(void *library, const char *name) { return dlsym(library, name); }
-#endif
-
 #include "fmi2FunctionTypes.h"
+#include "library.h"
 
 enum { MOST_VALUES = 4096, LONGEST = 512 };
 
@@ -53,16 +46,6 @@ typedef struct { /* a variable as modelDescription.xml has it */
   char type[16], causality[24], variability[16];
 } variable;
 
-/* Ends the program with a sentence. */
-static void stop(int status, const char *format, ...) {
-  va_list list;
-  va_start(list, format);
-  vfprintf(stderr, format, list);
-  fputc('\n', stderr);
-  va_end(list);
-  exit(status);
-}
-
 static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
                 fmi2String format, ...) {
   va_list list;
@@ -72,12 +55,6 @@ static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Statu
   vfprintf(stderr, format, list);
   fputc('\n', stderr);
   va_end(list);
-}
-
-static void *function(void *library, const char *name) {
-  void *found = find(library, name);
-  if (found == NULL) stop(3, "the library has no %s", name);
-  return found;
 }
 
 static void good(fmi2Status status, const char *what) {

@@ -7,27 +7,18 @@
  * REFERENCE=VALUE is a start value of a parameter or input; REFERENCE=VALUE+RATE an input that is VALUE + RATE t: at
  * communication points it is set, within a step it is given where the FMU asks for it (intermediate update).
  *
- * It needs the headers of the FMI 3.0 standard (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in
- * the folder that  python -c "import fmpy; print(fmpy.__path__[0] + '/c-code')"  prints:
+ * It needs library.h beside it and the headers of the FMI 3.0 standard
+ * (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in the folder that
+ *   python -c "import fmpy; print(fmpy.__path__[0] + '/c-code')"
+ * prints:
  *
  *   cc -I FOLDER_OF_THE_HEADERS hosts/c/host3.c -ldl -o host3 */
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#if defined(_WIN32)
-#include <windows.h>
-static void *open_library(const char *path) { return (void *)LoadLibraryA(path); }
-static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
-#else
-#include <dlfcn.h>
-static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
-static void *find(void *library, const char *name) { return dlsym(library, name); }
-#endif
 
 #include "fmi3FunctionTypes.h"
+#include "library.h"
 
 enum { MOST_VALUES = 4096, MOST_LINES = 64 };
 
@@ -49,16 +40,6 @@ typedef struct { /* what the callback needs */
   fmi3ValueReference reference[MOST_LINES];
   double value[MOST_LINES], rate[MOST_LINES];
 } host;
-
-/* Ends the program with a sentence. */
-static void stop(int status, const char *format, ...) {
-  va_list list;
-  va_start(list, format);
-  vfprintf(stderr, format, list);
-  fputc('\n', stderr);
-  va_end(list);
-  exit(status);
-}
 
 static void say(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
   (void)environment, (void)status;
@@ -83,12 +64,6 @@ static void update(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Bo
   *early = false;
   *early_time = time;
   if (asked) good(set_lines(h, time), "set within a step");
-}
-
-static void *function(void *library, const char *name) {
-  void *found = find(library, name);
-  if (found == NULL) stop(3, "the library has no %s", name);
-  return found;
 }
 
 static functions functions_of(void *library) {
