@@ -1,7 +1,7 @@
 /* The face of FMI 2.0 of `plants.h`. */
 #include "plants.h"
 
-#include "fmi2Functions.h"
+#include "alike.h"
 
 typedef struct {
   planted p;
@@ -12,13 +12,7 @@ static void say(const face *f, const char *text) {
   f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, "log", text);
 }
 
-const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 const char *fmi2GetVersion(void) { return PLANT == VERSION ? "1.0" : fmi2Version; }
-
-fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]) {
-  (void)c, (void)on, (void)names;
-  return n ? fmi2Error : fmi2OK;
-}
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging) {
@@ -74,19 +68,6 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, 
   return fmi2OK;
 }
 
-#define NO(name, type)                                                                                                 \
-  fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference r[], size_t n, type v[]) {                        \
-    (void)c, (void)r, (void)v;                                                                                         \
-    return n ? fmi2Error : fmi2OK;                                                                                     \
-  }                                                                                                                    \
-  fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference r[], size_t n, const type v[]) {                  \
-    (void)c, (void)r, (void)v;                                                                                         \
-    return n ? fmi2Error : fmi2OK;                                                                                     \
-  }
-NO(Integer, fmi2Integer)
-NO(Boolean, fmi2Boolean)
-NO(String, fmi2String)
-
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
   if (!*state) *state = malloc(sizeof(planted));
   memcpy(*state, &((face *)c)->p, sizeof(planted));
@@ -98,29 +79,9 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
   return fmi2OK;
 }
 
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
-  (void)c;
-  free(*state);
-  *state = NULL;
-  return fmi2OK;
-}
-
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
   (void)c, (void)state;
   *size = sizeof(planted);
-  return fmi2OK;
-}
-
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
-  (void)c;
-  memcpy(bytes, state, size);
-  return fmi2OK;
-}
-
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
-  (void)c;
-  *state = malloc(size);
-  memcpy(*state, bytes, size);
   return fmi2OK;
 }
 
@@ -131,34 +92,9 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
   return fmi2OK;
 }
 
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n,
-                                       const fmi2Integer order[], const fmi2Real v[]) {
-  (void)c, (void)r, (void)n, (void)order, (void)v;
-  return fmi2Error;
-}
-
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n,
-                                        const fmi2Integer order[], fmi2Real v[]) {
-  (void)c, (void)r, (void)n, (void)order, (void)v;
-  return fmi2Error;
-}
-
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean forward) {
   (void)forward, (void)time;
   for (int k = 0; k < 100 && PLANT == FLOOD; k++) say(c, "a step is made");
   step_planted(&((face *)c)->p, step);
   return fmi2OK;
 }
-
-fmi2Status fmi2CancelStep(fmi2Component c) { return c ? fmi2Error : fmi2OK; }
-
-#define STATUS(name, type)                                                                                             \
-  fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *v) {                                      \
-    (void)c, (void)kind, (void)v;                                                                                      \
-    return fmi2Discard;                                                                                                \
-  }
-STATUS(Status, fmi2Status)
-STATUS(RealStatus, fmi2Real)
-STATUS(IntegerStatus, fmi2Integer)
-STATUS(BooleanStatus, fmi2Boolean)
-STATUS(StringStatus, fmi2String)

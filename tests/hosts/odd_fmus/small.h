@@ -1,10 +1,7 @@
 /* A whole FMU of FMI 2.0 for co-simulation around one function: an input, an output, one number as its state.
 
    Who includes it defines `advance`. */
-#include <stdlib.h>
-#include <string.h>
-
-#include "fmi2Functions.h"
+#include "alike.h"
 
 typedef struct {
   double time, u, y;
@@ -13,13 +10,7 @@ typedef struct {
 /* The step from `s->time` to `end`. */
 static fmi2Status advance(small *s, double end);
 
-const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 const char *fmi2GetVersion(void) { return fmi2Version; }
-
-fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]) {
-  (void)c, (void)on, (void)names;
-  return n ? fmi2Error : fmi2OK;
-}
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging) {
@@ -61,19 +52,6 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, 
   return fmi2OK;
 }
 
-#define NONE(name, type)                                                                                               \
-  fmi2Status fmi2Get##name(fmi2Component c, const fmi2ValueReference r[], size_t n, type v[]) {                        \
-    (void)c, (void)r, (void)v;                                                                                         \
-    return n ? fmi2Error : fmi2OK;                                                                                     \
-  }                                                                                                                    \
-  fmi2Status fmi2Set##name(fmi2Component c, const fmi2ValueReference r[], size_t n, const type v[]) {                  \
-    (void)c, (void)r, (void)v;                                                                                         \
-    return n ? fmi2Error : fmi2OK;                                                                                     \
-  }
-NONE(Integer, fmi2Integer)
-NONE(Boolean, fmi2Boolean)
-NONE(String, fmi2String)
-
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
   if (!*state) *state = malloc(sizeof(small));
   memcpy(*state, c, sizeof(small));
@@ -82,13 +60,6 @@ fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
 
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
   memcpy(c, state, sizeof(small));
-  return fmi2OK;
-}
-
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
-  (void)c;
-  free(*state);
-  *state = NULL;
   return fmi2OK;
 }
 
@@ -102,34 +73,9 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_
   return fmi2OK;
 }
 
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
-  (void)c;
-  memcpy(bytes, state, size);
-  return fmi2OK;
-}
-
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
-  (void)c;
-  *state = malloc(size);
-  memcpy(*state, bytes, size);
-  return fmi2OK;
-}
-
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference z[], size_t nz,
                                         const fmi2ValueReference v[], size_t nv, const fmi2Real dv[], fmi2Real dz[]) {
   (void)c, (void)z, (void)nz, (void)v, (void)nv, (void)dv, (void)dz;
-  return fmi2Error;
-}
-
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n,
-                                       const fmi2Integer order[], const fmi2Real v[]) {
-  (void)c, (void)r, (void)n, (void)order, (void)v;
-  return fmi2Error;
-}
-
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference r[], size_t n,
-                                        const fmi2Integer order[], fmi2Real v[]) {
-  (void)c, (void)r, (void)n, (void)order, (void)v;
   return fmi2Error;
 }
 
@@ -137,16 +83,3 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean
   (void)forward;
   return advance(c, time + step);
 }
-
-fmi2Status fmi2CancelStep(fmi2Component c) { return c ? fmi2Error : fmi2OK; }
-
-#define STATUS(name, type)                                                                                             \
-  fmi2Status fmi2Get##name(fmi2Component c, const fmi2StatusKind kind, type *v) {                                      \
-    (void)c, (void)kind, (void)v;                                                                                      \
-    return fmi2Discard;                                                                                                \
-  }
-STATUS(Status, fmi2Status)
-STATUS(RealStatus, fmi2Real)
-STATUS(IntegerStatus, fmi2Integer)
-STATUS(BooleanStatus, fmi2Boolean)
-STATUS(StringStatus, fmi2String)
