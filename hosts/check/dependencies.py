@@ -78,9 +78,8 @@ def dependencies(subject: Subject) -> Finding:
 
 
 def _provides(subject: Subject) -> bool:
-    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
     name = "providesDirectionalDerivatives" if subject.three else "providesDirectionalDerivative"
-    return face is not None and face.get(name) == "true"
+    return subject.face is not None and subject.face.get(name) == "true"
 
 
 def _slopes(subject: Subject, instance: Instance, outputs: list[ScalarVariable], known: ScalarVariable) -> Any:
@@ -146,8 +145,7 @@ def derivatives(subject: Subject) -> Finding:
 
 def _span(subject: Subject) -> ElementTree.Element | None:
     """The annotation that says what the derivatives are over."""
-    root = ElementTree.parse(subject.folder / "modelDescription.xml").getroot()
-    return next(root.iter("DirectionalDerivatives"), None)
+    return next(subject.root.iter("DirectionalDerivatives"), None)
 
 
 def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariable, Instance, float]]:

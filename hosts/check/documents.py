@@ -106,8 +106,7 @@ def folders(subject: Subject) -> Finding:
 def source_files(subject: Subject) -> Finding:
     """Source files that the documents name are there."""
     sources = subject.folder / "sources"
-    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
-    named = [] if face is None else [e.get("name", "") for e in face.iter("File")]
+    named = [] if subject.face is None else [e.get("name", "") for e in subject.face.iter("File")]
     if (build := sources / "buildDescription.xml").exists():
         named += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
     missing = [name for name in named if not (sources / name).is_file()]

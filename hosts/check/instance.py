@@ -6,8 +6,10 @@ import copy
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Literal
+from xml.etree import ElementTree
 
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -16,7 +18,7 @@ from ali3.errors import reason
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
-from hosts.fmu.description_file import opened, read_description
+from hosts.fmu.description_file import DESCRIPTION, opened, read_description
 from hosts.fmu.scalars import Place
 from hosts.fmu.variables import check_co_simulation, default_step
 
@@ -77,6 +79,16 @@ class Subject:
     def clause(self, two: str, three: str) -> str:
         """The clause that a verdict rests on, of the version of FMI that this is."""
         return f"(FMI {'3.0' if self.three else '2.0'}, {three if self.three else two})"
+
+    @cached_property
+    def root(self) -> ElementTree.Element:
+        """The description as it is written, with what FMPy passes over."""
+        return ElementTree.parse(self.folder / DESCRIPTION).getroot()
+
+    @property
+    def face(self) -> ElementTree.Element | None:
+        """Its element of co-simulation."""
+        return self.root.find("CoSimulation")
 
     @property
     def outputs(self) -> list[ScalarVariable]:

@@ -51,7 +51,7 @@ def whole_numbers(subject: Subject) -> Finding:
 
 def about_the_file(subject: Subject) -> Finding:
     """Rights, date, descriptions, typical sizes, dependencies of the initial state."""
-    root = ElementTree.parse(subject.folder / "modelDescription.xml").getroot()
+    root = subject.root
     missing = [name for name in ("author", "copyright", "license") if not root.get(name)]
     words = [f"no {', '.join(missing)}"] if missing else []
     if not any((subject.folder / "documentation" / "licenses" / name).exists() for name in _LICENCES):
