@@ -28,9 +28,11 @@ def _size(v: ScalarVariable) -> tuple[float, float]:
     start = float(v.start or 0.0)
     low, high = (float(end) if end not in (None, "") else sign * np.inf for end, sign in ((v.min, -1), (v.max, 1)))
     span = high - low if np.isfinite(high - low) and high - low < 1e6 else max(1.0, abs(start))
-    return start, span if start + span <= high else -span if start - span >= low else 0.5 * (
-        high - start
-    ) or start - low
+    if start + span <= high:
+        return start, span
+    if start - span >= low:
+        return start, -span
+    return start, 0.5 * (high - start) or start - low
 
 
 def dependencies(subject: Subject) -> Finding:
