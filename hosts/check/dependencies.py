@@ -10,7 +10,7 @@ import numpy as np
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
-from hosts.check.instance import Check, Finding, Instance, Subject, count_of
+from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of
 
 _STATES = 4
 _PART = 1e-4  # of an input's range: the nudge of a difference
@@ -19,7 +19,7 @@ _NEAR, _SMOOTH, _ROUND = 0.02, 0.01, 1e-9
 
 def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
     """Real outputs, and the name of each of their values."""
-    outputs = [v for v in subject.outputs if v.type in ("Real", "Float64")]
+    outputs = [v for v in subject.outputs if v.type in REAL]
     return outputs, [v.name for v in outputs for _ in range(count_of(v))]
 
 

@@ -13,7 +13,7 @@ from fmpy.validation import validate_fmu
 from ali3.call_mark import marked
 from ali3.columns import some_of
 from ali3.processes import cause_words
-from hosts.check.instance import Check, Finding, Subject
+from hosts.check.instance import REAL, Check, Finding, Subject
 
 FUNCTIONS = "functions"
 
@@ -80,7 +80,7 @@ def units(subject: Subject) -> Finding:
     bare = [
         v.name
         for v in subject.description.modelVariables
-        if v.type in ("Real", "Float64")
+        if v.type in REAL
         and v.causality in ("input", "output", "parameter")
         and not v.unit
         and not (v.declaredType is not None and v.declaredType.unit)

@@ -94,7 +94,7 @@ class Subject:
     def outputs(self) -> list[ScalarVariable]:
         """Outputs that are real or whole numbers, the real ones first."""
         found = [v for v in self.description.modelVariables if v.causality == "output"]
-        return [v for v in found if v.type in _REAL] + [v for v in found if v.type in _WHOLE]
+        return [v for v in found if v.type in REAL] + [v for v in found if v.type in WHOLE]
 
     @property
     def inputs(self) -> list[ScalarVariable]:
@@ -102,8 +102,9 @@ class Subject:
         return [v for v in self.by_elements.modelVariables if v.causality == "input" and v.type == "Real"]
 
 
-_REAL = ("Real", "Float64")
-_WHOLE = ("Integer", "Int32")
+REAL = ("Real", "Float64")
+WHOLE = ("Integer", "Int32")
+"""Types of variables whose values are looked at."""
 _DISCARD, _TERMINATED = 2, 3
 
 
@@ -166,8 +167,8 @@ class Instance(instance.Instance):
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
         """Values of real variables, then those of whole ones; arrays flattened."""
-        real = [v for v in variables if v.type in _REAL]
-        whole = [v for v in variables if v.type in _WHOLE]
+        real = [v for v in variables if v.type in REAL]
+        whole = [v for v in variables if v.type in WHOLE]
         values: list[float] = []
         for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
             references = [v.valueReference for v in members]
