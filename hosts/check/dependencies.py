@@ -10,7 +10,7 @@ import numpy as np
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
-from hosts.check.instance import Check, Finding, Instance, Subject, count_of
+from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of
 
 _STATES = 4
 _PART = 1e-4  # of an input's range: the nudge of a difference
@@ -19,7 +19,7 @@ _NEAR, _SMOOTH, _ROUND = 0.02, 0.01, 1e-9
 
 def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
     """Real outputs, and the name of each of their values."""
-    outputs = [v for v in subject.outputs if v.type in ("Real", "Float64")]
+    outputs = [v for v in subject.outputs if v.type in REAL]
     return outputs, [v.name for v in outputs for _ in range(count_of(v))]
 
 
@@ -28,9 +28,11 @@ def _size(v: ScalarVariable) -> tuple[float, float]:
     start = float(v.start or 0.0)
     low, high = (float(end) if end not in (None, "") else sign * np.inf for end, sign in ((v.min, -1), (v.max, 1)))
     span = high - low if np.isfinite(high - low) and high - low < 1e6 else max(1.0, abs(start))
-    return start, span if start + span <= high else -span if start - span >= low else 0.5 * (
-        high - start
-    ) or start - low
+    if start + span <= high:
+        return start, span
+    if start - span >= low:
+        return start, -span
+    return start, 0.5 * (high - start) or start - low
 
 
 def dependencies(subject: Subject) -> Finding:
@@ -78,9 +80,8 @@ def dependencies(subject: Subject) -> Finding:
 
 
 def _provides(subject: Subject) -> bool:
-    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
     name = "providesDirectionalDerivatives" if subject.three else "providesDirectionalDerivative"
-    return face is not None and face.get(name) == "true"
+    return subject.face is not None and subject.face.get(name) == "true"
 
 
 def _slopes(subject: Subject, instance: Instance, outputs: list[ScalarVariable], known: ScalarVariable) -> Any:
@@ -146,8 +147,7 @@ def derivatives(subject: Subject) -> Finding:
 
 def _span(subject: Subject) -> ElementTree.Element | None:
     """The annotation that says what the derivatives are over."""
-    root = ElementTree.parse(subject.folder / "modelDescription.xml").getroot()
-    return next(root.iter("DirectionalDerivatives"), None)
+    return next(subject.root.iter("DirectionalDerivatives"), None)
 
 
 def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariable, Instance, float]]:

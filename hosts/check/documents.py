@@ -13,7 +13,7 @@ from fmpy.validation import validate_fmu
 from ali3.call_mark import marked
 from ali3.columns import some_of
 from ali3.processes import cause_words
-from hosts.check.instance import Check, Finding, Subject
+from hosts.check.instance import REAL, Check, Finding, Subject
 
 FUNCTIONS = "functions"
 
@@ -80,7 +80,7 @@ def units(subject: Subject) -> Finding:
     bare = [
         v.name
         for v in subject.description.modelVariables
-        if v.type in ("Real", "Float64")
+        if v.type in REAL
         and v.causality in ("input", "output", "parameter")
         and not v.unit
         and not (v.declaredType is not None and v.declaredType.unit)
@@ -106,8 +106,7 @@ def folders(subject: Subject) -> Finding:
 def source_files(subject: Subject) -> Finding:
     """Source files that the documents name are there."""
     sources = subject.folder / "sources"
-    face = ElementTree.parse(subject.folder / "modelDescription.xml").getroot().find("CoSimulation")
-    named = [] if face is None else [e.get("name", "") for e in face.iter("File")]
+    named = [] if subject.face is None else [e.get("name", "") for e in subject.face.iter("File")]
     if (build := sources / "buildDescription.xml").exists():
         named += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
     missing = [name for name in named if not (sources / name).is_file()]

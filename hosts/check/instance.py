@@ -6,8 +6,10 @@ import copy
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Literal
+from xml.etree import ElementTree
 
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -16,7 +18,7 @@ from ali3.errors import reason
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
-from hosts.fmu.description_file import opened, read_description
+from hosts.fmu.description_file import DESCRIPTION, opened, read_description
 from hosts.fmu.scalars import Place
 from hosts.fmu.variables import check_co_simulation, default_step
 
@@ -78,11 +80,21 @@ class Subject:
         """The clause that a verdict rests on, of the version of FMI that this is."""
         return f"(FMI {'3.0' if self.three else '2.0'}, {three if self.three else two})"
 
+    @cached_property
+    def root(self) -> ElementTree.Element:
+        """The description as it is written, with what FMPy passes over."""
+        return ElementTree.parse(self.folder / DESCRIPTION).getroot()
+
+    @property
+    def face(self) -> ElementTree.Element | None:
+        """Its element of co-simulation."""
+        return self.root.find("CoSimulation")
+
     @property
     def outputs(self) -> list[ScalarVariable]:
         """Outputs that are real or whole numbers, the real ones first."""
         found = [v for v in self.description.modelVariables if v.causality == "output"]
-        return [v for v in found if v.type in _REAL] + [v for v in found if v.type in _WHOLE]
+        return [v for v in found if v.type in REAL] + [v for v in found if v.type in WHOLE]
 
     @property
     def inputs(self) -> list[ScalarVariable]:
@@ -90,8 +102,9 @@ class Subject:
         return [v for v in self.by_elements.modelVariables if v.causality == "input" and v.type == "Real"]
 
 
-_REAL = ("Real", "Float64")
-_WHOLE = ("Integer", "Int32")
+REAL = ("Real", "Float64")
+WHOLE = ("Integer", "Int32")
+"""Types of variables whose values are looked at."""
 _DISCARD, _TERMINATED = 2, 3
 
 
@@ -154,8 +167,8 @@ class Instance(instance.Instance):
 
     def get(self, variables: Sequence[ScalarVariable]) -> list[float]:
         """Values of real variables, then those of whole ones; arrays flattened."""
-        real = [v for v in variables if v.type in _REAL]
-        whole = [v for v in variables if v.type in _WHOLE]
+        real = [v for v in variables if v.type in REAL]
+        whole = [v for v in variables if v.type in WHOLE]
         values: list[float] = []
         for members, two, three in ((real, "getReal", "getFloat64"), (whole, "getInteger", "getInt32")):
             references = [v.valueReference for v in members]

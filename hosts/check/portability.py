@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from ali3.call_mark import marked
 from hosts.check.behaviour import NOT_ALLOWED
-from hosts.check.instance import Check, Finding, Instance, Subject
+from hosts.check.instance import REAL, Check, Finding, Instance, Subject
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
@@ -39,9 +39,7 @@ def _plain(unit: str) -> str:
 def whole_numbers(subject: Subject) -> Finding:
     """Counts and levels that are real numbers."""
     found = [
-        v.name
-        for v in subject.description.modelVariables
-        if v.type in ("Real", "Float64") and v.name.rpartition(".")[2] in _COUNTS
+        v.name for v in subject.description.modelVariables if v.type in REAL and v.name.rpartition(".")[2] in _COUNTS
     ]
     if found:
         words = f"{len(found)} counts or levels are real numbers, such as {found[0]}; FMI leaves the type open"
@@ -51,7 +49,7 @@ def whole_numbers(subject: Subject) -> Finding:
 
 def about_the_file(subject: Subject) -> Finding:
     """Rights, date, descriptions, typical sizes, dependencies of the initial state."""
-    root = ElementTree.parse(subject.folder / "modelDescription.xml").getroot()
+    root = subject.root
     missing = [name for name in ("author", "copyright", "license") if not root.get(name)]
     words = [f"no {', '.join(missing)}"] if missing else []
     if not any((subject.folder / "documentation" / "licenses" / name).exists() for name in _LICENCES):

@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ScalarVariable
 
-from hosts.check.instance import Check, Finding, Instance, Subject
+from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject
 
-_GETTERS = {
-    "Real": ("getReal", float),
-    "Integer": ("getInteger", int),
-    "Float64": ("getFloat64", float),
-    "Int32": ("getInt32", int),
-}
-_SETTERS = {"Real": "setReal", "Float64": "setFloat64"}
 _VERSION = {"2.0": ("fmi2GetVersion", b"2.0"), "3.0": ("fmi3GetVersion", b"3.0")}
 
 
@@ -25,12 +17,8 @@ def _scalars(subject: Subject, *causalities: str) -> list[ScalarVariable]:
     return [
         v
         for v in subject.description.modelVariables
-        if v.causality in causalities and v.type in _GETTERS and not getattr(v, "dimensions", None)
+        if v.causality in causalities and v.type in REAL + WHOLE and not getattr(v, "dimensions", None)
     ]
-
-
-def _value(instance: Instance, v: ScalarVariable) -> Any:
-    return getattr(instance.slave, _GETTERS[v.type][0])([v.valueReference])[0]
 
 
 def _initialising(subject: Subject) -> Instance:
@@ -47,7 +35,7 @@ def start_values(subject: Subject) -> Finding:
     known = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
     instance = _initialising(subject)
     for v in known:
-        stated, found = _GETTERS[v.type][1](v.start), _value(instance, v)
+        stated, found = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
         if found != stated:
             words = f"{v.name} reads {found:g} before it is set, and its start is {stated:g}; give it that value"
             return Finding("start values", "bad", f"{words} {subject.clause('2.2.7', '2.4.7')}")
@@ -58,17 +46,17 @@ def set_values(subject: Subject) -> Finding:
     """A real number that was set in initialisation mode is read back."""
     instance, count = _initialising(subject), 0
     for v in _scalars(subject, "input", "parameter"):
-        if v.type not in _SETTERS or v.variability == "constant":
+        if v.type not in REAL or v.variability == "constant":
             continue
         start, high = float(v.start or 0.0), float(v.max or math.inf)
         value = start + 1e-3 * max(1.0, abs(start))
         value = value if value <= high else start - 1e-3 * max(1.0, abs(start))
         try:
-            getattr(instance.slave, _SETTERS[v.type])([v.valueReference], [value])
+            instance.set({subject.places[v.name]: value})
         except FMICallException:  # it may refuse a value
             instance = _initialising(subject)
             continue
-        found, count = _value(instance, v), count + 1
+        found, count = instance.get([v])[0], count + 1
         if found != value:
             words = f"{v.name} was set to {value:.9g} without a message and reads {found:.9g}; take it or refuse it"
             if instance.messages:
@@ -85,7 +73,7 @@ def ranges(subject: Subject) -> Finding:
         if not instance.advance(k * subject.step, subject.step):
             break
         for v in bounded:
-            value = _value(instance, v)
+            value = instance.get([v])[0]
             low, high = float(v.min or -math.inf), float(v.max or math.inf)
             if not low <= value <= high and not math.isnan(value):
                 words = f"{v.name} is {value:g} at {(k + 1) * subject.step:g} s, beyond {low:g} to {high:g}; widen it"

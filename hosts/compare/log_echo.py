@@ -64,8 +64,11 @@ def log_echo(what: str, signals: Signals) -> Echo:
     def values(signals: Signals) -> list[Value]:
         return [*log_values(signals), *_of_samples(signals)]
 
-    mistakes = [Mistake(words, frozenset(keys), partial(values, altered)) for words, keys, altered in _undone(signals)]
-    return Echo(what, [*values(signals), *_of_all(list(signals.values()))], mistakes)
+    echo = Echo(what, [*values(signals), *_of_all(list(signals.values()))])
+    if not echo.outside:  # nothing that a mistake would explain
+        return echo
+    undone = [Mistake(words, frozenset(keys), partial(values, altered)) for words, keys, altered in _undone(signals)]
+    return replace(echo, mistakes=undone)
 
 
 def consistent(echo: Echo) -> set[str]:
@@ -87,9 +90,9 @@ _RELATIONS = [
 def log_values(signals: Signals) -> list[Value]:
     """Relations between signals, and how large each is."""
     found: list[Value] = []
-    v = next((n for n in SPEEDS if n in signals), None)
+    v = _speed(signals)
     if v is not None:
-        found += _turning(signals, v)
+        found += _turning(signals)
         found += _ratio_of_rates(signals, "accelerate", v, "chassis.ax", LEAST["accelerate"])
         found += _way(signals, v)
         for name in WHEELS:
@@ -124,11 +127,23 @@ def _on(signal: Signal, time: Array) -> Array:
     return np.asarray(np.interp(time, signal.time, signal.values))
 
 
-def _turning(signals: Signals, v: str) -> Iterator[Value]:
-    if not {"chassis.wz", "chassis.ay"} <= signals.keys():
-        return
+def _speed(signals: Signals) -> str | None:
+    return next((n for n in SPEEDS if n in signals), None)
+
+
+def _turn(signals: Signals) -> tuple[str, Signal, Array] | None:
+    """Name of the speed, lateral acceleration, and at its times speed times yaw rate; None without one of them."""
+    v = _speed(signals)
+    if v is None or not {"chassis.wz", "chassis.ay"} <= signals.keys():
+        return None
     ay = signals["chassis.ay"]
-    other = _on(signals[v], ay.time) * _on(signals["chassis.wz"], ay.time)
+    return v, ay, _on(signals[v], ay.time) * _on(signals["chassis.wz"], ay.time)
+
+
+def _turning(signals: Signals) -> Iterator[Value]:
+    if (turn := _turn(signals)) is None:
+        return
+    v, ay, other = turn
     names = (v, "chassis.wz", "chassis.ay")
     found = list(_compared(signals, "turn", names, other, ay.values, LEAST["turn"]))
     yield from found
@@ -201,13 +216,18 @@ def _undone(signals: Signals) -> Iterator[tuple[str, set[str], Signals]]:
             kept = replace(signal, time=signal.time[~far], values=signal.values[~far])
             value = f"{signal.values[far][0]:g} in the place of no value in '{signal.source}' ({name})"
             yield value, {name}, {**signals, name: kept}
+    turn = _turn(signals)
+    delay = 0.0 if turn is None else _delay(*turn[1:])
     for name in (*SPEEDS, "chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", *WHEELS):
         if name not in signals:
             continue
         s = signals[name]
         for factor, words in (*FACTORS.get(s.unit, ()), (-1.0, "the other sign")):
             yield f"{words} of '{s.source}' ({name})", {name}, {**signals, name: replace(s, values=factor * s.values)}
-        yield from _late(signals, name)
+        if delay and name in ("chassis.wz", "chassis.ay"):
+            late = delay if name == "chassis.ay" else -delay
+            words = f"a delay of {late:.2f} s (within {FINE:g} s) of '{s.source}' ({name})"
+            yield words, {name}, {**signals, name: replace(s, time=s.time - late)}
     if "chassis.x" in signals and "chassis.y" in signals:
         for factor, words in FACTORS["m"]:
             both = {n: replace(signals[n], values=factor * signals[n].values) for n in ("chassis.x", "chassis.y")}
@@ -218,22 +238,9 @@ def _undone(signals: Signals) -> Iterator[tuple[str, set[str], Signals]]:
             yield f"'{signals[a].source}' and '{signals[b].source}' exchanged", {a, b}, {**signals, **swapped}
 
 
-def _late(signals: Signals, name: str) -> Iterator[tuple[str, set[str], Signals]]:
-    """The signal without the delay that fits it best to its partners, where it is one of the turn."""
-    v = next((n for n in SPEEDS if n in signals), None)
-    if v is None or name not in ("chassis.wz", "chassis.ay") or not {"chassis.wz", "chassis.ay"} <= signals.keys():
-        return
-    ay, wz = signals["chassis.ay"], signals["chassis.wz"]
-    delay = _delay(ay, _on(signals[v], ay.time) * _on(wz, ay.time))
-    if delay:
-        s, sign = signals[name], 1.0 if name == "chassis.ay" else -1.0
-        words = f"a delay of {sign * delay:.2f} s (within {FINE:g} s) of '{s.source}' ({name})"
-        yield words, {name}, {**signals, name: replace(s, time=s.time - sign * delay)}
-
-
 def _of_samples(signals: Signals) -> Iterator[Value]:
     """Stretches that stand, and values far from all others."""
-    v = next((n for n in SPEEDS if n in signals), None)
+    v = _speed(signals)
     for name, s in signals.items():
         yield Value(QUANTITIES["sentinel"], float(_far(s).sum()), _keys(signals, name), f"'{s.source}',")
         if v is not None and name in (*SPEEDS, "chassis.ax", "chassis.ay", "chassis.wz", *WHEELS):
@@ -259,13 +266,10 @@ def _stands(signal: Signal, signals: Signals, v: str) -> float:
     """The longest stretch of equal samples in which others say that it changes, s."""
     ends = np.flatnonzero(np.concatenate([[True], np.diff(signal.values) != 0.0, [True]]))
     longest = 0.0
-    for a, b in pairwise(ends.tolist()):
-        begin, end = float(signal.time[a]), float(signal.time[b - 1])
-        if (
-            b - a >= FEWEST_EQUAL
-            and end - begin > longest
-            and _changes(signal, signals, v, begin, end, float(signal.values[a]))
-        ):
+    for k in np.flatnonzero(np.diff(ends) >= FEWEST_EQUAL):
+        first, last = ends[k], ends[k + 1] - 1
+        begin, end = float(signal.time[first]), float(signal.time[last])
+        if end - begin > longest and _changes(signal, signals, v, begin, end, float(signal.values[first])):
             longest = end - begin
     return longest
 

@@ -43,7 +43,7 @@ def fmu_of_car(car: str, tell: Callable[[str], None], ports: str | None = None) 
         It cannot be built; with the words of the build.
     """
     options = () if ports is None else ("--ports", ports)
-    name = "-".join([car_digest(car), *(word.replace(",", "_") for word in options[1::2])])
+    name = car_digest(car) if ports is None else f"{car_digest(car)}-{ports.replace(',', '_')}"
     return _kept_fmu(f"the car {car}", name, ("--car", car, *options), tell)
 
 

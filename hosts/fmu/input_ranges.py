@@ -29,9 +29,7 @@ def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "
     `values`: in the unit of the variable, shape (n,); `where`: how messages call the number of one of them, from 1.
     """
     low, high = variable.low, variable.high
-    span = (
-        high - low if math.isfinite(high - low) else max((abs(x) for x in (low, high) if math.isfinite(x)), default=0.0)
-    )
+    span = high - low if math.isfinite(high - low) else _limit(variable)
     off = np.maximum(low - values, values - high)
     worst = int(np.argmax(off))
     if not off[worst] > ROUNDING * span:
@@ -43,9 +41,14 @@ def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "
     return f"{reached}; the range of the FMU's input is {variable.range}{_hint(variable, values)}"
 
 
+def _limit(variable: Variable) -> float:
+    """The end of the range that is farther from 0; 0 where both are open."""
+    return max((abs(end) for end in (variable.low, variable.high) if math.isfinite(end)), default=0.0)
+
+
 def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
     low, high = variable.low, variable.high
-    limit = max((abs(x) for x in (low, high) if math.isfinite(x)), default=0.0)
+    limit = _limit(variable)
     largest = float(np.max(np.abs(values)))
     if largest <= CLIPPED * limit:
         return "; it may be clipped by a factor or an offset."

@@ -71,10 +71,10 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     ]
     busy = f"Another program drives in {out}; wait for it, or give another --out."
     with locked(out, busy), Journal[Outcome](out / "done", Outcome) as journal:
-        kept = journal.read()
         if options.again:
             journal.clear()
-        before = [None if options.again else kept.get(_key(task)) for task in tasks]
+        kept = journal.read()
+        before = [kept.get(_key(task)) for task in tasks]
         outcomes = [made or Outcome(task.seed, task.fidelity) for task, made in zip(tasks, before, strict=True)]
         left = [place for place, outcome in enumerate(before) if outcome is None]
         if len(left) < len(tasks):

@@ -43,10 +43,11 @@ class OutcomeStore(Closing):
 
     def recover(self) -> None:
         """Take what a command that was killed had in its journal into the table."""
-        done = runs_done(self._folder, self._record)
-        for key, outcome in self._journal.read().items():
-            if key.isdecimal() and int(key) < len(done) and not done[int(key)]:
-                self._take(self._plan.runs_at([int(key)])[0], outcome)
+        if found := self._journal.read():
+            done = runs_done(self._folder, self._record)
+            for key, outcome in found.items():
+                if key.isdecimal() and int(key) < len(done) and not done[int(key)]:
+                    self._take(self._plan.runs_at([int(key)])[0], outcome)
         self.flush()
 
     def add(self, run: Run, outcome: Outcome) -> None:

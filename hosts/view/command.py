@@ -19,22 +19,8 @@ from hosts.common.options import add_setting_options
 
 _OF_LIVE = ("title", "name", "paused", "world")
 _OF_SHOWN = (
-    *(
-        "geometry",
-        "begin",
-        "end",
-        "most",
-        "camera",
-        "at",
-        "arrows",
-        "stress",
-        "deformation",
-        "png",
-        "mp4",
-        "gltf",
-        "size",
-    ),
-    *("stop_time", "confined"),
+    *("geometry", "begin", "end", "most", "camera", "at", "arrows", "stress", "deformation"),
+    *("png", "mp4", "gltf", "size", "stop_time", "confined"),
 )
 
 
