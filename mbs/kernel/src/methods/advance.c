@@ -62,7 +62,7 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   if (!divided) in->report.halvings++;
   ali3_back_up(in);
   const int64_t made = in->report.iterations, half = made + (iterations_end - made) / 2;
-  const bool located = divided && in->event < 1.0;
+  const bool located = in->event < 1.0;
   const double share = located ? in->event : 0.5;
   if (!located) depth--;
   const ali3_status first = advance_part(in, t - (1.0 - share) * h, share * h, depth, half);
