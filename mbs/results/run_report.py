@@ -8,9 +8,8 @@ from dataclasses import dataclass, fields
 
 from mbs.kernel.header.limits import BALANCE_WRONG
 
-LINE = (
-    0.5  # square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15
-)
+LINE = 0.5
+"""Square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15."""
 TURNED = 12.0  # rad of the motion from which it is told apart
 
 

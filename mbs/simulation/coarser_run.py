@@ -195,10 +195,8 @@ class Coarser:
         `AGREED` of `right`, and as it grew in that tenth comes to no more than `right` in the end.
         """
         column = {sensor["name"]: k for k, sensor in enumerate(self.repeats.system.meta["sensors"])}
-        sizes, tenth = (
-            sizes_of(run, self.repeats.judged, self.repeats.length, self.repeats.before),
-            len(run.t) / WATCHED,
-        )
+        sizes = sizes_of(run, self.repeats.judged, self.repeats.length, self.repeats.before)
+        tenth = len(run.t) / WATCHED
         rows = {name: rows_judged(self.repeats.judged[name], len(run.t)) for name in sizes}
         unknown = is_open(self.repeats.judged)
         sizes = {name: size for name, size in sizes.items() if self.repeats.judged[name].always or not unknown}

@@ -111,10 +111,8 @@ class Repeats:
         assert settings is not None
         assert report is not None
         self.parts = accuracy.divisor(report.steps, report.halvings)
-        self.method, self.unresolved = (
-            settings.method,
-            unresolved_share(self.system, settings.method, (self.run[0].t[0], self.run[0].t[-1]), self.inputs),
-        )
+        self.method, span = settings.method, (self.run[0].t[0], self.run[0].t[-1])
+        self.unresolved = unresolved_share(self.system, self.method, span, self.inputs)
         self.has_order = self.unresolved > UNRESOLVED
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}

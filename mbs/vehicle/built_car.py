@@ -84,6 +84,20 @@ class BuiltCar(CarContent):
             return str(error)
         return ""
 
+    @cached_property
+    def rest(self) -> Rest:
+        """The car at rest, of a model with no more than that asks for; a tyre at a port is the car's own.
+
+        Raises
+        ------
+        ModelError
+            It does not come to rest.
+        """
+        car = self
+        if self.ports.tyre is not None:
+            car = checked_car(type(self), _on_own_tyres(self._data), self.folder, self.name, at_rest=False)
+        return settled(car.build(car.empty(Mechanism), rest_outputs).m, car)
+
     @property
     def has_frame(self) -> bool:
         """Whether it has a flexible frame that fits it."""
@@ -189,7 +203,7 @@ class BuiltCar(CarContent):
 
         `what`: the file, for messages. Raises `ModelError`: it does not come to rest.
         """
-        return car_echo(what or str(self.folder), self, _rest_of(self), self._data, self._remade)
+        return car_echo(what or str(self.folder), self, self.rest, self._data, self._remade)
 
     def summary(self) -> str:
         """The same as tables of text, the tyres once where both axles have the same."""
@@ -201,7 +215,7 @@ class BuiltCar(CarContent):
         """The car of altered content at rest, or None where that is no car."""
         try:
             made = checked_car(type(self), data, self.folder, self.name, at_rest=False)
-            return made, _rest_of(made)
+            return made, made.rest
         except (ModelError, ValueError):
             return None
 
@@ -287,8 +301,7 @@ def checked_car(
     if faults:
         raise CarFileError(_told(what, faults))
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
-        own = {name: port for name, port in data["ports"].items() if name != "tyre"}
-        checked_car(kind, {**data, "ports": own}, folder, what, warn=warn, stacklevel=stacklevel + 1)
+        checked_car(kind, _on_own_tyres(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
         return car
     if not at_rest:
         return car
@@ -317,12 +330,9 @@ def checked_car(
     return car
 
 
-def _rest_of(car: BuiltCar) -> Rest:
-    """The car at rest, of a model with no more than that asks for; a tyre at a port is the car's own."""
-    if car.ports.tyre is not None:
-        own = {name: port for name, port in car._data["ports"].items() if name != "tyre"}
-        car = checked_car(type(car), {**car._data, "ports": own}, car.folder, car.name, at_rest=False)
-    return settled(car.build(car.empty(Mechanism), rest_outputs).m, car)
+def _on_own_tyres(data: Mapping[str, Any]) -> dict[str, Any]:
+    """The content of a car file without the port of its tyres."""
+    return {**data, "ports": {name: port for name, port in data["ports"].items() if name != "tyre"}}
 
 
 def _told(what: str, faults: Sequence[str]) -> str:

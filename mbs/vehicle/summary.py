@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from ali3.columns import in_columns
-from mbs.model.mechanism import Mechanism
 from mbs.vehicle.built_car import BuiltCar
-from mbs.vehicle.checks.equilibrium import rest_outputs, settled
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import sections_of
 
 
 def summary(car: BuiltCar) -> str:
     """Masses, loads and dimensions. `car`: its equilibrium is found."""
-    rest = settled(car.build(car.empty(Mechanism), rest_outputs).m, car)
+    rest = car.rest
     load = {axle: 2.0 * rest.load[axle] for axle in ("front", "rear")}
     total = load["front"] + load["rear"]
     rows = [

@@ -13,13 +13,17 @@ import pytest
 
 from ali3.echo import Echo, Mistake, Quantity, Value
 from mbs.elements.magic_tyre import MagicTyre
+from mbs.model.mechanism import Mechanism
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.tyre_echo import magic_echo, tmeasy_echo
-from mbs.vehicle import car_names, load
+from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
+from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.changes import changed_content
+from mbs.vehicle.checks.equilibrium import Rest, settled
 from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning
+from mbs.vehicle.summary import summary
 
 TYRES = sorted((Path(__file__).parents[1] / "tyre_files" / "data").rglob("*.tir"))
 DEG = 57.29577951308232
@@ -116,6 +120,25 @@ def tyre(file: Path) -> MagicTyre:
 
 def changed(t: MagicTyre, **factors: float) -> MagicTyre:
     return replace(t, coefficients=t.coefficients | {k: f * t.coefficients[k] for k, f in factors.items()})
+
+
+def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found: list[CarContent] = []
+
+    def counted(model: Mechanism, car: CarContent) -> Rest:
+        found.append(car)
+        return settled(model, car)
+
+    monkeypatch.setattr(built_car, "settled", counted)
+    told = {}
+    for ports in ({}, {"ports.tyre": "hub"}):
+        car = load("hatchback").changed(ports)
+        found.clear()
+        told[len(ports)] = [summary(car), car.summary(), [echo.to_json() for echo in car.echo()]]
+        assert len(found) == 1, "its rest is found once for all of them"
+    assert told[1] == told[0]
 
 
 @pytest.mark.parametrize("file", TYRES, ids=lambda file: file.stem)

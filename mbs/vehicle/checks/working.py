@@ -46,7 +46,7 @@ def working_ranges(car: CarContent) -> Ranges:
         low, high = (load / (part * tyre.radius) for part in reversed(PRESSED))
         _put(found, tyre, "stiffness", low, high)
         room = PRESSED[1] * tyre.radius * tyre.stiffness - load
-        carried = load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
+        carried = weight_on_spring(axle, load)
         if carried > 0.0:
             room = min(room, _of_suspension(found, axle, carried))
         loads[name], radii = (2.0 * load, 2.0 * max(room, 0.0)), [*radii, tyre.radius]
@@ -89,6 +89,22 @@ def _of_grip(found: Ranges, car: CarContent) -> None:
         _least(found, road, "friction_factor", reached * axle.tyre.grip * road.friction)
 
 
+def weight_on_spring(axle: Axle, load: float) -> float:
+    """Load of a wheel without what is not sprung, N. `load`: N."""
+    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
+
+
+def under_load(spring: Spring, force: float) -> tuple[float, float]:
+    """Compression of a spring under a force, m, and its slope there with a factor of 1, N/m.
+
+    A law is taken as lines from row to row, which go on beyond its ends. `force`: N, with the factor, which is above 0.
+    """
+    x, of_one = _rows(spring)
+    place = int(np.clip(np.searchsorted(of_one, force / spring.factor), 1, len(x) - 1))
+    slope = float((of_one[place] - of_one[place - 1]) / (x[place] - x[place - 1]))
+    return float(x[place] + (force / spring.factor - of_one[place]) / slope), slope
+
+
 def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
     """The least value with which both axles reach `GRIPPED`, where one reaches so much with a value of 1."""
     quantity, path = section.quantity(name), section.key(name)
@@ -101,16 +117,13 @@ def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
 def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:
     """Ranges of a spring that carries a weight, N, and of its damper.
 
-    A law is taken as lines from row to row, which go on beyond its ends. Result: how much more load, N, the spring
-    carries until it has sunk by `SUNK`.
+    Result: how much more load, N, the spring carries until it has sunk by `SUNK`.
     """
     spring, damper = axle.spring, axle.damper
     x, force = _rows(spring)
     if not spring.factor > 0.0:
         return math.inf
-    place = int(np.clip(np.searchsorted(force, carried / spring.factor), 1, len(x) - 1))
-    slope = float((force[place] - force[place - 1]) / (x[place] - x[place - 1]))
-    pressed = float(x[place] + (carried / spring.factor - force[place]) / slope)
+    pressed, slope = under_load(spring, carried)
     deep = pressed + SUNK
     last = float((force[-1] - force[-2]) / (x[-1] - x[-2]))
     most = float(np.interp(deep, x, force)) + last * max(deep - float(x[-1]), 0.0)

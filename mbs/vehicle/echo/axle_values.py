@@ -13,7 +13,8 @@ from ali3.echo import Value, quantities_of
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.places import drawn_points, parts_of
+from mbs.vehicle.checks.places import drawn_points
+from mbs.vehicle.checks.working import DAMPER_SPEED, under_load, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE
@@ -23,7 +24,6 @@ from mbs.vehicle.suspensions.curves import Curves
 
 CAR = quantities_of("car")
 DEG = 180.0 / math.pi
-SPEED = 0.3  # m/s, of a damper
 ABSOLUTE = 0.1  # m: lateral places of a table that are farther from 0 count from the middle of the car
 
 
@@ -58,11 +58,11 @@ def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
         names = ("caster_angle", "kingpin_inclination_angle", "kingpin_offset_at_ground")
         axis = {n: wheel[f"{n}_left"] for n in names if name == "front" and f"{n}_left" in wheel}
         return AxleRates(travel["wheel_rate_left"], travel["damper_ratio_left"], roll, axis)
-    carried, force = _carried(axle, rest.load[name]), abs(rest.spring_force[name])
+    carried, force = weight_on_spring(axle, rest.load[name]), abs(rest.spring_force[name])
     if force < 1.0 or carried <= 0.0:
         return None
     ratio = carried / force
-    rate = _stiffness(axle, force) * ratio**2
+    rate = under_load(axle.spring, force)[1] * axle.spring.factor * ratio**2
     return AxleRates(rate, ratio, 0.5 * rate * axle.track**2, {})
 
 
@@ -114,7 +114,7 @@ def _alignment(axle: Axle, name: str) -> Iterator[Value]:
 
 
 def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Value]:
-    mass, rate = _carried(axle, rest.load[name]) / GRAVITY, rates.wheel_rate
+    mass, rate = weight_on_spring(axle, rest.load[name]) / GRAVITY, rates.wheel_rate
     spring, damper = axle.spring, axle.damper
     field = "stiffness" if spring.stiffness is not None else "table"
     springs = {spring.key(field): getattr(spring, field), spring.key("factor"): spring.factor}
@@ -124,7 +124,7 @@ def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Va
     yield Value(CAR["bounce"], math.sqrt(rate / mass) / (2.0 * math.pi), springs, name)
     field = "damping" if damper.damping is not None else "table"
     dampers = {damper.key(field): getattr(damper, field), damper.key("factor"): damper.factor}
-    bump, rebound = (damping_at(damper, speed) for speed in (-SPEED, SPEED))
+    bump, rebound = (damping_at(damper, speed) for speed in (-DAMPER_SPEED, DAMPER_SPEED))
     critical = 2.0 * math.sqrt(rate * mass)
     for quantity, damping in (("bump", bump), ("rebound", rebound)):
         yield Value(CAR[quantity], damping * rates.damper_ratio**2 / critical, dampers, name)
@@ -139,21 +139,6 @@ def damping_at(damper: Damper, speed: float) -> float:
     v, force = np.array(damper.table, dtype=float).T
     at = float(np.clip(speed, v[0], v[-1]))
     return float(np.interp(at, v, force)) / at * damper.factor if at else 0.0
-
-
-def _stiffness(axle: Axle, force: float) -> float:
-    """Of a spring under a force, N/m."""
-    spring = axle.spring
-    if spring.stiffness is not None:
-        return spring.stiffness * spring.factor
-    x, f = np.array(spring.table, dtype=float).T
-    k = int(np.clip(np.searchsorted(f * spring.factor, force), 1, len(x) - 1))
-    return float((f[k] - f[k - 1]) / (x[k] - x[k - 1])) * spring.factor
-
-
-def _carried(axle: Axle, load: float) -> float:
-    """Weight on the spring of a wheel, N: its load without what is not sprung."""
-    return load - GRAVITY * (axle.wheel.mass + sum(part.mass for part in parts_of(axle)))
 
 
 def _of_curves(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:

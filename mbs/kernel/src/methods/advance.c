@@ -36,7 +36,8 @@ static ali3_status by_method(ali3_instance *in, double t, double h) {
 enum { MOST_ITERATIONS = 1000 }; /* of a step with all its parts */
 
 /* A part of a step to time t, in halves where it does not converge or a force changes abruptly in it, and up to and from
- * where a stop is met or left. With a limit of the step's iterations they go up to iterations_end, and only what changes abruptly is divided. */
+ * where a stop is met or left. With a limit of the step's iterations they go up to iterations_end, and only what changes
+ * abruptly is divided. */
 static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t depth, int64_t iterations_end) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
@@ -61,7 +62,7 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   if (!divided) in->report.halvings++;
   ali3_back_up(in);
   const int64_t made = in->report.iterations, half = made + (iterations_end - made) / 2;
-  const bool located = divided && in->event < 1.0;
+  const bool located = in->event < 1.0;
   const double share = located ? in->event : 0.5;
   if (!located) depth--;
   const ali3_status first = advance_part(in, t - (1.0 - share) * h, share * h, depth, half);
@@ -104,8 +105,7 @@ bool ali3_parted(const ali3_instance *in, double t, double h) {
  * jump. */
 ali3_status ali3_advance(ali3_instance *in, double t, double h, int32_t depth) {
   double guide;
-  in->events_left = ALI3_EVENTS;
-  in->parts_at_events = depth > 0;
+  ali3_events_begin(in, depth);
   const double until = part_end(in, t, h, &guide);
   if (until == t && guide == HUGE_VAL)
     return advance_part(in, t, h, depth, in->report.iterations + in->settings.step_iterations);

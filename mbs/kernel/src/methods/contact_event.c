@@ -9,6 +9,15 @@
 #include "../elements/element.h"
 #include "quick_stop.h"
 
+enum { EVENTS = 4 }; /* at which a step is parted at most */
+
+/* A step as it is asked for begins, whose parts may be halved so deep. Of cars events cost more than they gain:
+ * theory.md. */
+void ali3_events_begin(ali3_instance *in, int32_t depth) {
+  in->events_left = EVENTS;
+  in->parts_at_events = depth > 0 && in->system->nr == 0;
+}
+
 /* The first share of the step from in->now to in->next at which an element says so; else 1. */
 static double first_event(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
@@ -25,7 +34,7 @@ static double first_event(const ali3_instance *in, double h) {
 }
 
 bool ali3_contact_event(ali3_instance *in, double h) {
-  if (!in->parts_at_events || in->system->nr > 0) return false; /* of cars it costs more than it gains: theory.md */
+  if (!in->parts_at_events) return false;
   const double share = first_event(in, h), near = ALI3_AT_END * in->whole_length;
   if (!(share * h > near && (1.0 - share) * h > near)) return false;
   if (in->events_left == 0) {

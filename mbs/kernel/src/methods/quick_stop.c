@@ -94,6 +94,9 @@ static bool divided(ali3_instance *in, double h, int32_t iterations) {
 
 bool ali3_divides_ahead(ali3_instance *in, double h) { return divided(in, h, ENOUGH); }
 
+/* A change over the largest one that is not divided; where nothing changes there may be no force. */
+static double over(double change, double largest) { return change > 0.0 ? change / largest : 0.0; }
+
 /* A load is measured by the largest load there was, other forces by the largest force. */
 bool ali3_divides(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
@@ -108,9 +111,9 @@ bool ali3_divides(ali3_instance *in, double h) {
   }
   in->changed = fmax(fmax(most[TYRE], most[CONTACT]), most[STOP]);
   largest_force = fmax(largest_force, largest_load);
-  const double load = most[TYRE] > 0.0 ? most[TYRE] / (ABRUPT * largest_load) : 0.0,
-               force = most[CONTACT] > 0.0 ? most[CONTACT] / (most_change(in, CONTACT_RATE) * largest_force) : 0.0;
-  const double stop = most[STOP] > 0.0 ? most[STOP] / (most_change(in, STOP_RATE) * largest_force) : 0.0;
+  const double load = over(most[TYRE], ABRUPT * largest_load),
+               force = over(most[CONTACT], most_change(in, CONTACT_RATE) * largest_force),
+               stop = over(most[STOP], most_change(in, STOP_RATE) * largest_force);
   in->report.change_rate = fmax(fmax(load, force), stop) / h;
   return divided(in, h, in->report.last_iterations);
 }

@@ -57,17 +57,22 @@ ALI3_INLINED bool closed(const ali3_system *S, const double *Phi, double toleran
 
 ALI3_BY_PROCESSOR(S, bool, closed, (const ali3_system *S, const double *Phi, double tolerance), (S, Phi, tolerance))
 
-/* The same where rows may be open by what the squares of the present coordinates cannot resolve, which may be far from
- * where they were drawn. */
+/* The sum of the sizes of row k's terms. */
+double ali3_row_sum(const ali3_system *S, int32_t k, const double *q) {
+  double sum = fabs(S->row_const[k]);
+  for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) sum += fabs(S->row_lin[i] * q[S->row_col[i]]);
+  for (int32_t t = S->quad_ptr[k]; t < S->quad_ptr[k + 1]; t++)
+    sum += fabs(S->quad[t].h * q[S->quad[t].a] * q[S->quad[t].b]);
+  return sum;
+}
+
+/* As ali3_closed, where rows may be open by what the squares of the present coordinates cannot resolve, which may be far
+ * from where they were drawn. */
 bool ali3_closed_here(const ali3_system *S, const double *Phi, const double *q, double tolerance) {
   for (int32_t k = 0; k < S->size.nc; k++) {
     const double open = fabs(Phi[k]) * S->row_measure[k] - tolerance;
     if (open <= S->row_round[k]) continue;
-    double sum = fabs(S->row_const[k]);
-    for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) sum += fabs(S->row_lin[i] * q[S->row_col[i]]);
-    for (int32_t t = S->quad_ptr[k]; t < S->quad_ptr[k + 1]; t++)
-      sum += fabs(S->quad[t].h * q[S->quad[t].a] * q[S->quad[t].b]);
-    if (!(open <= 4.0 * DBL_EPSILON * S->row_measure[k] * sum)) return false;
+    if (!(open <= 4.0 * DBL_EPSILON * S->row_measure[k] * ali3_row_sum(S, k, q))) return false;
   }
   return true;
 }

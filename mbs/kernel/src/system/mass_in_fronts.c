@@ -1,4 +1,5 @@
 /* A mass matrix as the start of a tangent, and its diagonal. */
+#include <math.h>
 #include <string.h>
 
 #include "../system.h"
@@ -49,9 +50,9 @@ void ali3_mass_in_fronts(const ali3_system *s, const double *val, double *front,
     }
   }
   /* what has no mass is an angle, whose lever is that of the drawing */
-  const double mean = positive > 0 ? sum / positive : 1.0, lever = s->fine * s->fine, typical = lever * mean;
+  const double mean = positive > 0 ? sum / positive : 1.0, typical = s->fine * s->fine * mean;
   for (int32_t i = 0; i < nq; i++) {
-    const bool massless = !(floor[i] > 1e-12 * (lever < 1.0 ? typical : mean));
+    const bool massless = !(floor[i] > 1e-12 * fmin(typical, mean));
     missing[i] = massless ? typical : 0.0;
     if (massless) floor[i] = typical;
   }

@@ -5,6 +5,7 @@
 
 #include "../algebra/processor.h"
 #include "../elements/element.h"
+#include "../rows/violation.h"
 #include "../system.h"
 #include "../tree/tree.h"
 #include "check.h"
@@ -183,14 +184,11 @@ static double largest_of_row(const ali3_system *s, int32_t k) {
 static void derive_round(ali3_system *s) {
   for (int32_t k = 0; k < s->size.nc; k++) {
     const double largest = largest_of_row(s, k);
-    double sum = fabs(s->row_const[k]), most = sum;
-    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) sum += fabs(s->row_lin[i] * s->q0[s->row_col[i]]);
-    for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++)
-      sum += fabs(s->quad[t].h * s->q0[s->quad[t].a] * s->q0[s->quad[t].b]);
+    double most = fabs(s->row_const[k]);
     for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) most += fabs(s->row_lin[i]) * largest;
     for (int32_t t = s->quad_ptr[k]; t < s->quad_ptr[k + 1]; t++) most += fabs(s->quad[t].h) * largest * largest;
     const double unit = 4.0 * DBL_EPSILON * s->row_measure[k];
-    s->row_round[k] = unit * most > DECIDES ? unit * most : unit * sum;
+    s->row_round[k] = unit * most > DECIDES ? unit * most : unit * ali3_row_sum(s, k, s->q0);
   }
   for (int64_t i = 0; i < s->n_velocity_row; i++) s->row_round[s->velocity_row[i]] = 0.0; /* no positions in it */
   s->fine = s->n_fineness > 0 ? s->fineness[0] : 1.0;
