@@ -9,19 +9,7 @@ from ali3.scene.scene_columns import columns_of
 from ali3.scene.scene_parts import frames_of
 from fmu_src.variables.variables import Variable
 
-_COLUMNS = (
-    "position",
-    "quaternion",
-    "amplitudes",
-    "angle",
-    "way",
-    "value",
-    "computed",
-    "vector",
-    "tyre",
-    "variables",
-    "gauges",
-)
+_COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "computed", "vector", "tyre", "variables")
 
 
 def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
@@ -43,20 +31,20 @@ def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) 
         key: [p for p in scene[key] if not (odd.intersection(columns_of(p)) or lost.intersection(frames_of(p)))]
         for key in ("shapes", "arrows", "flexible")
     } | {"roads": scene["roads"]}
-    kept["flexible"] = [_in_si(part, odd) for part in kept["flexible"]]
     called = {key: [_called(part, named) for part in parts] for key, parts in kept.items()}
     called["arrows"] = [
         arrow | _slips(ours, named) for arrow, ours in zip(called["arrows"], kept["arrows"], strict=True)
     ]
+    called["flexible"] = [part | _gauges(part, named, odd) for part in called["flexible"]]
     focus = "" if scene["focus"] in lost else scene["focus"]
     return {**scene, **called, "frames": made, "missing": missing, "focus": focus}
 
 
-def _in_si(part: Mapping[str, Any], odd: set[str]) -> Mapping[str, Any]:
-    """A flexible part without the gauges whose columns are not in SI units."""
+def _gauges(part: Mapping[str, Any], named: Mapping[str, Variable], odd: set[str]) -> dict[str, Any]:
+    """The gauges of a flexible part with their columns as they are called; SI units only."""
     if "gauges" not in part:
-        return part
-    return {**part, "gauges": [gauge for gauge in part["gauges"] if gauge["value"] not in odd]}
+        return {}
+    return {"gauges": [_called(gauge, named) for gauge in part["gauges"] if gauge["value"] not in odd]}
 
 
 def _slips(arrow: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:

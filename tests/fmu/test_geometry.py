@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from ali3.scene.scene_columns import all_columns
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.geometry.geometry import geometry, lost_frames
+from fmu_src.geometry.other_columns import with_other_columns
 from fmu_src.geometry.posed import PosesError, posed_systems
 from fmu_src.variables.variables import variable_table
 from hosts.fmu.fmu import described
@@ -203,6 +205,16 @@ def test_a_car_is_drawn_with_its_stress_by_default_and_without_the_poses_of_its_
     assert set(all_columns(scene)) <= set(names)
     assert {gauge["value"] for gauge in part["gauges"]} <= set(plain)
     assert scene_of(systems["wheels"])["flexible"] == []
+
+
+def test_gauges_under_other_names_read_what_is_called_so_and_are_left_out_in_other_units() -> None:
+    system = posed_systems({0: load("prototype").model}, 0, None)[0]
+    scene, table = scene_of(system), {v.name: v for v in variable_table(system.meta, pose=False, step_size=0.01)}
+    first, second, *others = scene["flexible"][0]["gauges"]
+    named = {first["value"]: replace(table[first["value"]], name="Sensor.1"), first["name"]: table["speed"]}
+    named[second["value"]] = replace(table[second["value"]], name="Sensor.2", scale=1e-6)
+    gauges = with_other_columns(scene, named)["flexible"][0]["gauges"]
+    assert gauges == [first | {"value": "Sensor.1"}, *others]
 
 
 @pytest.mark.slow

@@ -253,6 +253,8 @@ def test_a_lower_quality_has_fewer_calls_and_triangles_and_shows_the_same_place(
         few < 0.7 * many for some, more in ((low, medium), (draft, low)) for few, many in zip(some, more, strict=True)
     )
     assert np.abs(pictures[2] - pictures[1]).mean() < 20
+    drawn.ask("view.set({ quality: 'low' })")
+    assert np.abs(drawn.picture() - pictures[2]).max() <= 2, "back to the picture of before"
 
 
 def test_what_is_driven_is_drafted_by_the_processor_and_only_that(drawn, car):

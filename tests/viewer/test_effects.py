@@ -76,7 +76,7 @@ def run(drawn: Any, kind: str, surface: str, slip: Any, end: float = 12.0, quali
     return int(count)
 
 
-@pytest.mark.parametrize("quality", ["draft", pytest.param("medium", marks=pytest.mark.proof)])  # low is drawn below
+@pytest.mark.parametrize("quality", ["draft", pytest.param("medium", marks=pytest.mark.proof)])  # medium is drawn below
 def test_a_locked_wheel_draws_a_dark_strip_where_it_slid(drawn, quality):
     run(drawn, "TyreMarks", "concrete", lambda x: -1.0 if x > 9.0 else 0.0, quality=quality)
     picture = drawn.picture()

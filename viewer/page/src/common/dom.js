@@ -62,7 +62,7 @@ export function named(names) {
   return names.map((name) => [name, name]);
 }
 
-/** Write a text, where it is another one. @param {HTMLElement} element @param {string} text */
+/** Write a text, where it is another one. @param {Element} element @param {string} text */
 export function write(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }

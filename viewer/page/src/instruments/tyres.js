@@ -1,5 +1,5 @@
 // The four tyres from above: load as the size of a circle, forces in the plane as an arrow, use of friction as colour.
-import { svg, whole } from "../common/dom.js";
+import { svg, whole, write } from "../common/dom.js";
 
 /** Half the side of the drawing, and radius of a circle at the mean load of a wheel at rest, in its units. */
 const [HALF, RADIUS] = [50, 13];
@@ -76,8 +76,8 @@ export class Tyres {
     circle.setAttribute("r", (RADIUS * Math.sqrt(Math.min(ratio, 3))).toFixed(1));
     circle.setAttribute("fill", Number.isFinite(most) ? useColour(item.use) : UNKNOWN);
     const slip = lookup(`${name}.slip`);
-    words[0].textContent = `${(load / 1e3).toFixed(1)} kN`;
-    words[1].textContent = Number.isFinite(slip) ? `${whole(100 * slip)} %` : "";
+    write(words[0], `${(load / 1e3).toFixed(1)} kN`);
+    write(words[1], Number.isFinite(slip) ? `${whole(100 * slip)} %` : "");
     const scale = this._mean > 0 ? (1.6 * RADIUS) / this._mean : 0;
     const [dx, dy] = turned([-fy * scale, -fx * scale], lookup(`${name}.steer`) || 0);
     arrow.setAttribute("d", Math.hypot(dx, dy) < 1.5 ? "" : arrowPath(x, y, dx, dy));

@@ -103,6 +103,11 @@ export function gamepadPanel(gamepad, inputs) {
   };
 }
 
+/** The choice of how finely a picture is drawn. @param {(wish: string) => void} work @param {string} [value] chosen at first */
+export function qualityChoice(work, value = "auto") {
+  return select("quality", "how finely the picture is drawn", QUALITIES.map((level) => [level, `quality ${level}`]), work, value); // prettier-ignore
+}
+
 /**
  * What the pictures show beside shapes.
  * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean, closed?: boolean}[]} has - What each picture can.
@@ -110,13 +115,12 @@ export function gamepadPanel(gamepad, inputs) {
  * @param {string} [quality] - That is chosen at first.
  * @returns {HTMLElement}
  */
-export function picturePanel(has, set, quality = "auto") {
+export function picturePanel(has, set, quality) {
   const can = (what) => has.some((one) => one[what]);
-  const levels = QUALITIES.map((level) => [level, `quality ${level}`]);
   /** @type {Object<string, HTMLInputElement>} */
   const boxes = {};
   /** @type {HTMLElement[]} */
-  const lines = [select("quality", "how finely the picture is drawn", levels, (wish) => set({ quality: wish }), quality)];
+  const lines = [qualityChoice((wish) => set({ quality: wish }), quality)];
   for (const what of ["arrows", "stress", "closed"]) {
     if (!can(what)) continue;
     const box = el("input", { type: "checkbox", checked: what === "closed", data: `show ${what}` });

@@ -28,18 +28,18 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
   const group = new THREE.Group();
-  const make = (level, light) => {
-    const { ground, paint } = level === "draft" ? materials.drafted(light) : materials;
-    const rough = level === "low" || level === "draft";
-    const land = field === null ? null : (rough ? coarseTerrain : terrain)(ground, axes, field);
-    return versionOf(land, makeScenery(things, { axes, paint, ground: field, drafted: rough }), level === "draft" ? [ground, paint] : []);
+  const make = (rough) => {
+    const land = field === null ? null : (rough ? coarseTerrain : terrain)(materials.ground, axes, field);
+    return versionOf(land, makeScenery(things, { axes, paint: materials.paint, ground: field, drafted: rough }));
   };
   const made = {};
-  let shown = null;
-  /** Show the world at a level, each made when it is first seen. @param {string} level @param {Data} light of a draft */
+  let [shown, drafted] = [null, null];
+  /** Show the world at a level, fine or rough, each made when it is first seen. @param {string} level @param {Data} light of a draft */
   const show = (level, light) => {
-    const like = level === "medium" ? "high" : level;
-    shown = made[like] ??= make(like, light);
+    const rough = level === "low" || level === "draft";
+    shown = made[rough ? "rough" : "fine"] ??= make(rough);
+    if (level === "draft") drafted ??= materials.drafted(light);
+    if (rough && drafted !== null) dress(shown.group, level === "draft" ? [materials, drafted] : [drafted, materials]);
     group.clear().add(shown.group);
   };
   return {
@@ -59,14 +59,22 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     },
     dispose() {
       for (const version of Object.values(made)) version.dispose();
-      for (const material of [materials.ground, materials.paint]) material.dispose();
+      for (const pair of [materials, drafted]) for (const what of ["ground", "paint"]) pair?.[what].dispose();
       cover.texture.dispose();
     },
   };
 }
 
+/** Other materials of ground and paint. @param {THREE.Group} group @param {Data[]} pair those that it has, and those that it gets */
+function dress(group, [now, then]) {
+  group.traverse((/** @type {THREE.Mesh} */ part) => {
+    if (part.material === now.ground) part.material = then.ground;
+    else if (part.material === now.paint) part.material = then.paint;
+  });
+}
+
 /** Ground and scenery of one quality. */
-function versionOf(land, scenery, materials) {
+function versionOf(land, scenery) {
   return {
     group: new THREE.Group().add(...(land === null ? [] : [land.group]), scenery.group),
     follow(origin, eye) {
@@ -76,7 +84,6 @@ function versionOf(land, scenery, materials) {
     dispose() {
       land?.dispose();
       scenery.dispose();
-      for (const material of materials) material.dispose();
     },
   };
 }

@@ -294,9 +294,10 @@ export class Player {
 
   #controls() {
     this.#head();
-    const names = new Set(Object.keys(this.runs[Math.max(0, this.solid)].columns));
-    if (this.solid >= 0 && !this.problem && Instruments.of(names)) {
-      this.instruments = new Instruments(names, { scene: this.runs[this.solid].scene });
+    const { scene, columns = {} } = this.runs[this.solid] ?? {};
+    const names = new Set(Object.keys(columns));
+    if (!this.problem && Instruments.of(names)) {
+      this.instruments = new Instruments(names, { scene });
       this.viewBox.append(this.instruments.layer());
     }
     this.barBox = el("div.ali3-bar");

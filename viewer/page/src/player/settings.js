@@ -1,6 +1,6 @@
 // The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
 import { QUALITIES } from "../looks/pace.js";
-import { el } from "../common/dom.js";
+import { el, named, select } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
 /** The panel. */
@@ -66,9 +66,10 @@ export class Settings {
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
     this.shown.loop = check(hint("loop"), player.clock.loop, (loop) => player.loop(loop));
     if (player.solid >= 0) {
-      const quality = el("select", { "aria-label": "quality of the picture", onchange: () => player.set({ quality: quality.value }) });
-      quality.append(...QUALITIES.map((name) => el("option", { value: name }, name)));
-      rows.push(el("span", {}, "quality of the picture"), quality, el("span"));
+      const text = "quality of the picture";
+      const quality = select("quality", text, named(QUALITIES), (wish) => player.set({ quality: wish }), player.options.quality ?? "auto");
+      this.shown.quality = (wish) => (quality.value = wish);
+      rows.push(el("span", {}, text), quality, el("span"));
     }
     const theme = el("select", { "aria-label": "colours of the page", onchange: () => player.theme(theme.value) });
     theme.append(...["auto", "light", "dark"].map((name) => el("option", { value: name }, name)));

@@ -64,13 +64,13 @@ export class Marks {
       if (from === null || Math.hypot(clientX - from[0], clientY - from[1]) > STILL) return;
       const { left, top } = canvas.getBoundingClientRect();
       this.pick(clientX - left, clientY - top);
-      this.place();
     });
   }
 
   /** Choose what is drawn at a pixel of the picture; nothing takes the words away. @returns {string[]} its name and numbers */
   pick(x, y) {
     this.#picked = this.#hit(x, y);
+    this.place();
     return this.#picked?.lines() ?? [];
   }
 
@@ -132,22 +132,26 @@ export class Marks {
     const at = rotate(transpose(parts.frames.pose(frame).rotation), subtract(point, parts.frames.pose(frame).position));
     const body = parts.flexible.find(({ object }) => object === hit.object);
     const beam = body?.tubes.beamAt(hit.faceIndex) ?? -1;
-    return { frame, at, lines: () => (beam >= 0 ? tubeWords(body.bending, beam, [0, 1]) : this.#bodyWords(frame)) };
+    return { frame, at, lines: beam >= 0 ? () => tubeWords(body.bending, beam, [0, 1]) : this.#bodyWords(frame) };
   }
 
-  /** A body with its place and the forces on it. */
+  /** A body with its place and the forces on it, at each time. @param {string} frame @returns {() => string[]} */
   #bodyWords(frame) {
-    const { scene, parts, lookup } = this.view;
-    const { position } = parts.frames.pose(frame);
-    const place = `at ${position.map((x) => x.toFixed(3)).join(", ")} m`;
-    if (lookup === null) return [frame, place];
+    const { scene, parts } = this.view;
     const tyres = new Map(tyresOf(scene).map(({ tyre, shape }) => [tyre, shape?.frame]));
     const acts = ({ at, between = [], tyre }) => at?.[0] === frame || between.some(([name]) => name === frame) || tyres.get(tyre) === frame;
-    const forces = (scene.arrows ?? []).filter(acts).flatMap((arrow) => {
-      const found = forcesOf(arrow, parts.frames, lookup);
-      return typeof found === "string" || found.length === 0 ? [] : [`${arrow.name}: ${worded(length(found[0].vector), arrow.unit ?? "N")}`];
-    });
-    return [frame, place, ...forces].slice(0, LINES);
+    const arrows = (scene.arrows ?? []).filter(acts);
+    return () => {
+      const { lookup } = this.view;
+      const { position } = parts.frames.pose(frame);
+      const place = `at ${position.map((x) => x.toFixed(3)).join(", ")} m`;
+      if (lookup === null) return [frame, place];
+      const forces = arrows.flatMap((arrow) => {
+        const found = forcesOf(arrow, parts.frames, lookup);
+        return typeof found === "string" || found.length === 0 ? [] : [`${arrow.name}: ${worded(length(found[0].vector), arrow.unit ?? "N")}`];
+      });
+      return [frame, place, ...forces].slice(0, LINES);
+    };
   }
 }
 

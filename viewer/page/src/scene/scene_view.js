@@ -260,9 +260,7 @@ export class SceneView {
    * @returns {string[]} empty where nothing moves
    */
   pick(x, y) {
-    const words = this.problem ? [] : this.marks.pick(x, y);
-    this.marks?.place();
-    return words;
+    return this.problem ? [] : this.marks.pick(x, y);
   }
 
   /** Width and height of what is drawn; the page stretches it to its picture. @returns {number[]} */

@@ -1,7 +1,7 @@
 // What one can do with the run: pause, step, slow motion, rewind, set upright, begin again, go to a place.
-import { QUALITIES } from "../looks/pace.js";
 import { button, el, select, write } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
+import { qualityChoice } from "../live/panel.js";
 
 /** Simulated seconds per second of the clock. */
 const SPEEDS = [[1, "× 1"], [0.5, "× 1/2"], [0.25, "× 1/4"], [0.1, "× 1/10"]]; // prettier-ignore
@@ -22,7 +22,7 @@ export class Controls {
     this._saved.addEventListener("input", () => this._showFar());
     this._saved.addEventListener("change", () => this._rewind(act));
     this._camera = select("camera", `camera: ${hint("next camera")}`, cameras.map((name) => [name, name]), act.camera); // prettier-ignore
-    this._quality = select("quality", "how finely the picture is drawn", QUALITIES.map((q) => [q, `quality ${q}`]), act.quality); // prettier-ignore
+    this._quality = qualityChoice(act.quality);
     this._sound = button("mute", "Sound on", act.mute, hint("mute"));
     const spots = places.map(({ name }) => [name, name.replaceAll("_", " ")]);
     this._place = select("place", "begin at a place of the world", [["", "places …"], ...spots], (name) => this._go(act, name));
