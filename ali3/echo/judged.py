@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -68,6 +69,8 @@ class Echo:
     mistakes: Sequence[Mistake] = ()
     kind: str = WIDEST
     """Key of the ranges."""
+    title: str = ""
+    """Of its table, where a file has several."""
 
     @property
     def outside(self) -> list[Value]:
@@ -130,6 +133,11 @@ class Echo:
         for group in _sharing(left):
             told.append(self._sentence(group, ""))
         return told
+
+    def warn(self, category: type[Warning], stacklevel: int = 2) -> None:
+        """Warn with each of the sentences. `stacklevel`: 1 is who calls this."""
+        for sentence in self.warnings():
+            warnings.warn(sentence, category, stacklevel=stacklevel + 1)
 
     def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
         """Which of some values it brings inside; none where one that follows from what it changes is outside."""
