@@ -12,7 +12,7 @@ from ali3.columns import in_columns
 from ali3.echo.quantity import WIDEST, Quantity
 
 ROUNDING = 1e-9  # of the range
-MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST = 3, 2, 1, 4
+MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 2, 1, 4, 10
 
 
 @dataclass(frozen=True)
@@ -78,12 +78,15 @@ class Echo:
         return [v for v in self.values if not v.inside(self.kind)]
 
     def text(self) -> str:
-        """The table: a row for each quantity, with its values, the usual range, and a mark at what lies outside."""
+        """The table: a row for each quantity, with its values, of many the ends, the usual range, and a mark outside."""
         lines = [("quantity", "value", "usual", "")]
         for q in dict.fromkeys(v.quantity for v in self.values):
             own = [v for v in self.values if v.quantity is q]
             unit = "" if q.unit == "1" else f" {q.unit}"
             given = ", ".join(f"{v.of} {v.value:.4g}".strip() for v in own) + unit
+            if len(own) > MOST_SHOWN:
+                ends = (pick(own, key=lambda v: v.value) for pick in (min, max))
+                given = f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(own)}"
             mark = "" if all(v.inside(self.kind) for v in own) else "<- outside"
             lines.append((q.name, given, _range(q, self.kind), mark))
         return "\n".join(in_columns(lines))

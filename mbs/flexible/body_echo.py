@@ -66,11 +66,9 @@ def model_echo(
 
 @echo_of.register
 def reduced_echo(body: ReducedBody) -> list[Echo]:
-    """What was understood of a reduced body; its frequencies are those of its modes."""
-    own = body.masses @ (body.mass_positions + body.origin)
-    values = partial(
-        _values, body.node_positions + body.origin, body.masses, own, _free(body), _supported(body), {}, 0.0
-    )
+    """What was understood of a reduced body, from its reference node; its frequencies are those of its modes."""
+    moment = body.masses @ body.mass_positions
+    values = partial(_values, body.node_positions, body.masses, moment, _free(body), _supported(body), {}, 0.0)
     return [_echo("", values)]
 
 
@@ -101,7 +99,7 @@ def _values(
     size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
     mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_three(sides)} m"}
     found = [Value(QUANTITIES["mass"], total, mass), Value(QUANTITIES["size"], size, nodes)]
-    for name, three in (("extent", sides), ("centre", centre)):
+    for name, three in (("extent", sides), ("centre", np.round(centre, 9) + 0.0)):
         found += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", three, strict=True)]
     volume = units.length**3 * _hull(x)
     if volume > 0.0:

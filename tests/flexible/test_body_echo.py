@@ -81,7 +81,12 @@ def test_units_of_a_whole_model_are_told(body: str) -> None:
 
 def test_a_mass_that_is_known_tells_what_the_matrices_cannot() -> None:
     model = straight(4).finite_element_model()
-    for factor, words in ((1e3, "g in place of kg"), (1e-3, "t in place of kg"), (1.0 / 0.45359237, "pounds"), (1.5, "")):
+    for factor, words in (
+        (1e3, "g in place of kg"),
+        (1e-3, "t in place of kg"),
+        (1.0 / 0.45359237, "pounds"),
+        (1.5, ""),
+    ):
         with pytest.warns(FlexibleWarning, match="over that given beside it") as told:
             external_model(model.K, factor * model.mass_matrix(), model.positions, total_mass=model.mass.masses.sum())
         assert (words in str(told[0].message)) if words else ("would explain" not in str(told[0].message))
