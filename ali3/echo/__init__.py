@@ -2,12 +2,25 @@
 
 A reader gives an `Echo`: values of its quantities of the table (`quantities.csv`, a line each), each with the keys that
 it follows from, and the common mistakes of its kind of file with what the values are without each. `Echo.warnings`
-compares, `Echo.text` prints.
+compares, `Echo.text` prints. What a reader returns is `Understood`: its `summary()` is the table.
 """
 
 from __future__ import annotations
 
 from ali3.echo.judged import Echo, Mistake, Value
 from ali3.echo.quantity import WIDEST, Quantity, Range, quantities_of
+from ali3.echo.understood import Understood, echo_of, summary_of, tables_of
 
-__all__ = ["WIDEST", "Echo", "Mistake", "Quantity", "Range", "Value", "quantities_of"]
+__all__ = [
+    "WIDEST",
+    "Echo",
+    "Mistake",
+    "Quantity",
+    "Range",
+    "Understood",
+    "Value",
+    "echo_of",
+    "quantities_of",
+    "summary_of",
+    "tables_of",
+]

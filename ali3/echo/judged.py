@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -11,7 +12,7 @@ from ali3.columns import in_columns
 from ali3.echo.quantity import WIDEST, Quantity
 
 ROUNDING = 1e-9  # of the range
-MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST = 3, 2, 1, 4
+MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 2, 1, 4, 10
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,8 @@ class Echo:
     mistakes: Sequence[Mistake] = ()
     kind: str = WIDEST
     """Key of the ranges."""
+    title: str = ""
+    """Of its table, where a file has several."""
 
     @property
     def outside(self) -> list[Value]:
@@ -75,12 +78,15 @@ class Echo:
         return [v for v in self.values if not v.inside(self.kind)]
 
     def text(self) -> str:
-        """The table: a row for each quantity, with its values, the usual range, and a mark at what lies outside."""
+        """The table: a row for each quantity, with its values, of many the ends, the usual range, and a mark outside."""
         lines = [("quantity", "value", "usual", "")]
         for q in dict.fromkeys(v.quantity for v in self.values):
             own = [v for v in self.values if v.quantity is q]
             unit = "" if q.unit == "1" else f" {q.unit}"
             given = ", ".join(f"{v.of} {v.value:.4g}".strip() for v in own) + unit
+            if len(own) > MOST_SHOWN:
+                ends = (pick(own, key=lambda v: v.value) for pick in (min, max))
+                given = f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(own)}"
             mark = "" if all(v.inside(self.kind) for v in own) else "<- outside"
             lines.append((q.name, given, _range(q, self.kind), mark))
         return "\n".join(in_columns(lines))
@@ -130,6 +136,11 @@ class Echo:
         for group in _sharing(left):
             told.append(self._sentence(group, ""))
         return told
+
+    def warn(self, category: type[Warning], stacklevel: int = 2) -> None:
+        """Warn with each of the sentences. `stacklevel`: 1 is who calls this."""
+        for sentence in self.warnings():
+            warnings.warn(sentence, category, stacklevel=stacklevel + 1)
 
     def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
         """Which of some values it brings inside; none where one that follows from what it changes is outside."""

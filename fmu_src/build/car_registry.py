@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -37,7 +37,13 @@ class BuiltCar:
     """As `grip_of` gives it."""
 
 
-def build_car(car: str, poses: str | None = None, ports: str | None = None, fidelity: float | None = None) -> BuiltCar:
+def build_car(
+    car: str,
+    poses: str | None = None,
+    ports: str | None = None,
+    fidelity: float | None = None,
+    tell: Callable[[str], object] = str,
+) -> BuiltCar:
     """Read a car and compile it.
 
     Parameters
@@ -52,6 +58,8 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
     fidelity : float, optional
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
         all that an FMU offers.
+    tell : callable
+        As `fmu_src.geometry.posed.posed_systems` takes it.
 
     Raises
     ------
@@ -71,7 +79,7 @@ def build_car(car: str, poses: str | None = None, ports: str | None = None, fide
         makers: Mapping[Any, Maker] = made.fidelities()
         if fidelity is not None:
             makers = {0: partial(made.model, None, only)}
-        systems = posed_systems(makers, min(makers), poses)
+        systems = posed_systems(makers, min(makers), poses, tell)
     except (ValueError, RuntimeError) as error:
         raise SceneError(f"{where}: {error}") from error
     except (ArithmeticError, LookupError) as error:

@@ -207,12 +207,14 @@ def _compiled(
     options: argparse.Namespace, line: ProgressLine
 ) -> tuple[str, Mapping[int, System], int, str, Mapping[str, bytes]]:
     """Name, Systems by fidelity, default fidelity, description and files of the car or the scene."""
+    tables: list[str] = []
     if options.car is not None:
         from fmu_src.build.car_registry import build_car, car_words
 
         print(f"car {car_words(options.car)} ...", flush=True)
         with line.told("compiling the car"):
-            car = build_car(options.car, options.poses, options.ports, options.fidelity)
+            car = build_car(options.car, options.poses, options.ports, options.fidelity, tables.append)
+        print("".join(f"{table}\n" for table in tables), end="", flush=True)
         _tell_grip(car.grip)
         return car.name, car.systems, min(car.systems), car.description, car.files
     from fmu_src.build.car_registry import grip_of
@@ -220,7 +222,8 @@ def _compiled(
 
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
-        compiled = load_fidelities(options.scene, options.poses)
+        compiled = load_fidelities(options.scene, options.poses, tables.append)
+    print("".join(f"{table}\n" for table in tables), end="", flush=True)
     if (scene_car := car_of_scene(options.scene)) is not None:
         _tell_grip(grip_of(scene_car))
     return (*compiled, "", {})

@@ -56,13 +56,15 @@ def load_scene(scene: str) -> tuple[str, mbs.System]:
         return name, _system(scene, build)
 
 
-def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int, mbs.System], int]:
+def load_fidelities(
+    scene: str, poses: str | None = None, tell: Callable[[str], object] = str
+) -> tuple[str, dict[int, mbs.System], int]:
     """Build and compile a scene in all the fidelities it offers.
 
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
-    default of its argument `fidelity`. `scene`: as for `load_scene`; `poses`: as `fmu_src.geometry.posed.posed_systems`
-    takes it.
+    default of its argument `fidelity`. `scene`: as for `load_scene`; `poses`, `tell`: as
+    `fmu_src.geometry.posed.posed_systems` takes them.
 
     Returns
     -------
@@ -76,7 +78,7 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
         module = sys.modules[build.__module__]
         offered = getattr(module, "fidelities", None)
         if not callable(offered) or build.__name__ != "build":
-            return name, posed_systems({0: lambda: _built(scene, build)}, 0, poses), 0
+            return name, posed_systems({0: lambda: _built(scene, build)}, 0, poses, tell), 0
         makers = offered()
         numbers = sorted(makers)
         if numbers != list(range(len(makers))):
@@ -85,7 +87,8 @@ def load_fidelities(scene: str, poses: str | None = None) -> tuple[str, dict[int
                 "on."
             )
         default = inspect.signature(build).parameters["fidelity"].default
-        return name, posed_systems({k: makers[k] for k in numbers}, int(default), poses), int(default)
+        systems = posed_systems({k: makers[k] for k in numbers}, int(default), poses, tell)
+        return name, systems, int(default)
 
 
 def car_of_scene(scene: str) -> Car | None:

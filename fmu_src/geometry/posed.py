@@ -20,7 +20,9 @@ class PosesError(ValueError):
     """Poses that cannot be outputs; the message is for the user."""
 
 
-def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) -> dict[int, mbs.System]:
+def posed_systems(
+    makers: Mapping[Any, Maker], default: int, poses: str | None, tell: Callable[[str], object] = str
+) -> dict[int, mbs.System]:
     """Compile the models of an FMU.
 
     Parameters
@@ -32,6 +34,8 @@ def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) 
     poses : {"wheels", "all"} or None
         After all other outputs, "all": the pose of every body and the amplitudes of what bends; None: these
         amplitudes, and poses where something would not be drawn without them.
+    tell : callable
+        Hears what was understood of the flexible bodies of the most flexible model, where it has some.
 
     Returns
     -------
@@ -47,12 +51,20 @@ def posed_systems(makers: Mapping[Any, Maker], default: int, poses: str | None) 
         raise PosesError(f"There are no poses '{poses}'; they are {' or '.join(POSES)}.")
     outputs: Outputs | None = {"wheels": None, None: bending_outputs, "all": pose_outputs}[poses]
     needed = poses == "all"
-    first = _compiled(makers[default](), outputs, needed)
+    most = max(makers)
+
+    def compiled(k: Any, outputs: Outputs | None, needed: bool) -> mbs.System:
+        made = makers[k]()
+        if k == most and isinstance(made, mbs.Model) and (table := made.summary()):
+            tell(table)
+        return _compiled(made, outputs, needed)
+
+    first = compiled(default, outputs, needed)
     if poses is None and lost_frames(first):
         posed = _compiled(makers[default](), pose_outputs, needed=False)
         needed = len(posed.meta["sensors"]) > len(first.meta["sensors"])
         outputs, first = pose_outputs, posed
-    return {k: first if k == default else _compiled(make(), outputs, needed) for k, make in makers.items()}
+    return {k: first if k == default else compiled(k, outputs, needed) for k in makers}
 
 
 def _compiled(made: mbs.Model | mbs.System, outputs: Outputs | None, needed: bool) -> mbs.System:

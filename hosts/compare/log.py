@@ -10,6 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
+from ali3.echo import Understood
 from ali3.near_names import did_you_mean
 from ali3.units import known_unit
 from ali3.words import brief
@@ -64,7 +65,7 @@ class Signal:
 
 
 @dataclass(frozen=True)
-class Log:
+class Log(Understood):
     """Signals by our names."""
 
     inputs: dict[str, Signal]

@@ -16,8 +16,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Echo, Mistake, Value, quantities_of
-from hosts.compare.log import Signal
+from ali3.echo import Echo, Mistake, Value, echo_of, quantities_of
+from hosts.compare.log import Log, Signal
 
 Array: TypeAlias = NDArray[np.float64]
 Signals: TypeAlias = Mapping[str, Signal]
@@ -331,3 +331,8 @@ def _jumps(signals: Sequence[Signal]) -> int:
         for t in s.time[1:][(steps > 30.0 * usual) & (steps > 5.0 * near)].tolist():
             times[t] = times.get(t, 0) + 1
     return sum(count > 0.6 * len(moved) for count in times.values())
+
+
+@echo_of.register
+def _echo_of_log(log: Log) -> list[Echo]:
+    return [log_echo("", log.outputs)]

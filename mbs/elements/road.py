@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ali3.echo import Understood
 from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, shown, vector, whole
 from mbs.common.errors import ModelError
 from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, declared, reals_of
@@ -41,7 +42,7 @@ class _NamedNumbers(ABC):
 
 
 @dataclass(frozen=True)
-class PlaneRoad(_NamedNumbers):
+class PlaneRoad(Understood, _NamedNumbers):
     """Plane z = height + grade_x x + grade_y y."""
 
     height: Number = 0.0
@@ -62,7 +63,10 @@ class PlaneRoad(_NamedNumbers):
 
 @dataclass(frozen=True)
 class KerbRoad(
-    _NamedNumbers, order=("position", "lower_height", "step", "side", "friction", "friction_factor"), side=not_zero
+    Understood,
+    _NamedNumbers,
+    order=("position", "lower_height", "step", "side", "friction", "friction_factor"),
+    side=not_zero,
 ):
     """Step along y between two levels; its edge is met by the wheel as a disc."""
 
@@ -86,7 +90,7 @@ class KerbRoad(
 
 
 @dataclass(frozen=True)
-class GridRoad:
+class GridRoad(Understood):
     """Heights and frictions on a regular grid; C1 bicubic in between, the border goes on outside."""
 
     origin: Sequence[float]
@@ -155,7 +159,7 @@ class PortRoad:
 Road = PlaneRoad | KerbRoad | GridRoad | PortRoad
 
 
-class RoadOfFile(ABC):
+class RoadOfFile(Understood, ABC):
     """A road that the kernel reads from a file while it runs, as a model sees it: `mbs.roads.RoadFile` is one."""
 
     path: str | os.PathLike[str]

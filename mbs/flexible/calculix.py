@@ -19,15 +19,20 @@ from mbs.flexible.foreign_file import LARGEST, read_foreign
 from mbs.flexible.matrix_files import external_model
 
 
-def read_calculix(deck: str | Path) -> FiniteElementModel:
+def read_calculix(deck: str | Path, *, total_mass: float | None = None) -> FiniteElementModel:
     """Model of solid elements from ``name.inp`` and the files ``name.sti``, ``.mas`` and ``.dof`` beside it.
 
     The deck must have no supports and SI units; nodes keep their numbers as names and have three translations.
 
+    Parameters
+    ----------
+    total_mass : float, optional
+        As of `external_model`.
+
     Returns
     -------
     FiniteElementModel
-        Of the nodes that have freedoms.
+        Of the nodes that have freedoms; checked, and told of, as by `external_model`.
 
     Raises
     ------
@@ -35,7 +40,8 @@ def read_calculix(deck: str | Path) -> FiniteElementModel:
         meshio is not installed, a file is missing, or the deck has supports.
     """
     K, M, positions, numbers = calculix_matrices(deck)
-    return external_model(K, M, positions, [str(number) for number in numbers])
+    names = [str(number) for number in numbers]
+    return external_model(K, M, positions, names, total_mass=total_mass, what=Path(deck).name)
 
 
 def calculix_matrices(deck: str | Path) -> tuple[sp.csc_array, sp.csc_array, np.ndarray, list[int]]:

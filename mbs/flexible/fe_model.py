@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import qr
 
+from ali3.echo import Understood
 from mbs.common.checks import flag, is_finite, shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
@@ -19,7 +20,7 @@ Reference = str | int | Sequence[str | int]
 
 
 @dataclass(frozen=True)
-class FiniteElementModel:
+class FiniteElementModel(Understood):
     """Linear model in its own axes, which become the axes of the floating frame; SI units."""
 
     positions: np.ndarray
@@ -37,6 +38,11 @@ class FiniteElementModel:
     """Beams it was made of, with its nodes; None for models of other programs."""
     mass_along_beams: bool = False
     """Whether the beams have their mass between their ends: its inertia loads them there."""
+    given: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    """Of matrices of other programs: numbers of faults, by quantity and matrix, for `summary`."""
+
+    def __str__(self) -> str:
+        return self.summary()
 
     @property
     def n_dof(self) -> int:

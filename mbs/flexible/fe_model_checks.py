@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import permutations
+
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import eigsh
+from scipy.sparse.linalg import eigsh, splu
 
 from ali3.columns import some_of
 from mbs.common.errors import ModelError
@@ -15,8 +19,7 @@ from mbs.flexible.sparse import Sparse
 SYMMETRY = 1e-6  # of the largest entry: matrices printed with seven digits pass
 GROUNDED = 1e-5  # of the stiffness times the size: printed matrices pass, a spring to the ground does not
 MECHANISM = 1e-13  # of the scaled stiffness, whose largest eigenvalue is of order 1
-MASS_RANGE = (1e-6, 1e5)  # kg
-SIZE_RANGE = (1e-4, 1e3)  # m
+AXES = ("x", "y", "z")
 AXIS_WORDS = ("along x", "along y", "along z", "about x", "about y", "about z")
 NAMED = 5  # nodes named in one sentence
 
@@ -38,31 +41,121 @@ def check_symmetric(matrix: Sparse, what: str) -> None:
         raise ModelError(f"The {what} matrix is not symmetric: entries ({i}, {j}) and ({j}, {i}) differ by {gap:g}.")
 
 
-def check_units(model: FiniteElementModel) -> None:
-    """Refuse totals that no body on wheels or benches has in kilograms and metres."""
-    total, size = float(model.mass.masses.sum()), float(np.ptp(model.positions, axis=0).max())
-    if not MASS_RANGE[0] <= total <= MASS_RANGE[1]:
-        raise ModelError(
-            f"The model weighs {total:g} kg; between {MASS_RANGE[0]:g} and {MASS_RANGE[1]:g} kg were expected: "
-            "are lengths in m, stiffness in N/m and masses in kg?"
-        )
-    if not SIZE_RANGE[0] <= size <= SIZE_RANGE[1]:
-        raise ModelError(f"The model is {size:g} m long; are its lengths in metres?")
+def asymmetry(matrix: Sparse) -> float:
+    """Largest difference of a matrix from its transpose over its largest entry."""
+    return float(abs(matrix - matrix.T).max() / abs(matrix).max())
+
+
+def negative_eigenvalues(matrix: Sparse) -> int:
+    """How many eigenvalues of a symmetric matrix, scaled to a diagonal of ones, are below `-SYMMETRY`.
+
+    By Sylvester's law of inertia: the signs of the pivots of its factors.
+    """
+    diagonal = matrix.diagonal()
+    used = np.flatnonzero(abs(matrix).sum(axis=0))
+    if (diagonal[used] <= 0.0).any():
+        return max(int((diagonal[used] <= 0.0).sum()), 1)
+    scale = sp.diags_array(1.0 / np.sqrt(diagonal[used]))
+    shifted = sp.csc_array(scale @ matrix[used][:, used] @ scale + SYMMETRY * sp.eye_array(used.size))
+    factors = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    return int((factors.U.diagonal() < 0.0).sum())
+
+
+def check_definite(matrix: Sparse, what: str) -> int:
+    """Refuse a matrix of the other sign. Result: how many of its eigenvalues are negative."""
+    negative = negative_eigenvalues(matrix)
+    if negative and not negative_eigenvalues(-matrix):
+        raise ModelError(f"The {what} matrix is negative; it must be positive: its sign is turned.")
+    return negative
 
 
 def check_free(model: FiniteElementModel) -> None:
-    """Refuse a stiffness that holds the model to the ground."""
-    origin = model.positions.mean(axis=0)
-    size = float(np.ptp(model.positions, axis=0).max())
-    forces = np.abs(model.K @ model.rigid_motions(origin))
-    forces[:, 3:] /= size
-    stiffness = float(np.abs(model.K.data).max())
+    """Refuse a stiffness that holds the model to the ground, or is not in the order of its nodes."""
+    forces = _resistance(model, model.positions, model.dof)
     worst = np.unravel_index(int(forces.argmax()), forces.shape)
-    if forces[worst] > GROUNDED * stiffness:
-        node = int(np.flatnonzero((model.dof == worst[0]).any(axis=1))[0])
+    if forces[worst] <= GROUNDED:
+        return
+    node, axis = (int(k[0]) for k in np.nonzero(model.dof == worst[0]))
+    where = f"The stiffness resists rigid motions at node {model.names[node]!r}"
+    for words, x, dof in _mistaken(model):
+        if _resistance(model, x, dof).max() <= GROUNDED:
+            raise ModelError(f"{where}: {words} would explain it, without that it does not.")
+    if (turned := _turned_entry(model)) is not None:
+        raise ModelError(f"{where}: the sign of its entries {turned} and {turned[::-1]} would explain it.")
+    moved = forces[:, :3]
+    if moved.max() <= GROUNDED:
         raise ModelError(
-            f"The stiffness resists rigid motions at node {model.names[node]!r}: give the free model, without supports."
+            f"{where} that turn it, not at those that move it: the places of the nodes are not those of the "
+            "stiffness, by their order, axes or unit."
         )
+    across = moved.copy()
+    for k in range(3):
+        across[model.dof[:, k], k] = 0.0
+    if across.max() > GROUNDED:
+        raise ModelError(
+            f"{where}, with forces {AXIS_WORDS[axis]} across the motion, which no support has: the freedoms are not in "
+            "the order of the nodes, or an entry is wrong."
+        )
+    raise ModelError(f"{where}: give the free model, without supports.")
+
+
+def _resistance(model: FiniteElementModel, x: np.ndarray, dof: np.ndarray) -> np.ndarray:
+    """Forces at unit rigid motions over the largest stiffness, shape (n_dof, 6), with other places or freedoms."""
+    moved = replace(model, positions=x, dof=dof)
+    forces = np.asarray(np.abs(model.K @ moved.rigid_motions(x.mean(axis=0))))
+    forces[:, 3:] /= float(np.ptp(x, axis=0).max())
+    return forces / float(np.abs(model.K.data).max())
+
+
+def _mistaken(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """Words, places and freedoms without each common mistake."""
+    x, dof, n = model.positions, model.dof, len(model.positions)
+    width = model.n_dof // n if model.n_dof in (3 * n, 6 * n) else 0
+    if width:
+        apart = dof.copy()
+        apart[:, :width] = np.arange(width * n).reshape(width, n).T
+        yield "one axis after the other in place of node after node in the order of the freedoms", x, apart
+    if width == 6:
+        nodes_apart = np.hstack([np.arange(3 * n).reshape(n, 3), 3 * n + np.arange(3 * n).reshape(n, 3)])
+        yield "all translations before all rotations in place of node after node", x, nodes_apart
+        yield "rotations before translations of each node", x, dof[:, [3, 4, 5, 0, 1, 2]]
+        yield "mm in place of m in the places of the nodes", 1e-3 * x, dof
+        yield "N mm in place of N m in the stiffness", 1e3 * x, dof
+    for order in permutations(range(3)):
+        names = [f"{a} for {b}" for a, b in zip((AXES[k] for k in order), AXES, strict=True) if a != b]
+        if names:
+            words = f"exchanged axes, {' and '.join(names)}"
+            yield f"{words}, in the places of the nodes", x[:, order], dof
+            yield f"{words}, in the order of the freedoms", x, dof[:, [*order, 3, 4, 5]]
+            yield f"{words}, in the order of the freedoms", x, dof[:, [*order, *(3 + k for k in order)]]
+    for k, axis in enumerate(AXES):
+        yield f"the sign of {axis} in the places of the nodes", x * np.where(np.arange(3) == k, -1.0, 1.0), dof
+    numbers = [(len(name), name) if name.isdigit() else (0, name) for name in model.names]
+    for words, order_of in (
+        ("by their names", sorted(range(n), key=lambda k: numbers[k])),
+        ("by their names as words", sorted(range(n), key=lambda k: model.names[k])),
+        ("backwards", list(range(n))[::-1]),
+    ):
+        yield f"nodes in the order of the matrices in place of {words}", x[np.argsort(order_of)], dof
+        yield f"nodes {words} in place of the order of the matrices", x[order_of], dof
+
+
+def _turned_entry(model: FiniteElementModel) -> tuple[int, int] | None:
+    """Row and column of an entry that must have the other sign for the model to be free; None where none mends it."""
+    motions = model.rigid_motions(model.positions.mean(axis=0))
+    rest = np.asarray(model.K @ motions)[:, :3]
+    i = int(np.abs(rest).max(axis=1).argmax())
+    row = model.K[[i]].toarray()[0]
+    # turned, an entry takes twice itself times the motion of its column from its row
+    fits = np.abs(rest[i] - 2.0 * row[:, None] * motions[:, :3]).max(axis=1)
+    fits[i] = np.inf
+    for j in np.argsort(fits)[:3].tolist():
+        K = model.K.tolil(copy=True)
+        K[i, j], K[j, i] = -K[i, j], -K[j, i]
+        mended = replace(model, K=sp.csc_array(K))
+        if _resistance(mended, model.positions, model.dof).max() <= GROUNDED:
+            return min(i, j), max(i, j)
+    return None
 
 
 def check_connected(model: FiniteElementModel, reference: Reference) -> None:

@@ -10,7 +10,8 @@ from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.beam_stiffness import shear_parameters
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.fe_model_checks import check_free, check_units
+from mbs.flexible.body_echo import FlexibleWarning, model_echo
+from mbs.flexible.fe_model_checks import check_free
 from mbs.flexible.mass_points import MassPoints, nodal_mass_points
 
 __all__ = ["Beam", "Frame"]
@@ -37,7 +38,12 @@ class Frame(BeamFrame):
         Raises
         ------
         ModelError
-            There is no such kind of mass, or the units cannot be SI.
+            There is no such kind of mass.
+
+        Warns
+        -----
+        FlexibleWarning
+            Mass or size are those of no body in SI units.
         """
         rotary = flag(rotary, "The rotary inertia")
         n = len(self.positions)
@@ -60,8 +66,9 @@ class Frame(BeamFrame):
         else:
             points = points.merged(nodal_mass_points(self.positions, self.masses, dof[:, :3], 6 * n))
         model = FiniteElementModel(self.positions, self.names, dof, K, points, self, mass == "consistent")
-        check_units(model)
         check_free(model)
+        for echo in model_echo(model, modes=False):
+            echo.warn(FlexibleWarning)
         return model
 
     def _beam_mass(self, kind: str, rotary: bool) -> MassPoints:

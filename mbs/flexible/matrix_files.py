@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,12 @@ import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
 from ali3.tables import TextTable
-from mbs.common.checks import numbers
+from mbs.common.checks import numbers, positive
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import node_labels
+from mbs.flexible.body_echo import FlexibleWarning, model_echo
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.fe_model_checks import check_free, check_symmetric, check_units
+from mbs.flexible.fe_model_checks import SYMMETRY, asymmetry, check_definite, check_free, check_symmetric
 from mbs.flexible.foreign_file import read_foreign
 from mbs.flexible.lumping import lumped_masses
 from mbs.flexible.mass_points import check_masses, nodal_mass_points
@@ -28,6 +30,8 @@ def external_model(
     positions: ArrayLike,
     names: Sequence[str] | None = None,
     dof: ArrayLike | None = None,
+    total_mass: float | None = None,
+    what: str = "",
 ) -> FiniteElementModel:
     """Model from matrices in SI units, free of supports.
 
@@ -44,13 +48,24 @@ def external_model(
     dof : array_like of int, shape (n, 6), optional
         Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
         with x, y, z when the matrices have three freedoms per node.
+    total_mass : float, optional
+        Of the body as it is known from elsewhere, kg: a model that weighs otherwise is told.
+    what : str
+        The file, for messages.
 
     Raises
     ------
     ModelError
-        A matrix is not symmetric or not of the right size, the stiffness holds the model to the ground, a mass is
-        negative, or the units cannot be SI.
+        A matrix is not symmetric, of the other sign or not of the right size, the stiffness has a negative eigenvalue
+        or holds the model to the ground, or a mass is negative; with the mistake that explains it, where one does.
+
+    Warns
+    -----
+    FlexibleWarning
+        Mass, size or first free frequency are those of no body in SI units, or the mass matrix does not go with the
+        stiffness.
     """
+    beside = 0.0 if total_mass is None else positive(total_mass, "The total_mass of a flexible body")
     x = numbers(positions, "the node positions", ModelError, "finite numbers of shape (n, 3)")
     if x.ndim != 2 or x.shape[1] != 3 or not np.isfinite(x).all():
         raise ModelError(f"Node positions have shape {x.shape}; finite numbers of shape (n, 3) are needed.")
@@ -58,24 +73,57 @@ def external_model(
     labels = node_labels(names, n)
     K = sp.csc_array(stiffness)
     check_symmetric(K, "stiffness")
+    given = {"asymmetry": {"stiffness": asymmetry(K)}, "negative": {"stiffness": 0.0}}
     table = _freedom_table(dof, n, int(K.shape[0]))
     K = sp.csc_array((K + K.T) / 2)
+    if negative := check_definite(K, "stiffness"):
+        raise ModelError(f"The stiffness matrix has {negative} negative eigenvalues; a deformation takes energy.")
+    no_mass = nodal_mass_points(x, np.zeros(n), table[:, :3], int(K.shape[0]))
+    model = FiniteElementModel(x, labels, table, K, no_mass, given=given)
+    check_free(model)
     if sp.issparse(mass) or np.ndim(mass) == 2:
         M = sp.csc_array(mass)
         check_symmetric(M, "mass")
         if M.shape != K.shape:
             raise ModelError(f"The mass matrix is {M.shape[0]} and the stiffness matrix {K.shape[0]} wide.")
-        points = lumped_masses(sp.csc_array((M + M.T) / 2), x, table)
+        given["asymmetry"]["mass"] = asymmetry(M)
+        M = sp.csc_array((M + M.T) / 2)
+        given["negative"]["mass"] = check_definite(M, "mass")
+        given |= {"apart": {"mass": _pairs_apart(K, M, table)}, "rigid": {"mass": _rigid_off(M, model)}}
+        points = lumped_masses(M, x, table)
     else:
         masses = np.array(mass, float)
         if masses.shape != (n,):
             raise ModelError(f"Node masses have shape {masses.shape}; one number for each of {n} nodes is needed.")
         check_masses(masses, labels)
         points = nodal_mass_points(x, masses, table[:, :3], int(K.shape[0]))
-    model = FiniteElementModel(x, labels, table, K, points)
-    check_units(model)
-    check_free(model)
+    model = replace(model, mass=points)
+    for echo in model_echo(model, what, beside=beside):
+        echo.warn(FlexibleWarning)
     return model
+
+
+def _rigid_off(M: Sparse, model: FiniteElementModel) -> float:
+    """How far the inertia of unit motions is from that of a body, over mass and size."""
+    R = model.rigid_motions(model.positions.mean(axis=0))
+    inertia = R.T @ (M @ R)
+    totals, moments = inertia[:3, :3], inertia[:3, 3:]
+    mass, size = np.trace(totals) / 3.0, np.ptp(model.positions, axis=0).max()
+    off = max(np.abs(totals - mass * np.eye(3)).max(), np.abs(moments + moments.T).max() / size)
+    return float(off / abs(mass)) if mass else np.inf
+
+
+def _pairs_apart(K: Sparse, M: Sparse, table: np.ndarray) -> int:
+    """How many pairs of nodes the mass matrix couples and the stiffness does not."""
+    node_of = np.zeros(K.shape[0], int)
+    nodes, axes = np.nonzero(table >= 0)
+    node_of[table[nodes, axes]] = nodes
+    pairs = []
+    for matrix in (K, M):
+        entries = sp.coo_array(matrix)
+        there = np.abs(entries.data) > SYMMETRY * np.abs(entries.data).max()
+        pairs.append({*zip(node_of[entries.row[there]].tolist(), node_of[entries.col[there]].tolist(), strict=True)})
+    return sum(i < j for i, j in pairs[1] - pairs[0])
 
 
 def read_matrix(path: str | Path) -> sp.csc_array:
@@ -94,7 +142,9 @@ def read_matrix(path: str | Path) -> sp.csc_array:
     raise ModelError(f"{path.name} is neither Matrix Market (.mtx, .mtx.gz) nor a SciPy matrix (.npz).")
 
 
-def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> FiniteElementModel:
+def read_model(
+    stiffness: str | Path, mass: str | Path, nodes: str | Path, *, total_mass: float | None = None
+) -> FiniteElementModel:
     """Model from two matrix files and a file of nodes.
 
     Parameters
@@ -103,11 +153,13 @@ def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> Fi
         Files for `read_matrix`.
     nodes : str or Path
         CSV with the columns ``name,x,y,z`` (m), a line of titles first.
+    total_mass : float, optional
+        As of `external_model`.
 
     Returns
     -------
     FiniteElementModel
-        Checked as by `external_model`.
+        Checked, and told of, as by `external_model`.
 
     Raises
     ------
@@ -121,7 +173,8 @@ def read_model(stiffness: str | Path, mass: str | Path, nodes: str | Path) -> Fi
     for row in table.rows():
         names.append(row.cells[0])
         positions.append(table.numbers(row, first=1))
-    return external_model(read_matrix(stiffness), read_matrix(mass), positions, names)
+    K, M = read_matrix(stiffness), read_matrix(mass)
+    return external_model(K, M, positions, names, total_mass=total_mass, what=Path(stiffness).name)
 
 
 def _freedom_table(dof: ArrayLike | None, n: int, size: int) -> np.ndarray:

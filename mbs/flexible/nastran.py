@@ -24,6 +24,7 @@ def read_nastran(
     stiffness: str = "KGG",
     mass: str = "MGG",
     folder: str | Path | None = None,
+    total_mass: float | None = None,
 ) -> FiniteElementModel:
     """Model from a bulk data file with the grid points and an OUTPUT4 file with the g-set matrices.
 
@@ -40,11 +41,13 @@ def read_nastran(
         Names of the matrices in the file.
     folder : str or Path, optional
         Below which the files that the bulk data include lie; by default their own.
+    total_mass : float, optional
+        As of `external_model`.
 
     Returns
     -------
     FiniteElementModel
-        Nodes are named by the numbers of their grid points.
+        Nodes are named by the numbers of their grid points; checked, and told of, as by `external_model`.
 
     Raises
     ------
@@ -65,7 +68,8 @@ def read_nastran(
         if np.iscomplexobj(found[name.upper()]):
             raise ModelError(f"The matrix {name} of {Path(matrices).name} is complex; give a real one.")
     K, M = (_symmetric(found[name.upper()]) for name in (stiffness, mass))
-    return external_model(K, M, np.array([place for place, _ in points.values()]), [str(number) for number in points])
+    places, names = np.array([place for place, _ in points.values()]), [str(number) for number in points]
+    return external_model(K, M, places, names, total_mass=total_mass, what=Path(matrices).name)
 
 
 def _symmetric(data: Sparse) -> sp.csc_array:

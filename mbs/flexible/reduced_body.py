@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ali3.echo import Understood
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
@@ -14,7 +15,7 @@ from mbs.flexible.modal_body import InterfaceModes, ModalBody
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReducedBody(ModalBody):
+class ReducedBody(ModalBody, Understood):
     """A `ModalBody` with what reductions of it and pictures need."""
 
     M: np.ndarray
@@ -25,6 +26,9 @@ class ReducedBody(ModalBody):
     """Shape (m - n_static,): fixed-interface frequencies of the dynamic modes, Hz."""
     frame: BeamFrame | None = None
     """Beams of the finite-element model, with its nodes; None where it was given as matrices."""
+
+    def __str__(self) -> str:
+        return self.summary()
 
     def interface(self, name: str) -> InterfaceModes:
         """An interface by the name of its node.

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ali3.echo import Echo, Understood, echo_of
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
@@ -14,6 +17,7 @@ from mbs.model.contact_vocabulary import ContactVocabulary
 from mbs.model.coordinate import Coordinate
 from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.energy_sensors import EnergySensorVocabulary
+from mbs.model.flexible import FlexibleBody
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
@@ -28,6 +32,7 @@ from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
 class Model(
+    Understood,
     TransmissionVocabulary,
     JointVocabulary,
     TableVocabulary,
@@ -155,3 +160,10 @@ class Model(
 def _angular(value: ArrayLike, size: int, what: str) -> Vector:
     """Angular velocity, shape (size,); in the plane a number will do."""
     return vector([value] if size == 1 and is_number(value) else value, size, what)
+
+
+@echo_of.register
+def _echo_of_model(model: Model) -> list[Echo]:
+    """Of its flexible bodies."""
+    bodies = [b for b in model.bodies if isinstance(b, FlexibleBody) and isinstance(b.reduced, Understood)]
+    return [replace(echo, title=f"flexible body '{b.name}'") for b in bodies for echo in echo_of(b.reduced)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +12,17 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 
 FRAMED = 20.0
 """m: shown of a plane, and to both sides of a kerb."""
+LABEL = {"facecolor": "white", "alpha": 0.8, "linewidth": 0.0, "pad": 0.5}
 MOST = 2000
 """Points shown along a side of a grid."""
 
 
-def draw_road(road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str) -> None:
+def draw_road(
+    road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str, starts: Mapping[str, tuple[float, float]]
+) -> None:
     """Draw heights and frictions from above, x to the right and y up, and the heights along the middle.
 
-    `file`: a PNG, or what Matplotlib writes by the suffix.
+    `file`: a PNG, or what Matplotlib writes by the suffix; `starts`: where a drive may begin, x and y by name, m.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -31,10 +35,13 @@ def draw_road(road: PlaneRoad | KerbRoad | GridRoad, file: Path, name: str) -> N
         image = ax.pcolormesh(x, y, values.T, shading="gouraud", cmap="viridis")
         figure.colorbar(image, ax=ax, label=label)
         ax.set_ylabel("y, m (left)")
-        ax.plot(0.0, 0.0, "r+", markersize=10, markeredgewidth=2)
+        for at in starts.values():
+            ax.plot(*at, "r+", markersize=10, markeredgewidth=2)
+    for word, at in starts.items():
+        axes[0].annotate(word, at, (4.0, 4.0), textcoords="offset points", fontsize=7, bbox=LABEL)
     for k, style in ((0, ":"), (len(y) // 2, "-"), (len(y) - 1, "--")):
         axes[2].plot(x, heights[:, k], style, color="k", linewidth=1.0, label=f"y = {y[k]:.4g} m")
-    axes[2].set_xlabel("x, m (ahead); + is the origin, where a car starts unless initial.x or .y say otherwise")
+    axes[2].set_xlabel("x, m (ahead); + is where a car starts")
     axes[2].set_ylabel("height, m")
     axes[2].legend(loc="upper right", fontsize="small")
     axes[2].grid(True, alpha=0.3)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ali3.echo import Understood
 from mbs.common.checks import one_of
 from mbs.elements.magic_tyre import SIGNS, MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
@@ -75,7 +76,7 @@ _MOST_LOAD = 5.0  # nominal loads, where a file has no range
 
 
 @dataclass(frozen=True)
-class TyreFile:
+class TyreFile(Understood):
     """A Magic Formula tyre as its file has it."""
 
     name: str

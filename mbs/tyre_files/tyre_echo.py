@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Echo, Mistake, Value, quantities_of
+from ali3.echo import Echo, Mistake, Value, echo_of, quantities_of
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+from mbs.tyre_files.magic_file import TyreFile
 from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
 
 Array = NDArray[np.float64]
@@ -206,3 +207,9 @@ def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str,
 
 def _deflection(load: float, stiffness: float, radius: float, keys: Mapping[str, Any]) -> Value:
     return Value(QUANTITIES["deflection"], load / stiffness / radius, keys)
+
+
+@echo_of.register
+def _file_echo(file: TyreFile) -> list[Echo]:
+    signs = "adapted_sae" if file.values["coefficients"]["PKY1"] > 0.0 else "iso"
+    return [magic_echo(file.name, file.tyre(signs=signs))]

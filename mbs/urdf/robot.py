@@ -15,7 +15,7 @@ from scipy.interpolate import PPoly
 from scipy.spatial.transform import Rotation
 
 from ali3.decimal_number import parse_number
-from ali3.echo import Echo
+from ali3.echo import Echo, Understood, echo_of
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
 from ali3.reading import read_bytes
@@ -41,7 +41,7 @@ TURNING, FREE = ("revolute", "continuous"), 1e9  # N m: range of the torque of a
 
 
 @dataclass
-class Robot:
+class Robot(Understood):
     """A robot as a model, to which tools, loads, sensors and forces may be added."""
 
     model: Model
@@ -57,9 +57,10 @@ class Robot:
     echo: Echo | None = None
     """What was understood of the file."""
 
-    def summary(self) -> str:
-        """The same as a table of text."""
-        return "" if self.echo is None else self.echo.text()
+
+@echo_of.register
+def _echo_of_robot(robot: Robot) -> list[Echo]:
+    return [] if robot.echo is None else [robot.echo]
 
 
 def read_urdf(
@@ -125,8 +126,7 @@ def read_urdf(
     robot.model.floating = floating
     _place(robot, below, at)
     robot.echo = robot_echo(file.name, source, robot.poses, at)
-    for sentence in robot.echo.warnings():
-        warnings.warn(sentence, UrdfWarning, stacklevel=2)
+    robot.echo.warn(UrdfWarning)
     groups = _groups(below)
     massless = _bodies(robot, urdf, groups, None if floating else groups[next(iter(below))], file.name)
     if not robot.model.bodies and not massless:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
-from ali3.echo import Echo
+from ali3.echo import Echo, Understood, echo_of
 from ali3.typed_sentences import Sentences
 from ali3.words import one_line
 from mbs.common.affine import Affine
@@ -57,7 +58,7 @@ Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
 """Adds what a car reports. Its arguments: the car but for its drawing, its steering, its wheels by name."""
 
 
-class BuiltCar(CarContent):
+class BuiltCar(Understood, CarContent):
     """A car file whose parts are added to a model; a `Car` makes the model itself."""
 
     @cached_property
@@ -199,17 +200,16 @@ class BuiltCar(CarContent):
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def echo(self, what: str = "") -> list[Echo]:
-        """What was understood of the file: the car, then the tyres of each axle.
+        """What was understood of the file: the car, then the tyres of each axle, then its flexible frame.
 
         `what`: the file, for messages. Raises `ModelError`: it does not come to rest.
         """
-        return car_echo(what or str(self.folder), self, self.rest, self._data, self._remade)
-
-    def summary(self) -> str:
-        """The same as tables of text, the tyres once where both axles have the same."""
-        car, *tyres = (echo.text() for echo in self.echo())
-        told = [car, *(f"{name} tyres\n{text}" for name, text in zip(self.axles, tyres, strict=True))]
-        return "\n\n".join([told[0], f"all tyres\n{tyres[0]}"] if tyres[0] == tyres[1] else told)
+        echoes = car_echo(what or str(self.folder), self, self.rest, self._data, self._remade)
+        titles = ["car", *(f"{name} tyres" for name in self.axles)]
+        if self.has_frame:
+            echoes += self.flexible_frame.echo()
+            titles.append("flexible frame")
+        return [replace(echo, title=title) for echo, title in zip(echoes, titles, strict=True)]
 
     def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
         """The car of altered content at rest, or None where that is no car."""
@@ -266,6 +266,11 @@ class BuiltCar(CarContent):
             return b.chassis.body, point
 
         return end
+
+
+@echo_of.register
+def _echo_of_car(car: BuiltCar) -> list[Echo]:
+    return car.echo()
 
 
 def checked_car(

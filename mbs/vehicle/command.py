@@ -112,6 +112,7 @@ def _check(car: str, parameters: bool, json_file: Path | None) -> int:
     import sys
     import warnings
 
+    from ali3.echo import tables_of
     from ali3.files import write_text
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
@@ -123,9 +124,7 @@ def _check(car: str, parameters: bool, json_file: Path | None) -> int:
         loaded = read_car(BuiltCar, car)
     print(f"{summary(loaded)}\n\n{loaded.summary()}")
     if json_file is not None:
-        names = ("car", *(f"{axle}_tyres" for axle in loaded.axles))
-        tables = {name: echo.to_json() for name, echo in zip(names, loaded.echo(), strict=True)}
-        write_text(json_file, json.dumps(tables, indent=1) + "\n")
+        write_text(json_file, json.dumps(tables_of(loaded.echo()), indent=1) + "\n")
     if parameters:
         print("\n" + parameter_table(loaded))
     for warning in caught:

@@ -67,6 +67,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
         "--part", type=Path, metavar="FILE", help="write the road as an entry of a scene's roads, JSON: what draws it"
     )
     parser.add_argument("--thin", action="store_true", help="of a world: few and round numbers, as a page carries it")
+    add_option(parser, "--json", "none")
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")
     options = parser.parse_args(arguments)
@@ -100,4 +101,4 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     given = given_of(parser, options, _OF_ROADS)
     if given:
         raise UserError(f"{given[0]} is of a road; with --world leave it out.")
-    return world(options.world, options.out or Path("out", "worlds"), options.picture, options.thin)
+    return world(options.world, options.out or Path("out", "worlds"), options.picture, options.thin, options.json)

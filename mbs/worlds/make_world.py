@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import warnings
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -67,8 +66,7 @@ def make_world(
         if thin:
             world = world.model_copy(update={"spacing": thinner(world.spacing)})
         _check_size(world, file)
-        for sentence in world_echo(str(file), world).warnings():
-            warnings.warn(sentence, RoadWarning, stacklevel=2)
+        world_echo(str(file), world).warn(RoadWarning)
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)
@@ -105,12 +103,16 @@ def checksum_of(road: Path) -> int:
 
 def part_of_world(road: Path) -> dict[str, Any] | None:
     """What is drawn of a road file by the record beside it, where there is one and it is of this road."""
-    beside = road.with_suffix(".json")
+    record = record_of_road(road)
+    return None if record is None or not record.get("roads") else record["roads"][0]
+
+
+def record_of_road(road: Path) -> dict[str, Any] | None:
+    """The record of the world beside a road file, where there is one and it is of this road."""
     try:
-        record = read_json(beside)
+        record: dict[str, Any] = read_json(road.with_suffix(".json"))
         if record["format"] == "ALi3 world" and record["road"] == road.name and record["checksum"] == checksum_of(road):
-            part: dict[str, Any] = record["roads"][0]
-            return part
+            return record
     except (OSError, ValueError, KeyError, TypeError, IndexError):
         return None
     return None

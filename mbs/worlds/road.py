@@ -4,28 +4,22 @@ from __future__ import annotations
 
 import argparse
 import json
-import warnings
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from ali3.echo import Echo
 from ali3.errors import UserError
 from ali3.files import whole_file, write_text
 from ali3.told_warnings import told_warnings
 from mbs.elements.road import GridRoad, PlaneRoad
-from mbs.kernel.header.enumerations import RoadType
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road
-from mbs.roads.road_echo import Place, place_of, road_echo, start_echo
+from mbs.roads.road_echo import file_echo, place_of, road_echo
 from mbs.roads.road_file import RoadFile
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
-from mbs.worlds.make_world import part_of_world
+from mbs.worlds.make_world import part_of_world, record_of_road
 
 if TYPE_CHECKING:
     from mbs.elements.road import KerbRoad
@@ -42,46 +36,43 @@ def make_road(options: argparse.Namespace) -> int:
         write_text(options.part, json.dumps(part, allow_nan=False))
         print(f"written: {options.part}, as the world beside {options.input} draws it")
         return 0
-    if options.start is not None and options.input.suffix.lower() == ".road" and not (output or options.picture):
-        head = RoadFile(options.input).header  # a large road is not read for it
-        if head.kind == RoadType.GRID:
-            _tell(
-                [
-                    start_echo(
-                        str(options.input), Place(head.real[:2], head.real[2:4], (head.nx, head.ny)), options.start
-                    )
-                ]
-            )
+    others = (output, options.picture, options.part, options.json)
+    if options.start is not None and options.input.suffix.lower() == ".road" and not any(others):
+        (echo,) = file_echo(RoadFile(options.input), tuple(options.start), most=0)  # a large road is not read for it
+        with told_warnings():
+            echo.warn(RoadWarning)
+        print(echo.text())
         return 0
     with told_warnings():
         road = read_road(options.input, **given)
-    if isinstance(road, GridRoad):
-        echoes = [road_echo(str(options.input), road)]
-        if output is None or options.start is not None:
-            echoes.append(start_echo(str(options.input), place_of(road), tuple(options.start or (0.0, 0.0))))
-        _tell(echoes)
+        # who makes a road file says later where a drive on it begins
+        start = tuple(options.start or (0.0, 0.0)) if output is None or options.start is not None else None
+        echo = road_echo(str(options.input), road, start)
+        echo.warn(RoadWarning)
     if output is not None:
         with told_warnings():
             write_road(road, output)
         RoadFile(output).read()  # as it lies on the disk
     if options.picture is not None:
         with whole_file(options.picture) as made:
-            draw_road(road, made, options.input.name)
+            draw_road(road, made, options.input.name, _starts(options))
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
-    for line in _lines(road):
-        print(line)
-    for file in (output, options.picture, options.part):
+    print("\n".join([*_lines(road), echo.text()]))
+    if options.json is not None:
+        write_text(options.json, json.dumps(echo.to_json(), indent=1) + "\n")
+    for file in (output, options.picture, options.part, options.json):
         if file is not None:
             print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
     return 0
 
 
-def _tell(echoes: Sequence[Echo]) -> None:
-    """Warn of what lies outside."""
-    with told_warnings():
-        for sentence in (sentence for echo in echoes for sentence in echo.warnings()):
-            warnings.warn(sentence, RoadWarning, stacklevel=2)
+def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
+    """Where a drive may begin: as asked, the places of the world that a road file is of, else the origin."""
+    if options.start is not None:
+        return {"start": tuple(options.start)}
+    record = record_of_road(options.input) or {}
+    return {p["name"]: (p["x"], p["y"]) for p in record.get("places", [])} or {"start": (0.0, 0.0)}
 
 
 def _given(options: argparse.Namespace) -> dict[str, Any]:
@@ -105,19 +96,15 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
-    """What the road is, for people."""
+    """What the road is, beside its quantities."""
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
         words = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))
         return [f"{kind}: {', '.join(words)}"]
-    heights, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float)
-    lines = [f"grid of {heights.shape[0]} x {heights.shape[1]} points"]
-    for k, name in enumerate("xy"):
-        last = road.origin[k] + road.spacing[k] * (heights.shape[k] - 1)
-        lines.append(f"{name}: {road.origin[k]:.9g} to {last:.9g} m, every {road.spacing[k]:g} m")
-    slope = max(float(np.abs(np.diff(heights, axis=k)).max()) / road.spacing[k] for k in range(2))
-    lines.append(f"heights: {heights.min():.4g} to {heights.max():.4g} m, steepest {100.0 * slope:.3g} %")
-    lines.append(f"frictions: {frictions.min():g} to {frictions.max():g}")
+    place = place_of(road)
+    lines = [f"grid of {place.shape[0]} x {place.shape[1]} points"]
+    for name, first, side, step in zip("xy", place.origin, place.extent, place.spacing, strict=True):
+        lines.append(f"{name}: {first:.9g} to {first + side:.9g} m, every {step:g} m")
     if isinstance(road, SampledRoad):
         lines.append(f"the grid {road.sentence}")
     return lines

@@ -8,27 +8,32 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from ali3.echo import Echo, echo_of, summary_of, tables_of
 from ali3.errors import UserError
+from ali3.files import write_text
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
-from ali3.reading import is_file
+from ali3.reading import is_file, read_toml
 from ali3.told_warnings import told_warnings
+from mbs.roads import RoadFile, RoadFileError
 from mbs.roads.kinds import CRG, MESHES
-from mbs.worlds.make_world import make_world
+from mbs.worlds.make_world import make_world, read_world
 from mbs.worlds.map_picture import draw_map
 from mbs.worlds.shipped import ROADS, WORLDS, shipped_worlds
 from mbs.worlds.stored import add_file, key_of, world_files
 from mbs.worlds.world_file import named_files
 
 
-def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> int:
+def world(given: str, out: Path, picture: Path | None, thin: bool = False, table: Path | None = None) -> int:
     """Put the files of a world into a folder; gives the exit code.
 
     `given`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers, for a
-    page. Raises `UserError`: it is no world.
+    page; `table`: JSON file of what was understood of it. Raises `UserError`: it is no world.
     """
     begin = time.perf_counter()
     file = _file(given)
@@ -42,6 +47,11 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw(out / f"{name}.json", target), picture)
         made.append(picture)
+    echoes = _echoes(file, out / f"{name}.road")
+    print(summary_of(echoes))
+    if table is not None:
+        write_text(table, json.dumps(tables_of(echoes), indent=1) + "\n")
+        made.append(table)
     for path in made:
         print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")
     record = read_json(out / f"{name}.json")
@@ -51,6 +61,13 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False) -> in
         print(off)
     print(f"{'kept from before' if kept else 'made'}: {time.perf_counter() - begin:.2f} s")
     return 0
+
+
+def _echoes(file: Path, road: Path) -> Sequence[Echo]:
+    """What was understood of the description of a world, and of the road that was made of it."""
+    described = file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world"
+    own = [replace(echo, title="world") for echo in echo_of(read_world(file))] if described else []
+    return [*own, *(replace(echo, title="its road") for echo in echo_of(RoadFile(road)))]
 
 
 def _file(given: str) -> Path:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ali3.echo import Echo, Mistake, Value, quantities_of
+from ali3.echo import Echo, Mistake, Value, echo_of, quantities_of
 from mbs.worlds.obstacles import added, footprint
 from mbs.worlds.world_types import Area, Band, Barrier, Kerb, Ramp, Washboard, WorldDescription
 
@@ -18,6 +18,11 @@ FELT = 1e-6  # m
 Thing: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 
 QUANTITIES = quantities_of("world")
+
+
+@echo_of.register
+def _echo_of_world(world: WorldDescription) -> list[Echo]:
+    return [world_echo("", world)]
 
 
 def world_echo(what: str, world: WorldDescription) -> Echo:

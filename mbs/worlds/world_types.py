@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from ali3.echo import Understood
 from ali3.iso_3888 import Track
 from ali3.scene.road_types import SurfaceClass
 
@@ -261,7 +262,7 @@ class Place(_Table):
     at: Start
 
 
-class WorldDescription(_Table):
+class WorldDescription(Understood, _Table):
     """A world: ground, courses carved into it, obstacles, surfaces, scenery and places to start from."""
 
     kind: Literal["world"]

@@ -9,11 +9,14 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
+from ali3.echo import Echo
 from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.body_echo import model_echo
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.fixed_interface import FixedInterface
 from mbs.flexible.load_paths import load_path_deformations, load_path_modes
 from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import ModalBody
@@ -63,6 +66,10 @@ class FlexibleFrame:
         for row, reading in zip(rows, self.structure.readings, strict=True):
             row[: len(reading.row)] = reading.row
         return rows
+
+    def echo(self) -> list[Echo]:
+        """What was understood of the frame, with what rides on it, and held at its interfaces."""
+        return model_echo(self.model, held=FixedInterface(self._bare, self.reference, self.interfaces).held_numbers())
 
     def place(self, joint: str) -> np.ndarray:
         """Place of a joint, m."""
