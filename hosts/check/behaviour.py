@@ -106,10 +106,13 @@ def states(subject: Subject) -> Finding:
     half = max(1, subject.steps // 2)
     instance = Instance(subject).start()
     instance.run(half)
-    data = instance.state_bytes()
+    clause = subject.clause("2.1.8", "2.2.7.4")
+    try:
+        data = instance.state_bytes()
+    except HostError as error:
+        return Finding("states", "bad", f"{str(error).rstrip('.')}; say the size that is needed {clause}")
     first = instance.run(half, half)
     instance.restore_bytes(data)
-    clause = subject.clause("2.1.8", "2.2.7.4")
     again = instance.run(half, half)
     if kept := _kept_state(subject):
         return Finding("states", "bad", f"{kept} {clause}")

@@ -101,9 +101,13 @@ def settings(subject: Subject) -> Finding:
     subject.files = files_around(subject)
     folder = Path.cwd()
     interrupt = signal.signal(signal.SIGINT, signal.default_int_handler)  # that of a host that can be stopped
+    streams = [os.dup(k) for k in range(3)]
     try:
         return _settings(subject)
     finally:
+        for k, stream in enumerate(streams):
+            os.dup2(stream, k)
+            os.close(stream)
         signal.signal(signal.SIGINT, interrupt)
         os.chdir(folder)
 

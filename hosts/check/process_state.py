@@ -228,8 +228,8 @@ def messages(subject: Subject) -> Finding:
     quiet = Instance(subject).start()
     quiet.run(5)
     words = f"{instance.without_text} have no category or text; give both" if instance.without_text else ""
-    if quiet.chatter:
-        words = f"{quiet.chatter} of no problem while logging is off, such as {quiet.messages[0][:50]!r}"
+    if quiet.chatter and not words:
+        words = f"logging is off, and {quiet.chatter} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
     if words:
         return Finding("messages", "note", f"{words} {subject.clause('2.1.5', '2.3.1')}")
     said = len(instance.messages)

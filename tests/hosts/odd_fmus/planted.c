@@ -12,7 +12,8 @@ typedef struct {
 } face;
 
 static void say(const face *f, const char *text) {
-  f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, PLANT == NO_CATEGORY ? NULL : "log", text);
+  f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, PLANT == NO_CATEGORY ? NULL : "log",
+                       text);
 }
 
 const char *fmi2GetVersion(void) { return PLANT == VERSION ? "1.0" : fmi2Version; }

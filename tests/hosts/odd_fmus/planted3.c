@@ -10,7 +10,9 @@ typedef struct {
   void *environment;
 } face;
 
-static void say(const face *f, const char *text) { f->log(f->environment, fmi3OK, PLANT == NO_CATEGORY ? NULL : "log", text); }
+static void say(const face *f, const char *text) {
+  f->log(f->environment, fmi3OK, PLANT == NO_CATEGORY ? NULL : "log", text);
+}
 
 #pragma GCC visibility push(default) /* what follows is exported */
 

@@ -114,7 +114,8 @@ static void at_instance(void) {
 
 static void at_start(void) {
   if (PLANT == TIMER) alarm(1000);
-  if (PLANT == LIMITS) setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}), setrlimit(RLIMIT_NOFILE, &(struct rlimit){300, 300});
+  if (PLANT == LIMITS)
+    setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}), setrlimit(RLIMIT_NOFILE, &(struct rlimit){300, 300});
   if (PLANT == CLOSES) close(0);
   if (PLANT == UMASK) umask(0);
   if (PLANT == IGNORES) signal(SIGINT, SIG_IGN);
@@ -231,14 +232,14 @@ static size_t place_planted(const unsigned *r, size_t n, size_t k) {
   return PLANT == READ_ORDER && n == 2 && r[0] > r[1] ? 1 - k : k;
 }
 
-static bool takes_path(const char *path) { return PLANT != PATHS || !path || (!strchr(path, '%') && !strchr(path, ' ')); }
+static bool takes_path(const char *path) {
+  return PLANT != PATHS || !path || (!strchr(path, '%') && !strchr(path, ' '));
+}
 
 /* What start time it takes. */
 static double begin_planted(double start) { return PLANT == LATE_START ? 0.0 : start; }
 
-static bool takes_time(const planted *s, double time) {
-  return PLANT != LATE_START || fabs(time - s->time) < 1e-6;
-}
+static bool takes_time(const planted *s, double time) { return PLANT != LATE_START || fabs(time - s->time) < 1e-6; }
 
 static double read_planted(planted *s, unsigned r) {
   at_read();
