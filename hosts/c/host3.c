@@ -1,11 +1,12 @@
 /* A host of FMI 3.0 co-simulation without Python, which gives inputs within a step: loads the library of an unpacked FMU
  * and runs it with inputs on straight lines.
  *
- *   host3 LIBRARY RESOURCES_FOLDER TOKEN STEPS STEP FIRST LAST [REFERENCE=VALUE | REFERENCE=VALUE+RATE ...]
+ *   host3 [--early] LIBRARY RESOURCES_FOLDER TOKEN STEPS STEP FIRST LAST [REFERENCE=VALUE | REFERENCE=VALUE+RATE ...]
  *
  * Prints time and the Float64 variables FIRST to LAST after every step as hexadecimal numbers, so that no digit is lost.
  * REFERENCE=VALUE is a start value of a parameter or input; REFERENCE=VALUE+RATE an input that is VALUE + RATE t: at
- * communication points it is set, within a step it is given where the FMU asks for it (intermediate update).
+ * communication points it is set, within a step it is given where the FMU asks for it (intermediate update). With
+ * --early a step may return before its end; its row is then the last one, and the exit code is 6.
  *
  * It needs library.h beside it and the headers of the FMI 3.0 standard
  * (https://github.com/modelica/fmi-standard/releases). FMPy brings them, in the folder that
@@ -16,6 +17,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "fmi3FunctionTypes.h"
 #include "library.h"
@@ -104,8 +106,10 @@ int main(int count, char **argument) {
   static double value[MOST_VALUES];
   static host h;
   char *end;
+  const bool may_return = count > 1 && strcmp(argument[1], "--early") == 0;
+  count -= may_return, argument += may_return;
   if (count < 8)
-    stop(1, "usage: %s LIBRARY RESOURCES_FOLDER TOKEN STEPS STEP FIRST LAST [REFERENCE=VALUE[+RATE] ...]", argument[0]);
+    stop(1, "usage: host3 [--early] LIBRARY RESOURCES_FOLDER TOKEN STEPS STEP FIRST LAST [REFERENCE=VALUE[+RATE] ...]");
   const long steps = strtol(argument[4], NULL, 10), first = strtol(argument[6], NULL, 10);
   const double length = number(argument[5], &end);
   const long last = strtol(argument[7], NULL, 10);
@@ -116,8 +120,8 @@ int main(int count, char **argument) {
   if (library == NULL) stop(2, "%s cannot be loaded", argument[1]);
   h.f = functions_of(library);
   for (int i = 8; i < count; i++) take(&h, argument[i], &reference[i - 8], &value[i - 8]);
-  h.instance = h.f.instantiate("car", argument[3], argument[2], false, false, false, false, h.reference, h.n, &h, say,
-                               h.n > 0 ? update : NULL);
+  h.instance = h.f.instantiate("car", argument[3], argument[2], false, false, false, may_return, h.reference, h.n, &h,
+                               say, h.n > 0 ? update : NULL);
   if (h.instance == NULL) return 5;
   const size_t n_start = (size_t)(count - 8), n = (size_t)(last - first + 1);
   if (n_start > 0) good(h.f.set(h.instance, reference, n_start, value, n_start), "set");
@@ -133,6 +137,7 @@ int main(int count, char **argument) {
     printf("%a", reached);
     for (size_t i = 0; i < n; i++) printf(" %a", value[i]);
     printf("\n");
+    if (early) stop(6, "the step to %g s returned early at %g s", (double)(k + 1) * length, reached);
   }
   good(h.f.terminate(h.instance), "terminate");
   h.f.release(h.instance);

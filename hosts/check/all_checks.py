@@ -11,9 +11,10 @@ from ali3.errors import UserError
 from ali3.isolated import Lost
 from hosts.check.behaviour import BEHAVIOUR_CHECKS
 from hosts.check.dependencies import DEPENDENCY_CHECKS
-from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS
-from hosts.check.instance import Check, Finding, Subject, open_subject
+from hosts.check.documents import DOCUMENT_CHECKS
+from hosts.check.instance import Check, Finding, NotInstantiatedError, Subject, open_subject
 from hosts.check.portability import PORTABILITY_CHECKS
+from hosts.check.process_settings import SETTING_CHECKS
 from hosts.check.process_state import PROCESS_CHECKS
 from hosts.check.values import VALUE_CHECKS
 from hosts.common.numbers import Value
@@ -22,6 +23,7 @@ CHECKS: tuple[Check, ...] = tuple(
     sorted(
         (
             *DOCUMENT_CHECKS,
+            *SETTING_CHECKS,
             *PROCESS_CHECKS,
             *BEHAVIOUR_CHECKS,
             *VALUE_CHECKS,
@@ -62,6 +64,8 @@ def done(check: Check, subject: Subject) -> Finding:
         return check.find(subject)
     except (ModuleNotFoundError, MemoryError):
         raise
+    except NotInstantiatedError as error:
+        return Finding(check.name, "bad", str(error), last=check.crash == "bad")
     except UserError as error:
         return Finding(check.name, "bad", str(error).rstrip("."))
     except Exception as error:
@@ -70,15 +74,13 @@ def done(check: Check, subject: Subject) -> Finding:
 
 def lost(check: Check, loss: Lost, limit: float) -> Finding:
     """What it says of an FMU that a check took its process down, or did not come back in a time, s."""
-    verdict = check.late if loss.late else check.crash
-    open_by = f" ({check.clause})" if verdict == "note" else ""
+    verdict = check.crash if not loss.late else check.late if check.calls else "note"
+    open_by = f" ({check.clause})" if verdict == "note" and check.clause else ""
     if loss.late:
         return Finding(check.name, verdict, f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s")
     return Finding(check.name, verdict, f"the process {loss.how}{open_by}")
 
 
 def left_out(finding: Finding) -> list[Check]:
-    """Checks that cannot be done after what one has found: those that call functions where one of these is missing."""
-    if finding.check == FUNCTIONS and finding.verdict == "bad":
-        return [check for check in CHECKS if check.calls]
-    return []
+    """Checks that cannot be done after what one has found."""
+    return [check for check in CHECKS if check.calls and check.name != finding.check] if finding.last else []

@@ -3,22 +3,34 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+import time
+from threading import Thread
 
-from hosts.check.instance import Check, Finding, Instance, Subject
+import numpy as np
+from fmpy.fmi1 import FMICallException
+
+from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject, count_of
+from hosts.common.errors import HostError
 
 # Two ways of dividing time differ by the error of the method.
 _SUBSTEP_SHARE = 0.05
-NOT_ALLOWED = "FMI does not allow its calls, and says not what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
+_NEAR = 1e-4  # of the largest value of an output: a usual tolerance of solvers
+_CROWD, _BUDGET = 30, 5.0  # instances, and s in which they are made
 _ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 _WRONG_TOKEN = "a wrong GUID"
 
 
 def runs(subject: Subject) -> Finding:
     """A run with finite outputs."""
-    rows = Instance(subject).start().run(subject.steps)
-    if not all(math.isfinite(v) for row in rows for v in row):
-        return Finding("runs", "bad", "an output is not finite")
+    instance = Instance(subject).start()
+    rows = [instance.get(subject.outputs), *instance.run(subject.steps)]
+    names = [v.name for v in subject.outputs for _ in range(count_of(v))]
+    for k, row in enumerate(rows):
+        for name, value in zip(names, row, strict=True):
+            if not math.isfinite(value):
+                words = f"{name} is {value:g} at {k * subject.step:g} s; give a number or refuse the step"
+                return Finding("runs", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+    del rows[0]
     moving = sum(min(column) < max(column) for column in zip(*rows, strict=True))
     words = f"{len(rows)} steps of {subject.step:g} s, {moving} outputs move"
     if len(rows) < subject.steps:
@@ -30,13 +42,42 @@ def runs(subject: Subject) -> Finding:
 def repeats(subject: Subject) -> Finding:
     """Two instances, interleaved, give what one gives."""
     alone = Instance(subject).start().run(subject.steps)
+    if subject.single:
+        if differs := first_difference(subject, alone, Instance(subject).start().run(subject.steps)):
+            return _not_repeated(subject, "after a first one", differs)
+        return Finding("repeats", "good", "bit for bit, one after another")
     pair = [Instance(subject).start() for _ in range(2)]
     rows: list[list[list[float]]] = [[], []]
     for k in range(subject.steps):
         for instance, row in zip(pair, rows, strict=True):
             row += instance.run(1, k)
-    same = rows[0] == rows[1] == alone
-    return Finding("repeats", "good" if same else "bad", "bit for bit, also interleaved" if same else "runs differ")
+    if differs := first_difference(subject, alone, rows[0]) or first_difference(subject, alone, rows[1]):
+        return _not_repeated(subject, "beside a second one", differs)
+    apart: list[list[list[float]]] = []
+    mover = Instance(subject).start()
+    thread = Thread(target=lambda: apart.append(mover.run(subject.steps)))
+    thread.start()
+    thread.join()
+    if not apart:
+        raise HostError("a run in another thread than the instance was made in fails")
+    if differs := first_difference(subject, alone, apart[0]):
+        return _not_repeated(subject, "in another thread than its instance was made in", differs)
+    return Finding("repeats", "good", "bit for bit, also interleaved and in another thread")
+
+
+def _not_repeated(subject: Subject, when: str, differs: str) -> Finding:
+    words = f"a run {when} differs: {differs}; keep all that a run needs in its instance"
+    return Finding("repeats", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+
+
+def first_difference(subject: Subject, one: list[list[float]], other: list[list[float]], begin: int = 0) -> str:
+    """The first value in which the rows of two runs are different, or nothing."""
+    names = [v.name for v in subject.outputs for _ in range(count_of(v))]
+    for k, (first, second) in enumerate(zip(one, other, strict=False)):
+        for name, a, b in zip(names, first, second, strict=True):
+            if a != b and not (a != a and b != b):
+                return f"{name} is {a:.9g} and then {b:.9g} at {(begin + k + 1) * subject.step:g} s"
+    return "" if len(one) == len(other) else f"one ends after {len(one)} steps, the other after {len(other)}"
 
 
 def resets(subject: Subject) -> Finding:
@@ -44,15 +85,18 @@ def resets(subject: Subject) -> Finding:
     instance = Instance(subject).start()
     first = instance.run(subject.steps)
     instance.reset()
-    same = instance.start().run(subject.steps) == first
-    if not same and len(first) < subject.steps:
+    differs = first_difference(subject, first, instance.start().run(subject.steps))
+    if differs and len(first) < subject.steps:
         instance = Instance(subject).start()
         instance.run(len(first) - 1)
         instance.reset()
-        if instance.start().run(len(first) - 1) == first[:-1]:
+        if not first_difference(subject, first[:-1], instance.start().run(len(first) - 1)):
             words = "not as at the first start once it has asked to end; set all back in it"
             return Finding("reset", "note", f"{words} {subject.clause('2.1.6', '2.3.1')}")
-    return Finding("reset", "good" if same else "bad", "as at the first start" if same else "not as at the first start")
+    if differs:
+        words = f"not as at the first start: {differs}; set all back in it"
+        return Finding("reset", "bad", f"{words} {subject.clause('2.1.6', '2.3.1')}")
+    return Finding("reset", "good", "as at the first start")
 
 
 def states(subject: Subject) -> Finding:
@@ -62,14 +106,54 @@ def states(subject: Subject) -> Finding:
     half = max(1, subject.steps // 2)
     instance = Instance(subject).start()
     instance.run(half)
-    data = instance.state_bytes()
+    clause = subject.clause("2.1.8", "2.2.7.4")
+    try:
+        data = instance.state_bytes()
+    except HostError as error:
+        return Finding("states", "bad", f"{str(error).rstrip('.')}; say the size that is needed {clause}")
     first = instance.run(half, half)
     instance.restore_bytes(data)
-    other = Instance(subject)
-    other.restore_bytes(data)
-    if instance.run(half, half) != first or other.run(half, half) != first:
-        return Finding("states", "bad", "a restored state goes on differently")
+    again = instance.run(half, half)
+    if kept := _kept_state(subject):
+        return Finding("states", "bad", f"{kept} {clause}")
+    if differs := first_difference(subject, first, again, half):
+        words = f"a restored state goes on differently: {differs}; save all of it, with the solver's own"
+        return Finding("states", "note" if _near(first, again) else "bad", f"{words} {clause}")
+    for ready in (False, True):
+        other = Instance(subject).start() if ready else Instance(subject)
+        try:
+            other.restore_bytes(data)
+            differs = first_difference(subject, first, other.run(half, half), half)
+        except FMICallException as error:
+            differs = f"{error.function} answers with status {error.status}"
+        if not differs:
+            break
+    if differs:
+        return Finding("states", "bad", f"a state goes on differently in another instance: {differs} {clause}")
+    if ready:
+        words = "a state goes on in another instance only where that was initialised; save its mode too"
+        return Finding("states", "bad" if subject.three else "note", f"{words} {clause}")
     return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
+
+
+def _kept_state(subject: Subject) -> str:
+    """What is wrong with a state that is used twice and freed, or nothing."""
+    instance = Instance(subject).start()
+    instance.run(2)
+    state, rows = instance.state(), []
+    for _ in range(2):
+        instance.restore(state)
+        rows.append(instance.run(2, 2))
+    instance.free_state(state)
+    if differs := first_difference(subject, rows[0], rows[1], 2):
+        return f"a state that is restored twice goes on differently: {differs}; leave it as it was saved"
+    return "a state that was freed keeps its pointer; set it to NULL" if state.value else ""
+
+
+def _near(first: list[list[float]], again: list[list[float]]) -> bool:
+    """Whether two runs differ by no more than what a solver that starts anew makes otherwise."""
+    one, other = np.array(first), np.array(again)
+    return one.shape == other.shape and bool(np.all(np.abs(one - other) <= _NEAR * np.abs(one).max(axis=0)))
 
 
 def _has_states(subject: Subject) -> bool:
@@ -81,10 +165,9 @@ def altered_states(subject: Subject) -> Finding:
     """Whether bytes of a state with one bit changed are refused."""
     if not _has_states(subject):
         return Finding("altered states", "good", "there are none")
-    instance, other = Instance(subject).start(), Instance(subject)
+    instance = Instance(subject).start()
     instance.run(max(1, subject.steps // 2))
-    data = instance.state_bytes()
-    taken = 0
+    data, taken, other = instance.state_bytes(), 0, Instance(subject)
     for k in range(16):
         altered = bytearray(data)
         altered[len(data) * k // 16] ^= 0x10
@@ -142,31 +225,42 @@ def other_steps(subject: Subject) -> Finding:
     if not subject.description.coSimulation.canHandleVariableCommunicationStepSize:
         return Finding("steps of any size", "note", "only the one step size is allowed")
     fine = Instance(subject).start().run(subject.steps)
-    instance, time, end = Instance(subject).start(), 0.0, subject.steps * subject.step
+    instance, now, end = Instance(subject).start(), 0.0, subject.steps * subject.step
     k = 0
-    while time < end - 1e-9:
-        step = min(subject.step * (0.7, 1.0, 2.5)[k % 3], end - time)
-        if not instance.advance(time, step):
+    while now < end - 1e-9:
+        step = min(subject.step * (0.7, 1.0, 2.5)[k % 3], end - now)
+        if not instance.advance(now, step):
             break
-        time, k = time + step, k + 1
+        now, k = now + step, k + 1
     last = instance.get(subject.outputs)
     moving = [(a, b, max(c) - min(c)) for a, b, c in zip(last, fine[-1], zip(*fine, strict=True), strict=True)]
     near = sum(abs(a - b) <= _SUBSTEP_SHARE * span + 1e-9 for a, b, span in moving)
-    verdict: Literal["good", "bad"] = "good" if all(math.isfinite(v) for v in last) else "bad"
     words = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
-    return Finding("steps of any size", verdict, words)
+    if not all(math.isfinite(v) for v in last):
+        return Finding(
+            "steps of any size", "bad", f"an output is no number; {words} {subject.clause('4.2.2', '4.2.1')}"
+        )
+    if 2 * near < len(moving):
+        words += "; step by the length that is asked for, or say that only one is allowed"
+        return Finding("steps of any size", "note", f"{words} {subject.clause('4.3.1', '4.2.1')}")
+    return Finding("steps of any size", "good", words)
 
 
 def many(subject: Subject) -> Finding:
-    """Thirty instances at once."""
-    if subject.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+    """Thirty instances at once, or as many as are made in some seconds."""
+    if subject.single:
         return Finding("many instances", "note", "one per process is allowed")
-    crowd = [Instance(subject).start() for _ in range(30)]
+    crowd, begin = list[Instance](), time.perf_counter()
+    while len(crowd) < _CROWD and (len(crowd) < 2 or time.perf_counter() - begin < _BUDGET):
+        crowd.append(Instance(subject).start())
     ends = [instance.run(3)[-1] for instance in crowd]
     for instance in crowd:
         instance.free()
-    same = all(end == ends[0] for end in ends)
-    return Finding("many instances", "good" if same else "bad", "30 at once" + ("" if same else ", they differ"))
+    for end in ends[1:]:
+        if differs := first_difference(subject, [ends[0]], [end], 2):
+            words = f"{len(crowd)} at once differ: {differs}; keep all that a run needs in its instance"
+            return Finding("many instances", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("many instances", "good", f"{len(crowd)} at once")
 
 
 BEHAVIOUR_CHECKS = (

@@ -222,7 +222,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     with closing(Isolated(checker, Finding, reads=(fmu, *files_of(start)))) as process:
         for place, check in enumerate(CHECKS):
             if check.name in without:
-                cases.append(Case(fmu.stem, check.name, "skipped", "functions are missing"))
+                cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))
                 continue
             begin = time.perf_counter()
             result = process.do(place, limit=limit)

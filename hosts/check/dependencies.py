@@ -10,7 +10,7 @@ import numpy as np
 from fmpy.model_description import ScalarVariable
 from numpy.typing import NDArray
 
-from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of
+from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_of, inside, size_of
 
 _STATES = 4
 _PART = 1e-4  # of an input's range: the nudge of a difference
@@ -23,39 +23,28 @@ def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
     return outputs, [v.name for v in outputs for _ in range(count_of(v))]
 
 
-def _size(v: ScalarVariable) -> tuple[float, float]:
-    """A start value of an input, and a change that stays in its range."""
-    start = float(v.start or 0.0)
-    low, high = (float(end) if end not in (None, "") else sign * np.inf for end, sign in ((v.min, -1), (v.max, 1)))
-    span = high - low if np.isfinite(high - low) and high - low < 1e6 else max(1.0, abs(start))
-    if start + span <= high:
-        return start, span
-    if start - span >= low:
-        return start, -span
-    return start, 0.5 * (high - start) or start - low
-
-
 def dependencies(subject: Subject) -> Finding:
     """Outputs that an input changes at a communication point are declared to depend on it there."""
     outputs, names = _real_outputs(subject)
     if not (subject.inputs and outputs):
         return Finding("dependencies", "good", "no inputs and outputs to compare")
     clause = subject.clause("2.2.8", "2.4.8")
+    whole: dict[int, str] = {}  # the inputs, and by their reference what else they are called
+    for v in sorted(subject.description.modelVariables, key=lambda v: v.causality != "input"):
+        whole.setdefault(v.valueReference, v.name)
     declared = {
-        u.variable.name: None if u.dependencies is None else {v.name for v in u.dependencies}
+        u.variable.name: None if u.dependencies is None else {whole[v.valueReference] for v in u.dependencies}
         for u in subject.description.outputs
     }
-    whole = {v.valueReference: v.name for v in subject.description.modelVariables}
     moved: dict[str, set[str]] = {name: set() for name in declared}
     instance, made = Instance(subject).start(), 0
     for _ in range(_STATES):
         made += len(instance.run(max(1, subject.steps // (2 * _STATES)), made))
         for v in subject.inputs:
-            start, change = _size(v)
             before = instance.get(outputs)
-            instance.set_input(v, start + 0.37 * change)
+            instance.set_input(v, inside(v, 0.37))
             after = instance.get(outputs)
-            instance.set_input(v, start)
+            instance.set_input(v, inside(v, 0.0))
             known = whole[subject.places[v.name].reference]
             for name, one, other in zip(names, before, after, strict=True):
                 if one == other or (one != one and other != other):
@@ -104,7 +93,7 @@ def derivatives(subject: Subject) -> Finding:
     compared, over_steps, span = 0, 0, _span(subject)
     added_along = "" if span is None else span.get("addedAlong", "")
     for known, instance, time in _states(subject, without=set(added_along.split())):
-        start, change = _size(known)
+        start, change = size_of(known)
         part = _PART * change
         before = instance.state()
         at_point, over_step = [], []
@@ -131,7 +120,7 @@ def derivatives(subject: Subject) -> Finding:
                 step, point = ((found[1][k] - found[2][k]) / (2.0 * part) for found in (over_step, at_point))
                 words = f"{names[k]} has the derivative {slopes[k]:g} by {known.name}; differences are {point:g} at a "
                 words += f"communication point and {step:g} over a step; give one of them"
-                return Finding("derivatives", "bad", f"{words} {subject.clause('2.1.9', '2.2.11')}")
+                return Finding("derivatives", "bad", f"{words} {subject.clause('2.1.9', '2.2.12')}")
             compared += 1
             over_steps += bool(np.any(~near[0]))
         instance.free_state(before)
@@ -139,7 +128,7 @@ def derivatives(subject: Subject) -> Finding:
         return Finding("derivatives", "note", "no step could be compared")
     if over_steps and (span is None or span.get("span") != "communicationStep"):
         words = "they are those over the last step, which FMI has no word for; say so in an annotation"
-        return Finding("derivatives", "note", f"{words} {subject.clause('2.1.9', '2.2.11')}")
+        return Finding("derivatives", "note", f"{words} {subject.clause('2.1.9', '2.2.12')}")
     return Finding(
         "derivatives", "good", f"as differences {'over a step' if over_steps else 'at a communication point'}"
     )
@@ -157,7 +146,7 @@ def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariabl
             continue
         instance = Instance(subject).start()
         made = len(instance.run(max(2, subject.steps // 8)))
-        instance.set_input(known, _size(known)[0])
+        instance.set_input(known, size_of(known)[0])
         if instance.advance(made * subject.step, subject.step):
             yield known, instance, (made + 1) * subject.step
         instance.free()

@@ -43,24 +43,25 @@ def functions(subject: Subject) -> Finding:
         / (platform_tuple if subject.three else platform)
         / f"{face}{sharedLibraryExtension}"
     )
+
+    def lacks(words: str) -> Finding:
+        return Finding(FUNCTIONS, "bad", words, last=True)
+
     try:
         loaded = marked("dlopen", ctypes.CDLL)(str(library))
     except OSError as error:
-        return Finding(FUNCTIONS, "bad", f"the library cannot be loaded: {error}{cause_words(error)}")
+        return lacks(f"the library cannot be loaded: {error}{cause_words(error)}")
     kind, prefix = (FMU3Slave, "fmi3") if subject.three else (FMU2Slave, "fmi2")
     wanted = [name for name in dir(kind) if name.startswith(prefix)]
     missing = [name for name in wanted if not hasattr(loaded, name)]
-    clause = subject.clause("2.3", "2.5")
     if not missing:
         return Finding(FUNCTIONS, "good", f"the library has all {len(wanted)}")
     if hasattr(loaded, f"{face}_{missing[0]}"):
-        return Finding(
-            FUNCTIONS,
-            "bad",
+        return lacks(
             f"they begin with the prefix {face}_, which those of sources and static libraries have, not those of a "
             f"shared library {subject.clause('2.1.1', '2.2.2')}",
         )
-    return Finding(FUNCTIONS, "bad", f"{len(missing)} of {len(wanted)} are missing: {some_of(missing)} {clause}")
+    return lacks(f"{len(missing)} of {len(wanted)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
 
 
 def execution_tool(subject: Subject) -> Finding:

@@ -11,10 +11,12 @@ from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree
 
+import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.errors import reason
+from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance
@@ -31,6 +33,8 @@ class Finding:
     verdict: Literal["good", "note", "bad"]
     """``note``: what the standard leaves open, with its clause."""
     words: str
+    last: bool = False
+    """Whether no check can follow that calls functions of the FMU."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,8 @@ class Subject:
     start: Mapping[str, Value] = field(default_factory=dict)
     """What is set in each instance before it starts; elements of arrays by their names."""
 
+    alive: Instance | None = None
+    """The instance of an FMU that may have one in a process."""
     files: dict[str, tuple[int, int]] | None = None
     """What lay around the FMU before its first call in this process, if that was looked at: sizes and times by path."""
 
@@ -75,6 +81,11 @@ class Subject:
     def three(self) -> bool:
         """Whether it is FMI 3.0."""
         return str(self.description.fmiVersion).startswith("3")
+
+    @property
+    def single(self) -> bool:
+        """Whether a process may have one instance only."""
+        return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
 
     def clause(self, two: str, three: str) -> str:
         """The clause that a verdict rests on, of the version of FMI that this is."""
@@ -102,15 +113,38 @@ class Subject:
         return [v for v in self.by_elements.modelVariables if v.causality == "input" and v.type == "Real"]
 
 
+class NotInstantiatedError(HostError):
+    """The FMU gives no instance."""
+
+
 REAL = ("Real", "Float64")
 WHOLE = ("Integer", "Int32")
 """Types of variables whose values are looked at."""
+NOT_ALLOWED = "FMI does not allow its calls, and says not what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
 _DISCARD, _TERMINATED = 2, 3
 
 
 def count_of(variable: ScalarVariable) -> int:
     """How many values it has."""
     return math.prod(variable.shape or ())
+
+
+def size_of(v: ScalarVariable) -> tuple[float, float]:
+    """A start value of an input, and a change that stays in its range."""
+    start = float(v.start or 0.0)
+    low, high = (float(end) if end not in (None, "") else sign * np.inf for end, sign in ((v.min, -1), (v.max, 1)))
+    span = high - low if np.isfinite(high - low) and high - low < 1e6 else max(1.0, abs(start))
+    if start + span <= high:
+        return start, span
+    if start - span >= low:
+        return start, -span
+    return start, 0.5 * (high - start) or start - low
+
+
+def inside(v: ScalarVariable, share: float) -> float:
+    """A value of an input in its range: its start, and a share of its change."""
+    start, change = size_of(v)
+    return start + share * change
 
 
 class Instance(instance.Instance):
@@ -120,15 +154,30 @@ class Instance(instance.Instance):
         self, subject: Subject, token: str | None = None, name: str = "check", resources: str | None = None
     ) -> None:
         self.subject, self.ended = subject, False
-        self.messages: list[str] = []
-        super().__init__(
-            subject.by_elements,
-            subject.folder,
-            name,
-            lambda status, category, text: self.messages.append(text),
-            token,
-            resources,
-        )
+        self.messages = list[str]()
+        self.chatter = 0
+        """Messages that are of no problem."""
+        if subject.alive is not None:
+            subject.alive.free()
+        try:
+            super().__init__(
+                subject.by_elements,
+                subject.folder,
+                name,
+                self._hear,
+                token,
+                resources,
+            )
+        except (ModuleNotFoundError, MemoryError):
+            raise
+        except Exception as error:
+            said = one_line(": ".join([str(error), *self.messages[-1:]]))
+            raise NotInstantiatedError(f"it is not instantiated {subject.clause('2.1.5', '2.3.1')}: {said}") from None
+        subject.alive = self if subject.single else None
+
+    def _hear(self, status: int, category: str, text: str) -> None:
+        self.messages.append(text)
+        self.chatter += status == 0
 
     def start(self, start_time: float = 0.0, stop_time: float | None = None) -> Instance:
         """Set what is to be set and leave initialisation."""
@@ -182,12 +231,12 @@ class Instance(instance.Instance):
         """Set one of `Subject.inputs`."""
         self.set({self.subject.places[variable.name]: value})
 
-    def run(self, steps: int, begin: int = 0) -> list[list[float]]:
-        """Outputs after each step, up to the end that the FMU asks for."""
+    def run(self, steps: int, begin: int = 0, origin: float = 0.0) -> list[list[float]]:
+        """Outputs after each step, up to the end that the FMU asks for; `origin`: the start time."""
         h = self.subject.step
         rows: list[list[float]] = []
         for k in range(begin, begin + steps):
-            if not self.advance(k * h, h):
+            if not self.advance(origin + k * h, h):
                 break
             rows.append(self.get(self.subject.outputs))
         return rows
@@ -198,6 +247,7 @@ class Instance(instance.Instance):
             self.slave.fmi3FreeInstance(self.slave.component)
         else:
             self.slave.fmi2FreeInstance(self.slave.component)
+        self.subject.alive = None
 
 
 def open_subject(path: Path, folder: Path, steps: int, start: Mapping[str, Value]) -> Subject:

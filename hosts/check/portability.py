@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from collections import Counter
 from collections.abc import Callable
 from ctypes import byref, c_bool, c_double, c_int, c_void_p
 from xml.etree import ElementTree
 
 from ali3.call_mark import marked
-from hosts.check.behaviour import NOT_ALLOWED
-from hosts.check.instance import REAL, Check, Finding, Instance, Subject
+from hosts.check.instance import NOT_ALLOWED, REAL, Check, Finding, Instance, NotInstantiatedError, Subject
 
 # Names whose last part says that the value is a whole number.
 _COUNTS = ("iterations", "factorizations", "halvings", "status", "gear", "fidelity")
@@ -17,7 +18,7 @@ _LICENCES = ("license.txt", "license.html", "license.spdx")
 _FAR = 1e16
 _INNER_STEPS = 1e9
 _NO_LIMIT = "FMI sets no time for a step: FMI 2.0, 4.2.2, and FMI 3.0, 4.2.1"
-_OK, _ERROR, _SHORT_STEP = 0, 3, 0.5
+_OK, _WARNING, _ERROR, _SHORT_STEP = 0, 1, 3, 0.5
 _DISCARD, _TRIES, _COARSE, _STRONG = 2, 40, 10, 100.0
 
 
@@ -120,7 +121,11 @@ def quiet_steps(subject: Subject) -> Finding:
     """A communication step of half the default one is no warning."""
     if not subject.description.coSimulation.canHandleVariableCommunicationStepSize:
         return Finding("quiet steps", "good", "only the one step size is allowed")
-    status = _step_status(Instance(subject).start(), 0.0, _SHORT_STEP * subject.step)
+    instance = Instance(subject).start()
+    status = _step_status(instance, 0.0, _SHORT_STEP * subject.step)
+    if status == _WARNING and not instance.messages:
+        words = "a step is answered with a warning and without a message; say what it warns of"
+        return Finding("quiet steps", "bad", f"{words} {subject.clause('2.1.3', '2.2.4')}")
     if status != _OK:
         words = f"half the default step is answered with status {status}, which FMI leaves to the FMU"
         return Finding("quiet steps", "note", f"{words} {subject.clause('2.1.3', '2.2.4')}")
@@ -165,6 +170,20 @@ def stop_time(subject: Subject) -> Finding:
         words = f"a step beyond it is answered with status {status}, not as an error"
         return Finding("stop time", "bad", f"{words} {subject.clause('2.1.6', '2.3.3')}")
     return Finding("stop time", "good", "a step beyond it is refused")
+
+
+def any_path(subject: Subject) -> Finding:
+    """The folder of the resources may have blanks and letters that are no ASCII."""
+    folder = subject.folder / "of a user, m\u00fcller"
+    source = subject.folder / "resources"
+    if not folder.exists():
+        shutil.copytree(source, folder) if source.is_dir() else folder.mkdir()
+    try:
+        Instance(subject, resources=f"{folder}{os.sep}" if subject.three else folder.as_uri())
+    except NotInstantiatedError:
+        words = f"it is not instantiated with resources in a folder named '{folder.name}'; decode their location"
+        return Finding("resource paths", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("resource paths", "good", "blanks and letters that are no ASCII are taken")
 
 
 def capital_scheme(subject: Subject) -> Finding:
@@ -253,6 +272,7 @@ PORTABILITY_CHECKS = (
     Check("quiet steps", quiet_steps),
     Check("careless calls", careless_calls, crash="note", late="note", clause=NOT_ALLOWED),
     Check("stop time", stop_time),
+    Check("resource paths", any_path),
     Check("resources", capital_scheme, crash="note", clause="capitals of a scheme are of RFC 3986, 3.1"),
     Check("arrays", arrays, calls=False),
     Check("refused steps", refused_steps, late="note", clause=_NO_LIMIT),

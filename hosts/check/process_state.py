@@ -4,140 +4,53 @@ from __future__ import annotations
 
 import ctypes
 import gc
-import locale
 import os
 import re
-import signal
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
-from hosts.check.instance import Check, Finding, Instance, Subject
+from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject
 
 _LONG, _STEPS, _BUDGET = 30, 120, 1.0  # steps before and while something is measured; s
+_PATIENCE = 10.0  # s for instances
 _LEAK, _PER_INSTANCE = 8_000, 30_000  # bytes a step, an instance
 _INSTANCES = 20
 _REST, _IDLE = 0.3, 0.03  # s between calls, and of the processor in them
 _SLOW = 10.0  # times its step that a step may take
-_STATUS = Path("/proc/self/status")
-_LINUX = sys.platform == "linux"
+LINUX = sys.platform == "linux"
 _FORMAT = re.compile(r"%(?!%)[-+ #0-9.*hlLqjzt]*([a-zA-Z])")
-_GLOBAL = ("2.1", "2.2.1")
-Kept = Mapping[str, object]
-
-
-def _float_control() -> tuple[int, int]:
-    """Control bits of the processor for floating point, x87 and SSE; (0, 0) where they cannot be read."""
-    if not (_LINUX and os.uname().machine == "x86_64"):
-        return 0, 0
-    environment = (ctypes.c_uint8 * 32)()
-    ctypes.CDLL("libm.so.6").fegetenv(environment)
-    x87, sse = (int.from_bytes(bytes(environment[k : k + 4]), "little") for k in (0, 28))
-    return x87 & 0xFFFF, sse & 0xFFC0
-
-
-def _signals() -> dict[str, str]:
-    text = _STATUS.read_text() if _LINUX else ""
-    return dict(re.findall(r"^(SigBlk|SigIgn|SigCgt):\s*(\w+)", text, re.MULTILINE))
-
-
-def _umask() -> int:
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask
-
-
-def _c_locale() -> str:
-    return str(locale.setlocale(locale.LC_ALL))
-
-
-def _environment() -> dict[str, str]:
-    """As C sees it."""
-    if not _LINUX:
-        return {}
-    found, entries, k = {}, ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ"), 0
-    while entries[k]:
-        name, _, value = entries[k].partition(b"=")
-        found[name.decode(errors="replace")] = value.decode(errors="replace")
-        k += 1
-    return found
-
-
-_SETTINGS: dict[str, tuple[Callable[[], object], str]] = {
-    "floating-point control": (_float_control, "restore rounding, flush to zero and traps before a function returns"),
-    "the folder of the process": (os.getcwd, "use whole paths in place of chdir"),
-    "signals": (_signals, "leave handlers, SIG_IGN and masks to the host"),
-    "the umask": (_umask, "give modes to open"),
-    "the locale": (_c_locale, "use uselocale of the thread and restore it"),
-    "the environment": (_environment, "keep values in the instance"),
-}
-
-
-def settings(subject: Subject) -> Finding:
-    """Settings of the process are as they were, after each kind of call."""
-    subject.files = _files(*_folders(subject))
-    folder = Path.cwd()
-    interrupt = signal.signal(signal.SIGINT, signal.default_int_handler)  # that of a host that can be stopped
-    try:
-        return _settings(subject)
-    finally:
-        signal.signal(signal.SIGINT, interrupt)
-        os.chdir(folder)
-
-
-def _settings(subject: Subject) -> Finding:
-    before = {name: read() for name, (read, _) in _SETTINGS.items()}
-    instance = Instance(subject)
-    calls: list[tuple[str, Callable[[], object]]] = [
-        ("instantiation", lambda: None),
-        ("initialisation", instance.start),
-        ("a step", lambda: instance.run(3)),
-        ("a read", lambda: instance.get(subject.outputs)),
-        ("the end", lambda: None if instance.ended else instance.slave.terminate()),
-        ("fmiFreeInstance", instance.free),
-    ]
-    for what, call in calls:
-        call()
-        for name, (read, remedy) in _SETTINGS.items():
-            if (now := read()) != before[name]:
-                words = f"{name} changed from {_short(before[name], now)} by {what}; {remedy}"
-                return Finding("process settings", "bad", f"{words} {subject.clause(*_GLOBAL)}")
-    return Finding("process settings", "good", f"left alone: {', '.join(_SETTINGS)}")
-
-
-def _short(before: object, now: object) -> str:
-    """What of two values differs."""
-    if isinstance(before, dict) and isinstance(now, dict):
-        name = next(n for n in {**before, **now} if before.get(n) != now.get(n))
-        return f"{name} {before.get(name, 'unset')} to {now.get(name, 'unset')}"
-    if isinstance(before, tuple) and isinstance(now, tuple):
-        return " to ".join("/".join(f"0x{bits:x}" for bits in value) for value in (before, now))
-    return f"{before} to {now}"
 
 
 def _memory() -> int:
     """Bytes in the heap and in mappings that are resident."""
-    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if _LINUX else 0
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if LINUX else 0
 
 
 def _threads() -> int:
-    return len(list(Path("/proc/self/task").iterdir())) if _LINUX else 0
+    return len(list(Path("/proc/self/task").iterdir())) if LINUX else 0
+
+
+def _children() -> int:
+    lists = Path("/proc/self/task").glob("*/children") if LINUX else ()
+    return sum(len(file.read_text().split()) for file in lists)
 
 
 def _descriptors() -> int:
-    return len(list(Path("/proc/self/fd").iterdir())) if _LINUX else 0
+    return len(list(Path("/proc/self/fd").iterdir())) if LINUX else 0
 
 
 # memory last: a thread has some too
 _COSTS: dict[str, tuple[Callable[[], int], float, str, str]] = {
+    "processes": (_children, 0.5, "processes", "wait for those that it begins"),
     "threads": (_threads, 0.5, "threads", "end the threads of a step"),
     "descriptors": (_descriptors, 0.5, "descriptors", "close what a step opens"),
-    "memory": (_memory, _LEAK, "bytes", "free what a step allocates"),
+    "memory": (_memory, _LEAK, "bytes", "free what was allocated"),
 }
 
 
@@ -154,21 +67,50 @@ def costs_of_steps(subject: Subject) -> Finding:
         if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
             break
     rows = rows[1:] if len(rows) > 4 else rows
+    if words := _growth(rows, "a step"):
+        return Finding("costs of steps", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+    return Finding("costs of steps", "good", f"{', '.join(_COSTS)} stay over {made} steps")
+
+
+def _growth(rows: list[list[int]], of: str) -> str:
+    """What of the costs grows with what was done ten times between the rows, or nothing."""
     for column, (name, (_, most, unit, remedy)) in zip(zip(*rows, strict=True), _COSTS.items(), strict=True):
         growth = [(later - earlier) / 10.0 for earlier, later in pairwise(column)]
         rate = sorted(growth)[len(growth) // 2] if growth else 0.0
         if rate > most:
-            words = f"{name} grow by {rate:g} {unit} a step; {remedy}"
-            return Finding("costs of steps", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("costs of steps", "good", f"memory, threads and descriptors stay over {made} steps")
+            return f"{name} grow by {rate:g} {unit} {of}; {remedy}"
+    return ""
+
+
+def costs_of_states(subject: Subject) -> Finding:
+    """Memory, threads and descriptors do not grow with states that are freed."""
+    if not subject.description.coSimulation.canGetAndSetFMUstate:
+        return Finding("costs of states", "good", "there are none")
+    instance, rows = Instance(subject).start(), list[list[int]]()
+    instance.run(2)
+    begin = time.perf_counter()
+    for k in range(100):
+        if k % 10 == 0:
+            rows.append([read() for read, *_ in _COSTS.values()])
+            if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
+                break
+        state = instance.state()
+        instance.restore(state)
+        instance.free_state(state)
+    if words := _growth(rows[1:], "a state that is freed"):
+        return Finding("costs of states", "bad", f"{words} {subject.clause('2.1.8', '2.2.7.4')}")
+    return Finding("costs of states", "good", "states that are freed leave nothing")
 
 
 def costs_of_instances(subject: Subject) -> Finding:
     """Memory, threads and descriptors do not grow with instances that are freed."""
-    if subject.description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+    if subject.single:
         return Finding("costs of instances", "good", "one per process is allowed")
     marks: list[list[int]] = []
+    begin = time.perf_counter()
     for k in range(_INSTANCES):
+        if time.perf_counter() - begin > _PATIENCE:
+            return Finding("costs of instances", "note", f"not seen: {k} instances take {_PATIENCE:g} s; 20 are needed")
         instance = Instance(subject).start()
         instance.run(2)
         instance.free()
@@ -229,31 +171,31 @@ def _captured() -> Iterator[list[bytes]]:
             found.append(stream.read())
 
 
-def _files(*folders: Path) -> dict[str, tuple[int, int]]:
-    """Sizes and times of change by path."""
+def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
+    """Sizes and times of change of files, by path, where those of an FMU could lie and nobody else writes."""
+    temporary = Path(tempfile.gettempdir())
+    own = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
     found = {}
-    for folder in folders:
-        for path in folder.rglob("*"):
-            try:
-                stat = path.lstat()
-            except OSError:
-                continue
-            if not path.is_dir():
-                found[str(path)] = stat.st_size, stat.st_mtime_ns
+    for path in (path for folder in {subject.folder, Path.cwd()} | own for path in folder.rglob("*")):
+        try:
+            stat = path.lstat()
+        except OSError:
+            continue
+        if not path.is_dir():
+            found[str(path)] = stat.st_size, stat.st_mtime_ns
     return found
 
 
 def outside(subject: Subject) -> Finding:
     """Prints and files of a run."""
-    folders = _folders(subject)
-    before = _files(*folders) if subject.files is None else subject.files
+    before = files_around(subject) if subject.files is None else subject.files
     with _captured() as printed:
         instance = Instance(subject).start()
         instance.run(min(subject.steps, 10))
         if not instance.ended:
             instance.slave.terminate()
         instance.free()
-    after = _files(*folders)
+    after = files_around(subject)
     changed = [name for name in after if after[name] != before.get(name)]
     gone = [name for name in before if name not in after]
     text = printed[0].decode("utf-8", "replace").strip()
@@ -266,13 +208,6 @@ def outside(subject: Subject) -> Finding:
     if words:
         return Finding("files and prints", "note", f"{'; '.join(words)} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("files and prints", "good", "none")
-
-
-def _folders(subject: Subject) -> set[Path]:
-    """Where files of an FMU could lie, and nobody else writes."""
-    temporary = Path(tempfile.gettempdir())
-    own = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
-    return {subject.folder, Path.cwd()} | own
 
 
 def messages(subject: Subject) -> Finding:
@@ -290,6 +225,13 @@ def messages(subject: Subject) -> Finding:
             words = f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
             verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
             return Finding("messages", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
+    quiet = Instance(subject).start()
+    quiet.run(5)
+    words = f"{instance.without_text} have no category or text; give both" if instance.without_text else ""
+    if quiet.chatter and not words:
+        words = f"logging is off, and {quiet.chatter} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
+    if words:
+        return Finding("messages", "note", f"{words} {subject.clause('2.1.5', '2.3.1')}")
     said = len(instance.messages)
     if said > 20 * max(1, len(rows)):
         words = f"{said} in {len(rows)} steps"
@@ -298,10 +240,10 @@ def messages(subject: Subject) -> Finding:
 
 
 PROCESS_CHECKS = (
-    Check("process settings", settings),
     Check("files and prints", outside),
     Check("costs of steps", costs_of_steps),
     Check("costs of instances", costs_of_instances),
+    Check("costs of states", costs_of_states),
     Check("time of steps", time_of_steps, late="note", clause="FMI sets no time for a step"),
-    Check("messages", messages),
+    Check("messages", messages, crash="note", clause=NOT_ALLOWED),
 )

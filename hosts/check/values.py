@@ -7,8 +7,10 @@ import math
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ScalarVariable
 
-from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject
+from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject, inside
 
+_BEGIN = 10.0  # s
+_ROUND = 1e-9  # of a value: round-off of who writes and who reads it
 _VERSION = {"2.0": ("fmi2GetVersion", b"2.0"), "3.0": ("fmi3GetVersion", b"3.0")}
 
 
@@ -33,12 +35,17 @@ def _initialising(subject: Subject) -> Instance:
 def start_values(subject: Subject) -> Finding:
     """What is read before anything was set is what the description says."""
     known = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
-    instance = _initialising(subject)
+    instance, rounded = _initialising(subject), ""
     for v in known:
         stated, found = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
         if found != stated:
-            words = f"{v.name} reads {found:g} before it is set, and its start is {stated:g}; give it that value"
-            return Finding("start values", "bad", f"{words} {subject.clause('2.2.7', '2.4.7')}")
+            words = f"{v.name} reads {found:.17g} before it is set, and its start is {stated:.17g}; give it that value"
+            words += f" {subject.clause('2.2.7', '2.4.7')}"
+            if not math.isclose(found, stated, rel_tol=_ROUND):
+                return Finding("start values", "bad", words)
+            rounded = rounded or words
+    if rounded:
+        return Finding("start values", "note", rounded)
     return Finding("start values", "good", f"{len(known)} read as they are described")
 
 
@@ -60,9 +67,24 @@ def set_values(subject: Subject) -> Finding:
         if found != value:
             words = f"{v.name} was set to {value:.9g} without a message and reads {found:.9g}; take it or refuse it"
             if instance.messages:
-                return Finding("set values", "note", f"{words} {subject.clause('2.1.7', '2.2.6')}")
-            return Finding("set values", "bad", f"{words} {subject.clause('2.1.7', '2.2.6')}")
-    return Finding("set values", "good", f"{count} are read back")
+                return Finding("set values", "note", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+            return Finding("set values", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+    return _kept_inputs(subject) or Finding("set values", "good", f"{count} are read back")
+
+
+def _kept_inputs(subject: Subject) -> Finding | None:
+    """An input that a step changes."""
+    instance = Instance(subject).start()
+    inputs = [v for v in _scalars(subject, "input") if v.type in REAL]
+    for k, v in enumerate(inputs):
+        instance.set_input(v, inside(v, 0.37))
+        before = instance.get([v])[0]
+        if not instance.advance(k * subject.step, subject.step):
+            break
+        if (after := instance.get([v])[0]) != before:
+            words = f"{v.name} was set to {before:.9g} and reads {after:.9g} after a step; it stays until it is set"
+            return Finding("set values", "bad", f"{words} {subject.clause('4.2.1', '2.2.7.2')}")
+    return None
 
 
 def ranges(subject: Subject) -> Finding:
@@ -86,10 +108,16 @@ def reads_twice(subject: Subject) -> Finding:
     instance = Instance(subject).start()
     instance.run(2)
     once, twice = instance.get(subject.outputs), instance.get(subject.outputs)
+    single = [v for v in _scalars(subject, "input", "output") if v.type in REAL]
+    forward, back = instance.get(single), instance.get(single[::-1])[::-1]
+    for v, a, b in zip(single, forward, back, strict=True):
+        if a != b and a == a:
+            words = f"{v.name} reads {a:g}, and {b:g} where the references are asked for the other way round"
+            return Finding("reads twice", "bad", f"{words}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
     if any(a != b and a == a for a, b in zip(once, twice, strict=True)):
         k = next(k for k, (a, b) in enumerate(zip(once, twice, strict=True)) if a != b)
         words = f"an output reads {once[k]:g} and then {twice[k]:g} with no call in between; a read must change nothing"
-        return Finding("reads twice", "bad", f"{words} {subject.clause('2.1.7', '2.2.6')}")
+        return Finding("reads twice", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
     return Finding("reads twice", "good", "the same")
 
 
@@ -101,14 +129,25 @@ def ends(subject: Subject) -> Finding:
     found = getattr(instance.slave, name)()
     if found != version and not (subject.three and bytes(found).startswith(b"3.")):
         words = f"{name} answers {bytes(found).decode(errors='replace')}, not {version.decode()}"
-        return Finding("end", "bad", f"{words} {subject.clause('2.1.5', '2.2.5')}")
+        return Finding("end", "bad", f"{words} {subject.clause('2.1.4', '2.2.5')}")
     if not instance.ended:
         try:
             instance.slave.terminate()
         except FMICallException as error:
             words = f"{error.function} answers with status {error.status} after good steps; it must be 0"
-            return Finding("end", "bad", f"{words} {subject.clause('4.2.1, 2.1.6', '2.3.5')}")
+            return Finding("end", "bad", f"{words} {subject.clause('4.2.1, 2.1.6', '2.3.4')}")
     return Finding("end", "good", "terminates; the version is right")
+
+
+def start_time(subject: Subject) -> Finding:
+    """A run that begins at another time than zero."""
+    instance, clause = Instance(subject).start(start_time=_BEGIN), subject.clause("2.1.6", "2.3.3")
+    try:
+        made = len(instance.run(3, origin=_BEGIN))
+    except FMICallException as error:
+        words = f"{error.function} answers with status {error.status} in a run that begins at {_BEGIN:g} s; begin there"
+        return Finding("start time", "bad", f"{words} {clause}")
+    return Finding("start time", "good", f"{made} steps from {_BEGIN:g} s")
 
 
 def answers_of_steps(subject: Subject) -> Finding:
@@ -137,6 +176,7 @@ VALUE_CHECKS = (
     Check("set values", set_values),
     Check("ranges", ranges),
     Check("reads twice", reads_twice),
+    Check("start time", start_time),
     Check("answers of steps", answers_of_steps),
     Check("end", ends),
 )

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
-from fmpy.fmi3 import FMU3Slave
+from fmpy.fmi3 import FMU3Slave, fmi3Byte
 from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
@@ -25,6 +25,7 @@ from hosts.fmu.scalars import Place
 
 _WARNING = 1
 _KEPT = 256  # messages
+_GUARD = bytes(range(1, 65))  # behind what an FMU writes
 State: TypeAlias = ctypes.c_void_p
 """A state that an FMU has saved, in its memory."""
 
@@ -51,8 +52,9 @@ class Instance:
     """An instance of an FMU of FMI 2.0 or 3.0; what FMI refuses is an `FMICallException` of FMPy.
 
     `told`: takes status, category and text of each message; `token`: in place of that of the description; `resources`:
-    their location, of FMI 2.0, in place of the right one. `three`: whether it is FMI 3.0; `raw`: the last messages as
-    the FMU gave them; `follow`: called with the times within the next step at which an FMU asks for inputs.
+    their location in place of the right one, of FMI 2.0 a URI, of FMI 3.0 a path. `three`: whether it is FMI 3.0;
+    `raw`: the last messages as the FMU gave them; `without_text`: how many had no category or text; `follow`: called
+    with the times within the next step at which an FMU asks for inputs.
     """
 
     def __init__(
@@ -75,9 +77,11 @@ class Instance:
         }
 
         self.raw: deque[str] = deque(maxlen=_KEPT)
+        self.without_text = 0
 
         def log(environment: object, *rest: Any) -> None:
             *_, status, category, message = rest
+            self.without_text += category is None or message is None
             text = (message or b"").decode("utf-8", "replace")
             self.raw.append(text)
             if not self.three:  # a format of printf, in which # marks references
@@ -87,6 +91,9 @@ class Instance:
         self.follow: Callable[[float], None] | None = None
         if self.three:
             self.slave: Any = _marked(marked("dlopen", FMU3Slave)(**arguments))
+            if resources is not None:
+                three = self.slave.fmi3InstantiateCoSimulation
+                self.slave.fmi3InstantiateCoSimulation = lambda *a: three(*a[:2], resources.encode(), *a[3:])
             asked = inputs_within_steps(description)
             within = {"intermediateUpdate": self._update, "requiredIntermediateVariables": asked} if asked else {}
             self._instantiate(logMessage=log, **within)
@@ -244,7 +251,13 @@ class Instance:
             if size.value > raised(LARGEST_STATE):
                 most = at_most(size.value, LARGEST_STATE)
                 raise HostError(f"The FMU says that its state has {size.value} bytes; it must have {most}.")
-            return bytes((self.slave.serializeFMUState if self.three else self.slave.serializeFMUstate)(state))
+            room = ctypes.create_string_buffer(bytes(size.value) + _GUARD, size.value + len(_GUARD))
+            write = self.slave.fmi3SerializeFMUState if self.three else self.slave.fmi2SerializeFMUstate
+            block = ctypes.cast(room, ctypes.POINTER(fmi3Byte)) if self.three else room
+            write(self.slave.component, state, block, size)
+            if room.raw[size.value :] != _GUARD:
+                raise HostError(f"The FMU writes more than the {size.value} bytes that it says its state has.")
+            return room.raw[: size.value]
         finally:
             self.free_state(state)
 

@@ -22,14 +22,24 @@ from hosts.systems.wires import Wire, fmus_of, starts_of, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"
+_FIRST = {"Float64": "Real", "Float32": "Real", "Int32": "Integer"}
+"""Types of FMI 3.0 as SSP 1.0 has them."""
 SET = "start"
 """Name of the parameter set of each part: Ecos applies those of one name, which it is asked for."""
 
 
+VERSIONS = ("1.0", "2.0")
+
+
 def write_ssp(
-    file: Path, parts: Mapping[str, Path], connections: Mapping[str, str], start: Mapping[str, Value], name: str = ""
+    file: Path,
+    parts: Mapping[str, Path],
+    connections: Mapping[str, str],
+    start: Mapping[str, Value],
+    name: str = "",
+    version: str = "1.0",
 ) -> Path:
-    """Write an SSP of SSP 1.0: the FMUs, their connections, and an SSV of the start values of each.
+    """Write an SSP: the FMUs, their connections, and an SSV of the start values of each.
 
     Parameters
     ----------
@@ -43,11 +53,14 @@ def write_ssp(
         Parameters and inputs of parts, as ``part.variable``; of an enumeration the number.
     name : str
         Of the system; by default that of the file.
+    version : str
+        Of SSP: ``1.0``, which has parts of FMI 2.0, or ``2.0``, which has parts of FMI 3.0 too.
 
     Raises
     ------
     HostError
-        There is no such part or variable, a value is none of its variable, or a name cannot be that of a file or part.
+        There is no such part or variable, a value is none of its variable, a name cannot be that of a file or part,
+        SSP has no such version, or a wire ends at a variable that the version has no type for.
     FileError
         The file cannot be written; an older one is then unchanged.
     """
@@ -57,6 +70,8 @@ def write_ssp(
         raise HostError(f"{file}: the name of an SSP ends in .ssp.")
     if not isinstance(name, str) or not name.isprintable():
         raise HostError(f"The name of the system is {brief(name)}; it must be a text that can be printed.")
+    if version not in VERSIONS:
+        raise HostError(f"The version of SSP is {brief(version)}; it must be {' or '.join(VERSIONS)}.")
     check_writable(file)
     with ExitStack() as stack:
         folder = stack.enter_context(temporary_folder())
@@ -67,7 +82,7 @@ def write_ssp(
             if values:
                 made = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
                 write_parameter_set(ParameterSet(SET, _entries(fmus[part], values), {}), made, as_built=False)
-        document = _document(name or file.stem, fmus, wires, content)
+        document = _document(name or file.stem, fmus, wires, content, version)
         with whole_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("SystemStructure.ssd", document)
             for place, path in content.items():
@@ -75,14 +90,16 @@ def write_ssp(
     return file
 
 
-def _document(name: str, fmus: Mapping[str, Fmu], wires: Sequence[Wire], content: Mapping[str, Path]) -> bytes:
+def _document(
+    name: str, fmus: Mapping[str, Fmu], wires: Sequence[Wire], content: Mapping[str, Path], version: str
+) -> bytes:
     """The description of the system; elements that would be empty are left out, as its schema wants it."""
-    root = Element(f"{_STRUCTURE}SystemStructureDescription", name=name, version="1.0")
+    root = Element(f"{_STRUCTURE}SystemStructureDescription", name=name, version=version)
     system = SubElement(root, f"{_STRUCTURE}System", name=name)
     if fmus:
         elements = SubElement(system, f"{_STRUCTURE}Elements")
         for part, fmu in fmus.items():
-            _component(elements, part, fmu, wires, content)
+            _component(elements, part, fmu, wires, content, version)
     if wires:
         joined = SubElement(system, f"{_STRUCTURE}Connections")
         for w in wires:
@@ -95,7 +112,9 @@ def _document(name: str, fmus: Mapping[str, Fmu], wires: Sequence[Wire], content
     return document
 
 
-def _component(elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], content: Mapping[str, Path]) -> None:
+def _component(
+    elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], content: Mapping[str, Path], version: str
+) -> None:
     """One part with the ends of its wires and its parameter set."""
     kind = "application/x-fmu-sharedlibrary"
     component = SubElement(elements, f"{_STRUCTURE}Component", name=part, type=kind, source=f"resources/{part}.fmu")
@@ -105,7 +124,11 @@ def _component(elements: Element, part: str, fmu: Fmu, wires: Sequence[Wire], co
         connectors = SubElement(component, f"{_STRUCTURE}Connectors")
         for variable, causality in sorted(ends):
             end = SubElement(connectors, f"{_STRUCTURE}Connector", name=variable, kind=causality)
-            SubElement(end, f"{_COMMON}{fmu.variables[variable].type}")
+            (place,) = fmu.places([variable])
+            if place.size > 1:
+                raise HostError(f"'{part}.{variable}' is a part of an array; SSP wires whole variables only.")
+            kind = _FIRST.get(place.type, place.type) if version == "1.0" else place.type
+            SubElement(end, f"{_COMMON}{kind}")
     if (values := f"resources/{part}.ssv") in content:
         bindings = SubElement(component, f"{_STRUCTURE}ParameterBindings")
         SubElement(bindings, f"{_STRUCTURE}ParameterBinding", source=values)

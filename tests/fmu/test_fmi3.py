@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import zipfile
 from collections.abc import Callable
-from ctypes import byref, c_bool, c_double
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -19,7 +18,7 @@ from fmu_src.variables.arrays import arrays
 from fmu_src.variables.variables import Variable
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import ELEMENTS, element_names
-from tests.fmu.calls import DISCARD, OK, HostMaker
+from tests.fmu.calls import HostMaker
 
 STEP = 0.01
 
@@ -288,28 +287,3 @@ def test_in_an_intermediate_update_only_real_inputs_can_be_set(build, host) -> N
     asked.slave.doStep(0.0, STEP)
     assert tried == ["get", "step", "parameter"]
     assert asked.driven.get("torque") == 4.0
-
-
-def test_a_step_returns_early_where_a_later_inner_step_is_refused_if_the_host_allows_it(build, host) -> None:
-    """Its time is that of the last good inner step, from which the next step is refused as any other."""
-    statuses = {}
-    for early in (False, True):
-        driven = host(build("reach", "fmi3_scalar"))
-        driven.slave.instantiate(earlyReturnAllowed=early)
-        driven.start()
-        driven.set("pull", 10.0)  # beyond the cable's reach
-        event, end, back, last = c_bool(), c_bool(), c_bool(), c_double()
-        status = driven.slave.dll.fmi3DoStep(
-            driven.slave.component,
-            c_double(0.0),
-            c_double(2.0),
-            c_bool(True),
-            byref(event),
-            byref(end),
-            byref(back),
-            byref(last),
-        )
-        statuses[early] = status, back.value, last.value
-    assert statuses[False] == (DISCARD, False, 0.0)
-    assert statuses[True][:2] == (OK, True)
-    assert 0.0 < statuses[True][2] < 2.0

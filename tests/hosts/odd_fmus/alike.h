@@ -4,6 +4,11 @@
 
 #include "fmi2Functions.h"
 
+#ifndef FREE_STATE
+#define FREE_STATE(state) free(*(state)), *(state) = NULL
+#define MORE_BYTES 0
+#endif
+
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[]) {
@@ -26,14 +31,13 @@ ABSENT(String, fmi2String)
 
 fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
   (void)c;
-  free(*state);
-  *state = NULL;
+  FREE_STATE(state);
   return fmi2OK;
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
   (void)c;
-  memcpy(bytes, state, size);
+  memcpy(bytes, state, size + MORE_BYTES);
   return fmi2OK;
 }
 

@@ -1,6 +1,9 @@
 /* The face of FMI 2.0 of `plants.h`. */
 #include "plants.h"
 
+#define FREE_STATE free_planted
+#define MORE_BYTES SPILL
+
 #include "alike.h"
 
 typedef struct {
@@ -9,15 +12,16 @@ typedef struct {
 } face;
 
 static void say(const face *f, const char *text) {
-  f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, "log", text);
+  f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, PLANT == NO_CATEGORY ? NULL : "log",
+                       text);
 }
 
 const char *fmi2GetVersion(void) { return PLANT == VERSION ? "1.0" : fmi2Version; }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging) {
-  (void)type, (void)resources, (void)visible, (void)logging;
-  if (!*name || strcmp(guid, "{small}")) return NULL;
+  (void)type, (void)visible, (void)logging;
+  if (!*name || strcmp(guid, "{small}") || !takes_path(resources)) return NULL;
   face *f = calloc(1, sizeof *f);
   planted *made = new_planted();
   f->p = *made, f->functions = functions;
@@ -30,12 +34,13 @@ void fmi2FreeInstance(fmi2Component c) { free(c); }
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerant, fmi2Real tolerance, fmi2Real start,
                                fmi2Boolean ends, fmi2Real stop) {
   (void)tolerant, (void)tolerance, (void)ends, (void)stop;
-  ((face *)c)->p.time = start;
+  ((face *)c)->p.time = begin_planted(start);
   return fmi2OK;
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
   at_start();
+  if (PLANT == NO_CATEGORY) say(c, "it begins");
   if (PLANT == FORMAT) say(c, "the mass is 100 %s %n");
   return c ? fmi2OK : fmi2Error;
 }
@@ -46,16 +51,14 @@ fmi2Status fmi2Terminate(fmi2Component c) {
 }
 
 fmi2Status fmi2Reset(fmi2Component c) {
-  planted *made = new_planted();
-  ((face *)c)->p = *made;
-  free(made);
+  reset_planted(&((face *)c)->p);
   return fmi2OK;
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Real v[]) {
   for (size_t k = 0; k < n; k++) {
     if (r[k] > 1) return fmi2Error;
-    v[k] = read_planted(&((face *)c)->p, r[k]);
+    v[place_planted(r, n, k)] = read_planted(&((face *)c)->p, r[k]);
   }
   return fmi2OK;
 }
@@ -69,19 +72,19 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference r[], size_t n, 
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
-  if (!*state) *state = malloc(sizeof(planted));
-  memcpy(*state, &((face *)c)->p, sizeof(planted));
+  if (!*state) *state = new_state();
+  save_planted(*state, &((face *)c)->p);
   return fmi2OK;
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
-  memcpy(&((face *)c)->p, state, sizeof(planted));
+  take_planted(&((face *)c)->p, state);
   return fmi2OK;
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
   (void)c, (void)state;
-  *size = sizeof(planted);
+  *size = STATE_SIZE;
   return fmi2OK;
 }
 
@@ -93,8 +96,10 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean forward) {
-  (void)forward, (void)time;
+  (void)forward;
+  if (!takes_time(&((face *)c)->p, time)) return fmi2Error;
+  if (PLANT == CHATTER) say(c, "a step");
   for (int k = 0; k < 100 && PLANT == FLOOD; k++) say(c, "a step is made");
   step_planted(&((face *)c)->p, step);
-  return fmi2OK;
+  return PLANT == WARNS ? fmi2Warning : fmi2OK;
 }

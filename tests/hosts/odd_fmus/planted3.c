@@ -10,7 +10,9 @@ typedef struct {
   void *environment;
 } face;
 
-static void say(const face *f, const char *text) { f->log(f->environment, fmi3OK, "log", text); }
+static void say(const face *f, const char *text) {
+  f->log(f->environment, fmi3OK, PLANT == NO_CATEGORY ? NULL : "log", text);
+}
 
 #pragma GCC visibility push(default) /* what follows is exported */
 
@@ -26,8 +28,8 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          const fmi3ValueReference needed[], size_t n,
                                          fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                                          fmi3IntermediateUpdateCallback update) {
-  (void)resources, (void)visible, (void)logging, (void)events, (void)early, (void)needed, (void)n, (void)update;
-  if (!*name || strcmp(token, "{small}")) return NULL;
+  (void)visible, (void)logging, (void)events, (void)early, (void)needed, (void)n, (void)update;
+  if (!*name || strcmp(token, "{small}") || !takes_path(resources)) return NULL;
   face *f = calloc(1, sizeof *f);
   planted *made = new_planted();
   f->p = *made, f->log = log, f->environment = environment;
@@ -40,8 +42,9 @@ void fmi3FreeInstance(fmi3Instance c) { free(c); }
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerant, fmi3Float64 tolerance, fmi3Float64 start,
                                        fmi3Boolean ends, fmi3Float64 stop) {
   (void)tolerant, (void)tolerance, (void)ends, (void)stop;
-  ((face *)c)->p.time = start;
+  ((face *)c)->p.time = begin_planted(start);
   at_start();
+  if (PLANT == NO_CATEGORY) say(c, "it begins");
   if (PLANT == FORMAT) say(c, "the mass is 100 %s %n");
   return fmi3OK;
 }
@@ -54,16 +57,14 @@ fmi3Status fmi3Terminate(fmi3Instance c) {
 }
 
 fmi3Status fmi3Reset(fmi3Instance c) {
-  planted *made = new_planted();
-  ((face *)c)->p = *made;
-  free(made);
+  reset_planted(&((face *)c)->p);
   return fmi3OK;
 }
 
 fmi3Status fmi3GetFloat64(fmi3Instance c, const fmi3ValueReference r[], size_t n, fmi3Float64 v[], size_t count) {
   for (size_t k = 0; k < n && n == count; k++) {
     if (r[k] > 2) return fmi3Error;
-    v[k] = r[k] == 2 ? ((face *)c)->p.time : read_planted(&((face *)c)->p, r[k]);
+    v[place_planted(r, n, k)] = r[k] == 2 ? ((face *)c)->p.time : read_planted(&((face *)c)->p, r[k]);
   }
   return n == count ? fmi3OK : fmi3Error;
 }
@@ -77,32 +78,31 @@ fmi3Status fmi3SetFloat64(fmi3Instance c, const fmi3ValueReference r[], size_t n
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
-  if (!*state) *state = malloc(sizeof(planted));
-  memcpy(*state, &((face *)c)->p, sizeof(planted));
+  if (!*state) *state = new_state();
+  save_planted(*state, &((face *)c)->p);
   return fmi3OK;
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state) {
-  memcpy(&((face *)c)->p, state, sizeof(planted));
+  take_planted(&((face *)c)->p, state);
   return fmi3OK;
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) {
   (void)c;
-  free(*state);
-  *state = NULL;
+  free_planted(state);
   return fmi3OK;
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) {
   (void)c, (void)state;
-  *size = sizeof(planted);
+  *size = STATE_SIZE;
   return fmi3OK;
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
   (void)c;
-  memcpy(bytes, state, size);
+  memcpy(bytes, state, size + SPILL);
   return fmi3OK;
 }
 
@@ -124,11 +124,13 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Boolean no_return, fmi3Boolean *event,
                       fmi3Boolean *ends, fmi3Boolean *early, fmi3Float64 *last) {
   (void)no_return;
+  if (!takes_time(&((face *)c)->p, time)) return fmi3Error;
+  if (PLANT == CHATTER) say(c, "a step");
   for (int k = 0; k < 100 && PLANT == FLOOD; k++) say(c, "a step is made");
   step_planted(&((face *)c)->p, step);
   *event = *ends = *early = false;
   *last = time + step;
-  return fmi3OK;
+  return PLANT == WARNS ? fmi3Warning : fmi3OK;
 }
 
 /* FMPy wants every function of the standard to be there. */

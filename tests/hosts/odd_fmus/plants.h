@@ -3,12 +3,15 @@
 #include <fcntl.h>
 #include <fenv.h>
 #include <locale.h>
+#include <math.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -50,7 +53,30 @@ enum {
   ROUNDING_AT_READ,
   INSTANCE_LEAK,
   SIGN,
-  HALF
+  HALF,
+  RESET_KEEPS,
+  SHARED,
+  RANDOM,
+  THREAD_LOCAL,
+  STATE_PART,
+  STATE_SPOILT,
+  STATE_LEAK,
+  KEEPS_POINTER,
+  OVERRUN,
+  ONE_LENGTH,
+  LATE_START,
+  WARNS,
+  CHATTER,
+  NO_CATEGORY,
+  INPUT_LOST,
+  NAN_AT_START,
+  READ_ORDER,
+  PATHS,
+  TIMER,
+  AFFINITY,
+  LIMITS,
+  CLOSES,
+  CHILD
 };
 
 static void *sleeps(void *none) {
@@ -87,12 +113,17 @@ static void at_instance(void) {
 }
 
 static void at_start(void) {
+  if (PLANT == TIMER) alarm(1000);
+  if (PLANT == LIMITS)
+    setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}), setrlimit(RLIMIT_NOFILE, &(struct rlimit){300, 300});
+  if (PLANT == CLOSES) close(0);
   if (PLANT == UMASK) umask(0);
   if (PLANT == IGNORES) signal(SIGINT, SIG_IGN);
 }
 
 static void at_step(double time) {
   sigset_t set;
+  cpu_set_t one;
   switch (PLANT) {
   case LEAK:
     leak(100000);
@@ -130,6 +161,14 @@ static void at_step(double time) {
   case BLOCKS:
     sigemptyset(&set), sigaddset(&set, SIGTERM), sigprocmask(SIG_BLOCK, &set, NULL);
     break;
+  case AFFINITY:
+    CPU_ZERO(&one);
+    CPU_SET(sched_getcpu(), &one);
+    sched_setaffinity(0, sizeof one, &one);
+    break;
+  case CHILD:
+    if (fork() == 0) _exit(0);
+    break;
   case HANDLES:
     signal(SIGUSR1, handler);
     break;
@@ -148,20 +187,65 @@ static void at_end(void) {
 
 typedef struct {
   double time, u, y, last;
-  int reads;
+  int reads, steps;
 } planted;
+
+static double shared;
+static _Thread_local double own; /* of the thread that makes an instance */
 
 static planted *new_planted(void) {
   planted *s = calloc(1, sizeof *s);
   at_instance();
   if (s && PLANT == START_VALUE) s->u = 3.0;
+  own = 1.0;
   return s;
 }
+
+static void reset_planted(planted *s) {
+  planted *made = new_planted();
+  if (PLANT == RESET_KEEPS) made->y = s->y;
+  *s = *made;
+  free(made);
+}
+
+enum { STATE_SIZE = PLANT == STATE_LEAK ? 100000 : sizeof(planted), SPILL = PLANT == OVERRUN ? 8 : 0 };
+
+static planted *new_state(void) { return memset(malloc(STATE_SIZE), 0, STATE_SIZE); }
+
+static void save_planted(planted *state, const planted *s) {
+  *state = *s;
+  if (PLANT == STATE_PART) state->y = 0.0;
+}
+
+static void take_planted(planted *s, planted *state) {
+  *s = *state;
+  if (PLANT == STATE_SPOILT) state->y = 0.0;
+}
+
+static void free_planted(void **state) {
+  if (PLANT != STATE_LEAK) free(*state);
+  if (PLANT != KEEPS_POINTER) *state = NULL;
+}
+
+/* A value for each reference in its place, or for PLANT in the order of references. */
+static size_t place_planted(const unsigned *r, size_t n, size_t k) {
+  return PLANT == READ_ORDER && n == 2 && r[0] > r[1] ? 1 - k : k;
+}
+
+static bool takes_path(const char *path) {
+  return PLANT != PATHS || !path || (!strchr(path, '%') && !strchr(path, ' '));
+}
+
+/* What start time it takes. */
+static double begin_planted(double start) { return PLANT == LATE_START ? 0.0 : start; }
+
+static bool takes_time(const planted *s, double time) { return PLANT != LATE_START || fabs(time - s->time) < 1e-6; }
 
 static double read_planted(planted *s, unsigned r) {
   at_read();
   if (r == 0) return s->u;
   if (PLANT == READ_MOVES) s->y += 1e-9 * ++s->reads;
+  if (PLANT == NAN_AT_START && s->steps == 0) return NAN;
   return PLANT == FEEDTHROUGH ? s->y + s->u : PLANT == BEYOND ? s->y + 20.0 : s->y;
 }
 
@@ -172,8 +256,12 @@ static void set_planted(planted *s, double u) {
 static void step_planted(planted *s, double step) {
   at_step(s->time);
   s->last = step;
-  s->y += step * (s->u + 0.5);
-  s->time += step;
+  s->y += (PLANT == ONE_LENGTH ? 0.01 : step) * (s->u + 0.5);
+  s->time += step, s->steps++;
+  if (PLANT == SHARED) s->y += 1e-3 * (shared += step);
+  if (PLANT == RANDOM) s->y += 1e-12 * rand();
+  if (PLANT == THREAD_LOCAL) s->y += step * own;
+  if (PLANT == INPUT_LOST) s->u = 0.0;
 }
 
 /* Of y by u over the last step. */

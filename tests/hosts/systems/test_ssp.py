@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import fmpy.ssp.ssd
+import pyssp_standard
 import pytest
 from lxml import etree
+from pyssp_standard.ssd import SSD
 
 from ali3.read_parameter_set import read_parameter_set
 from hosts.common.errors import HostError
 from hosts.systems import write_ssp
+from tests.hosts.odd_fmus import planted_fmu
 
-SCHEMA = Path(fmpy.ssp.__file__).parent / "schema" / "SystemStructureDescription.xsd"
+SCHEMAS = {
+    "1.0": Path(fmpy.ssp.__file__).parent / "schema" / "SystemStructureDescription.xsd",
+    "2.0": Path(pyssp_standard.__file__).parent / "resources" / "ssp2" / "SystemStructureDescription.xsd",
+}
+"""Those of FMPy, and of `pyssp_standard`, which has that of the tag v2.0 of modelica/ssp-standard as it stands."""
 WIRES = {"spring.position": "mass.position", "mass.force": "spring.force"}
 
 
@@ -30,14 +39,43 @@ def test_fmpy_reads_what_was_wired(partners: dict[str, Path], tmp_path: Path) ->
     assert found == wanted
 
 
+def description(file: Path) -> Any:
+    with zipfile.ZipFile(file) as archive:
+        return etree.fromstring(archive.read("SystemStructure.ssd"))
+
+
+@pytest.mark.parametrize("version", SCHEMAS)
 @pytest.mark.parametrize("wires", [WIRES, dict([next(iter(WIRES.items()))]), {}])
-def test_the_description_fits_the_schema(partners: dict[str, Path], tmp_path: Path, wires: dict[str, str]) -> None:
+def test_the_description_fits_the_schema(
+    partners: dict[str, Path], tmp_path: Path, wires: dict[str, str], version: str
+) -> None:
     """With wires, with a part that has none, and without any."""
     parts = halves(partners) | {"alone": partners["jump"]}
-    with zipfile.ZipFile(write_ssp(tmp_path / "system.ssp", parts, wires, {"mass.start": 0.5})) as archive:
-        document = etree.fromstring(archive.read("SystemStructure.ssd"))
-    schema = etree.XMLSchema(etree.parse(SCHEMA))
+    document = description(write_ssp(tmp_path / "system.ssp", parts, wires, {"mass.start": 0.5}, version=version))
+    schema = etree.XMLSchema(etree.parse(SCHEMAS[version]))
     assert schema.validate(document), schema.error_log
+    assert document.get("version") == version
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="the small FMUs are compiled for this machine")
+@pytest.mark.parametrize(("version", "kind"), [("1.0", "Real"), ("2.0", "Float64")])
+def test_parts_of_fmi_3(tmp_path: Path, version: str, kind: str) -> None:
+    """Types are those of the version; both fit its schema, and the package `pyssp_standard` reads what was wired."""
+    fmu = planted_fmu(tmp_path, "NONE", True)
+    file = write_ssp(
+        tmp_path / "two.ssp", {"one": fmu, "other": fmu}, {"other.u": "one.y"}, {"one.u": 1.0}, "", version
+    )
+    document = description(file)
+    schema = etree.XMLSchema(etree.parse(SCHEMAS[version]))
+    assert schema.validate(document), schema.error_log
+    assert [etree.QName(e[0]).localname for e in document.iter("{*}Connector")] == [kind, kind]
+    with zipfile.ZipFile(file) as archive:
+        archive.extract("SystemStructure.ssd", tmp_path)
+    with SSD(tmp_path / "SystemStructure.ssd") as ssd:
+        (wire,) = ssd.system.connections
+        assert (wire.start_element, wire.start_connector) == ("one", "y")
+        assert (wire.end_element, wire.end_connector) == ("other", "u")
 
 
 def test_two_fmus_of_one_file_name_stay_two(partners: dict[str, Path], tmp_path: Path) -> None:
@@ -89,6 +127,8 @@ def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, P
     """Text that XML has no character for would make an SSP that nobody reads."""
     with pytest.raises(HostError, match="The file of an SSP is 1; it must be a path"):
         write_ssp(1, halves(partners), WIRES, {})  # type: ignore[arg-type]
+    with pytest.raises(HostError, match=r"The version of SSP is '3\.0'; it must be 1\.0 or 2\.0"):
+        write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, version="3.0")
     for name, told in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
         with pytest.raises(HostError, match=f"The name of the system is {told}; it must be a text that can be printed"):
             write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, name=name)
