@@ -40,7 +40,7 @@ NAMES = f"""() => ({SEEN})().map((part) =>
 BOXES = """() => ['.a3-controls', '.a3-left', '.a3-cluster', '.a3-inset'].map((part) => document.querySelector(part))
   .filter((part) => part?.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
 KINDS = ("live", "recorded", "plots", "simulator")
-BARS = {"live": ".a3-bar", "recorded": ".ali3-bar", "plots": ".ali3-bar", "simulator": ".a3-controls"}
+BARS = {"live": ".a3-bar", "recorded": ".a3-bar", "plots": ".a3-bar", "simulator": ".a3-controls"}
 
 
 @pytest.fixture(scope="module")

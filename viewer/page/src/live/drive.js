@@ -5,7 +5,7 @@ import { Help } from "../common/help.js";
 import { DRIVING_WORDS, hint } from "../common/key_table.js";
 import { keys } from "../common/keys.js";
 import { cameraActs } from "../common/views.js";
-import { decoded } from "../player/decode.js";
+import { decoded } from "../sources/decode.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { BACK } from "./engine.js";

@@ -1,11 +1,12 @@
 // The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
 import { SceneView } from "../scene/scene_view.js";
 import { Effects } from "../effects/driven.js";
-import { Blend, turnsOf } from "./blend.js";
+import { Blend, turnsOf } from "../sources/blend.js";
 import { el } from "../common/dom.js";
 import { Instruments } from "../instruments/index.js";
 import { Hud } from "./hud.js";
 import { between } from "./record.js";
+import { Sampler } from "../sources/sampler.js";
 import { movedRoads } from "./roads.js";
 
 /** Instants of a run that are looked at. */
@@ -129,7 +130,7 @@ export class Stage {
       /** @type {[string, number][]} */
       const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
       part.columns = new Map([...held, ...own.filter(([, index]) => index >= 0)]);
-      part.blend = new Blend(part.columns, turnsOf(part.scene));
+      part.blend = new Blend(turnsOf(part.scene));
       const others = [...part.variables.values()].filter((v) => !part.columns.has(v.name));
       part.fixed = new Map(others.map((v) => [v.name, start[v.name] ?? v.start]));
     }
@@ -137,8 +138,12 @@ export class Stage {
 
   /** What the numbers of a picture are at a time. */
   lookup(part, record, time) {
-    if (part.recording) return lookupOf(part.recording, time);
-    const lookup = between(record, time, part.blend);
+    if (part.recording) {
+      part.sampler ??= new Sampler({ ...part.recording, scene: part.scene });
+      part.sampler.at(time);
+      return part.sampler.lookup;
+    }
+    const lookup = between(record, time, part.blend, part.columns);
     return (name) => (part.columns.has(name) ? lookup(name) : part.fixed.get(name));
   }
 
@@ -193,22 +198,4 @@ export class Stage {
       part.view?.dispose();
     }
   }
-}
-
-/** A lookup in a recording, straight between its times; after its end it stands. */
-export function lookupOf({ t, columns }, time) {
-  let [low, high] = [0, t.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (t[middle] <= time) low = middle;
-    else high = middle;
-  }
-  const span = t[high] - t[low];
-  const s = span > 0 ? Math.max(0, Math.min(1, (time - t[low]) / span)) : 1;
-  return (name) => {
-    const column = columns[name];
-    if (!column) return NaN;
-    const values = column.data ?? column;
-    return values[low] + s * (values[high] - values[low]);
-  };
 }

@@ -1,5 +1,5 @@
 // Numbers of the car by name: columns of the frames, else constants and parameters.
-import { Blend, turnsOf } from "../live/blend.js";
+import { Blend, turnsOf } from "../sources/blend.js";
 
 /** The numbers of one car. */
 export class Numbers {
@@ -9,7 +9,7 @@ export class Numbers {
     this.columns = new Map(columns.map((name, k) => [name, k]));
     const { quaternions, angles } = turnsOf(scene);
     const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
-    this._blend = new Blend(this.columns, turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
+    this._blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
     this._fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
   }
 
@@ -23,7 +23,8 @@ export class Numbers {
    * @returns {(name: string) => number}
    */
   lookup({ before, after, share }) {
-    const row = this._blend.lookup(before.values, after.values, share);
+    const numbers = (/** @type {Data} */ { values }) => (name) => values[this.columns.get(name)];
+    const row = this._blend.lookup(numbers(before), numbers(after), share);
     return (name) => (this.columns.has(name) ? row(name) : Number(this._fixed.get(name) ?? NaN));
   }
 }

@@ -25,9 +25,9 @@ export class Plots {
       onfocus: () => this.#open(true),
     });
     this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this.#open(this.list.hidden) }, "list");
-    this.list = el("div.ali3-list");
-    this.area = el("div.ali3-plots");
-    parent.append(el("div.ali3-find", {}, this.search, this.opener), this.list, this.area);
+    this.list = el("div.a3-list");
+    this.area = el("div.a3-plots");
+    parent.append(el("div.a3-find", {}, this.search, this.opener), this.list, this.area);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.area);
     this.#open(this.chosen.length === 0);
@@ -74,11 +74,11 @@ export class Plots {
     const rows = names.slice(0, LISTED).map((name) => {
       const box = el("input", { type: "checkbox", onchange: () => this.#toggle(name) });
       box.checked = this.chosen.includes(name);
-      const unit = el("span.ali3-unit", {}, unitOf(name, this.runs));
-      return el("label", {}, box, el("span.ali3-signal", {}, name), unit);
+      const unit = el("span.a3-unit", {}, unitOf(name, this.runs));
+      return el("label", {}, box, el("span.a3-signal", {}, name), unit);
     });
-    if (names.length > LISTED) rows.push(el("div.ali3-more", {}, `and ${names.length - LISTED} more; search for them`));
-    if (names.length === 0) rows.push(el("div.ali3-more", {}, "no signal has these words in its name"));
+    if (names.length > LISTED) rows.push(el("div.a3-more", {}, `and ${names.length - LISTED} more; search for them`));
+    if (names.length === 0) rows.push(el("div.a3-more", {}, "no signal has these words in its name"));
     this.list.replaceChildren(...rows);
   }
 
@@ -110,7 +110,7 @@ export class Plots {
           difference: this.differences.has(unit),
         }),
     );
-    if (this.charts.length === 0) this.area.append(el("div.ali3-empty", {}, "Choose signals from the list; a click in a diagram goes to that time."));
+    if (this.charts.length === 0) this.area.append(el("div.a3-empty", {}, "Choose signals from the list; a click in a diagram goes to that time."));
     this.resize();
   }
 }

@@ -1,5 +1,5 @@
 // What a diagram shows: the signals of one unit, of all runs on one axis of times, and their differences.
-import { linear, place } from "./sampler.js";
+import { linear, place } from "../sources/sampler.js";
 
 /**
  * A signal at the times of another run; nothing outside its own times.
@@ -21,7 +21,7 @@ export const values = (data) => Array.from(data, (value) => (Number.isFinite(val
 
 /**
  * Signals by unit, in the order of their names.
- * @param {string[]} names @param {Pick<import("./decode.js").Run, "columns">[]} runs
+ * @param {string[]} names @param {Pick<import("../sources/decode.js").Run, "columns">[]} runs
  * @returns {Map<string, string[]>}
  */
 export function byUnit(names, runs) {
@@ -42,7 +42,7 @@ export function unitOf(name, runs) {
 
 /**
  * Names of all signals: those that do not only place bodies come first.
- * @param {Pick<import("./decode.js").Run, "scene" | "columns">[]} runs
+ * @param {Pick<import("../sources/decode.js").Run, "scene" | "columns">[]} runs
  * @returns {string[]}
  */
 export function signalNames(runs) {

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { el } from "../common/dom.js";
 import { COLOURS, TimePlot } from "../common/time_plot.js";
-import { linear, place } from "./sampler.js";
+import { linear, place } from "../sources/sampler.js";
 import { resampled, values } from "./series.js";
 
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
@@ -32,7 +32,7 @@ export class Chart {
     this.compare = compare;
     this.curves = this.#curves();
     this.legend = this.#legend();
-    this.box = el("div.ali3-chart", {}, this.legend);
+    this.box = el("div.a3-chart", {}, this.legend);
     parent.append(this.box);
     this.timed = new TimePlot(this.box, this.#data(), this.#settings());
     this.plot = this.timed.plot;
@@ -108,10 +108,10 @@ export class Chart {
       curve.output = el("output");
       const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
       const style = `background:${curve.dash.length > 0 ? dashed : curve.colour}`;
-      const swatch = el("span.ali3-swatch", { style });
+      const swatch = el("span.a3-swatch", { style });
       return el("span", {}, swatch, curve.label, curve.output);
     });
-    const legend = el("div.ali3-legend", {}, ...entries);
+    const legend = el("div.a3-legend", {}, ...entries);
     if (this.runs.length > 1) {
       const press = () => this.compare(this.unit, !this.difference);
       const title = "show the difference to the first run";
