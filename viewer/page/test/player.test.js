@@ -117,7 +117,7 @@ test("signals are found by words, grouped by unit, and those of poses come last"
   const runs = [{ scene, columns }];
   assert.deepEqual(signalNames(runs), ["force", "gap", "a.x"]);
   assert.deepEqual(found(["wheel_FL.Fz", "wheel_FR.Fz"], "fz fl"), ["wheel_FL.Fz"]);
-  assert.deepEqual([...byUnit(["gap", "force", "a.x", "none"], runs)], [["m", ["gap", "a.x"]], ["N", ["force"]]]);
+  assert.deepEqual([...byUnit(["gap", "force", "a.x", "none"], new Map([["a.x", "m"], ["force", "N"], ["gap", "m"]]))], [["m", ["gap", "a.x"]], ["N", ["force"]]]);
 });
 
 test("another run is compared at the times of this one", () => {

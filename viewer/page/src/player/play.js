@@ -126,7 +126,7 @@ export class Player extends Shell {
 
   /** Show or hide the diagrams. @param {boolean} open */
   side(open) {
-    this.plots ??= new Plots(this.sideBox, this, this.options.plots ?? []);
+    this.plots ??= new Plots(this.sideBox, this, this.source, this.options.plots ?? []);
     super.side(open);
   }
 

@@ -3,10 +3,10 @@ import { button, el, icon, select, write } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 
 /** Buttons before and behind the slider: an act of the table of keys, and what stands on it where there is no icon. */
-const BEFORE = [["reset", "reset"], ["rewind", "\u22122 s"], ["before"], ["toggle"], ["step"], ["upright", "upright"]]; // prettier-ignore
-const BEHIND = [["mute", "sound on"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
+const BEFORE = [["reset"], ["rewind"], ["before"], ["toggle"], ["step"], ["upright", "upright"]];
+const BEHIND = [["mute"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
 /** @type {Object<string, Parameters<typeof icon>[0]>} */
-const ICONS = { before: "back", toggle: "play", step: "forward", "full screen": "full" };
+const ICONS = { reset: "reset", rewind: "rewind", before: "back", toggle: "play", step: "forward", mute: "sound", "full screen": "full" };
 const WORDS = { csv: "save inputs and outputs of the run as a table" };
 
 /** The bar; it calls acts of the page by their names and shows what it is told. */
@@ -22,7 +22,12 @@ export class Bar {
     /** @type {Object<string, HTMLButtonElement>} */
     this.buttons = {};
     this.slide = el("input.a3-slide", { type: "range", min: 0, max: 1, step: "any", title: "time", data: "timeline" });
-    this.slide.addEventListener("input", () => acts.seek(Number(this.slide.value)));
+    for (const end of ["pointerup", "pointercancel", "change"]) this.slide.addEventListener(end, () => (this.held = false));
+    this.slide.addEventListener("pointerdown", () => (this.held = true));
+    this.slide.addEventListener("input", () => {
+      write(this.clock, this.#seconds(Number(this.slide.value)));
+      acts.seek(Number(this.slide.value));
+    });
     this.slide.addEventListener("change", () => acts.seek(Number(this.slide.value), true));
     this.clock = el("span.a3-time", { data: "clock" });
     this.rate = select("speed", `speed: ${hint("slow")}`, [], (value) => acts.speed(Number(value)));
@@ -36,7 +41,7 @@ export class Bar {
     const some = (list) => list.filter(([act]) => act in acts && (act !== "full screen" || document.fullscreenEnabled)).map(([act, words]) => this.#button(act, words, acts[act])); // prettier-ignore
     const group = (...parts) => el("div.a3-group", {}, ...parts);
     const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
-    this.element = el("div.a3-bar", {}, group(...some(BEFORE)), this.slide, this.clock, group(this.rate), group(...choices, ...some(BEHIND)));
+    this.element = el("div.a3-bar", { data: "bar" }, group(...some(BEFORE)), this.slide, this.clock, group(this.rate), group(...choices, ...some(BEHIND)));
     this.speed(1);
   }
 
@@ -47,6 +52,10 @@ export class Bar {
     if (!words) made.append(icon(ICONS[act]));
     this.buttons[act] = made;
     return made;
+  }
+
+  #seconds(time) {
+    return `${time.toFixed(this.digits)} s`;
   }
 
   /** @param {number} chosen speed, which may be another than those of the list */
@@ -63,9 +72,10 @@ export class Bar {
     this.cameras.value = name;
   }
 
-  /** What the button of the sound says. @param {string} text */
-  sound(text) {
-    write(this.buttons.mute, text);
+  /** Sound is heard or not. @param {boolean} on */
+  sound(on) {
+    this.buttons.mute.replaceChildren(icon(on ? "sound" : "silent"));
+    this.buttons.mute.setAttribute("aria-pressed", String(on));
   }
 
   /**
@@ -74,14 +84,14 @@ export class Bar {
    */
   show({ running, speed, time, range: [begin, end], grows = false }) {
     const moves = end > begin;
-    if (moves || !grows) for (const control of [this.slide, ...(grows ? [] : [this.rate, this.buttons.before, this.buttons.toggle, this.buttons.step])]) control.disabled = !moves; // prettier-ignore
-    if (this.buttons.rewind) this.buttons.rewind.disabled = !moves;
+    const { rewind, before, toggle, step } = this.buttons;
+    for (const control of [this.slide, rewind, ...(grows ? [] : [this.rate, before, toggle, step])]) control.disabled = !moves;
     if (document.activeElement !== this.rate) this.speed(speed);
+    if (this.held) return;
     if (document.activeElement !== this.slide || running) {
       Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
     }
-    const at = (value) => value.toFixed(this.digits);
-    write(this.clock, grows ? `${at(time)} s` : `${at(time)} / ${at(end)} s`);
+    write(this.clock, grows ? this.#seconds(time) : `${time.toFixed(this.digits)} / ${this.#seconds(end)}`);
     if (this.shown === running) return;
     this.shown = running;
     this.buttons.toggle.replaceChildren(icon(running ? "pause" : "play"));

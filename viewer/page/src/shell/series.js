@@ -21,23 +21,17 @@ export const values = (data) => Array.from(data, (value) => (Number.isFinite(val
 
 /**
  * Signals by unit, in the order of their names.
- * @param {string[]} names @param {Pick<import("../sources/decode.js").Run, "columns">[]} runs
+ * @param {string[]} names @param {Map<string, string>} columns units by name
  * @returns {Map<string, string[]>}
  */
-export function byUnit(names, runs) {
+export function byUnit(names, columns) {
   const groups = new Map();
   for (const name of names) {
-    const unit = unitOf(name, runs);
-    if (unit === null) continue;
+    const unit = columns.get(name);
+    if (unit === undefined) continue;
     groups.set(unit, [...(groups.get(unit) ?? []), name]);
   }
   return groups;
-}
-
-/** Unit of a signal in the first run that has it; null where none has. */
-export function unitOf(name, runs) {
-  const run = runs.find(({ columns }) => name in columns);
-  return run === undefined ? null : run.columns[name].unit;
 }
 
 /**

@@ -24,6 +24,8 @@ const WIDE = 1.15; // width over height from which signals stand beside the pict
  * @property {number[]} speeds - To choose from.
  * @property {Map<string, string>} columns - Names and units of all numbers.
  * @property {(t?: number) => Lookup[]} sample - Numbers of each run at a time; without one at the time that is shown.
+ * @property {(names: string[], span: number) => Data[]} plotted - Runs with times and columns of these names; of a run
+ *   that grows the last so many seconds.
  * @property {(source: string, wants: [string, number, number?][]) => void} [want] - Inputs, values, largest changes per second.
  * @property {Object<string, (value?: any) => unknown>} acts - What it can do, by the names of the table of keys; what
  *   it cannot, no page offers.
@@ -97,6 +99,7 @@ export class Shell {
       "full screen": () => fullScreen(this.root),
       ...more,
     };
+    if (source.grows) this.root.dataset.grows = "yes";
     this.bar = new Bar(this.acts, { speeds: source.speeds, cameras: this.cameras, ...bar });
     if (this.cameraName) this.bar.camera(this.cameraName);
     this.foot.append(this.bar.element);

@@ -1,4 +1,5 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
+import { signalNames } from "../shell/series.js";
 import { Clock, SPEEDS } from "./clock.js";
 import { Sampler } from "./sampler.js";
 
@@ -21,6 +22,7 @@ export class Recordings {
     const [begin, end] = [Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1]))];
     this.clock = new Clock(begin, end, { speed, loop });
     this.clock.seek(time ?? begin);
+    this.columns = this.#columns();
     const far = (/** @type {any} */ event, /** @type {number[]} */ [near, further]) => (event?.shiftKey ? further : near);
     const toggle = () => this.#pace(() => (this.running ? this.clock.pause() : this.clock.play()));
     const seek = (t) => this.#seek(t);
@@ -59,8 +61,14 @@ export class Recordings {
     return this.clock.speed;
   }
 
-  get columns() {
-    return new Map([...this.runs].reverse().flatMap(({ columns }) => Object.keys(columns).map((name) => [name, columns[name].unit])));
+  #columns() {
+    const unit = (name) => this.runs.find(({ columns }) => name in columns).columns[name].unit;
+    return new Map(signalNames(this.runs).map((name) => [name, unit(name)]));
+  }
+
+  /** Runs as diagrams show them. */
+  plotted() {
+    return this.runs;
   }
 
   /** Numbers of each run. @param {number} [t] s @returns {import("../shell/shell.js").Lookup[]} */
