@@ -132,7 +132,9 @@ def picture_of_simulator(page: Any) -> np.ndarray:
     page.evaluate(
         """() => {
           window.hiding = new CSSStyleSheet();
-          hiding.replaceSync(".a3-sim > :not(.a3-picture):not(.a3-map) { visibility: hidden }");
+          hiding.replaceSync(
+            ".a3-sim .a3-views > :not(.a3-view):not(.a3-map), .a3-sim .a3-foot { visibility: hidden }"
+          );
           document.adoptedStyleSheets = [...document.adoptedStyleSheets, hiding];
         }"""
     )

@@ -77,7 +77,7 @@ def chromium() -> Iterator[Any]:
 def _page(chromium: Any) -> Iterator[Any]:
     page = chromium.new_page(viewport={"width": 320, "height": 180})
     page.set_content("<body style='margin:0'><div id='picture' style='width:320px;height:180px'></div></body>")
-    page.add_style_tag(content=".hidden .ali3-notes { display: none }")
+    page.add_style_tag(content=".hidden .a3-notes { display: none }")
     page.add_script_tag(content=bundle.bundle().read_text(encoding="utf-8"))
     yield page
     page.close()

@@ -116,15 +116,15 @@ def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair: Opened) -> N
         assert np.abs(with_it[row, column] - without[row, column]).max() > 15
         column, row = pair.place([0.9, -0.45, 0.0])
         assert np.abs(with_it[row, column] - without[row, column]).max() < 5
-    assert "lasts from 0 s to 2.5 s" in pair.page.inner_text(".ali3-head")
+    assert "lasts from 0 s to 2.5 s" in pair.page.inner_text(".a3-head")
 
 
 def test_names_are_shown_as_they_are(pair: Opened) -> None:
-    assert "faster </script><b>crank (ghost)" in pair.page.inner_text(".ali3-head")
+    assert "faster </script><b>crank (ghost)" in pair.page.inner_text(".a3-head")
 
 
 def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
-    pair("""() => { const s = document.querySelector('.ali3-slide'); s.value = '1.25';
+    pair("""() => { const s = document.querySelector('.a3-slide'); s.value = '1.25';
                     s.dispatchEvent(new Event('input')); }""")
     assert pair("player.time") == pytest.approx(1.25)
     pair.page.keyboard.press("ArrowRight")
@@ -135,13 +135,13 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     assert pair("player.time") == pytest.approx(3.0)
     pair.page.keyboard.press("Home")
     assert pair("player.time") == 0.0
-    assert pair.page.inner_text(".ali3-time") == "0.00 / 3.00 s"
+    assert pair.page.inner_text(".a3-time") == "0.00 / 3.00 s"
     box = pair.page.locator(".u-over").first.bounding_box()
     pair.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     assert pair("player.time") == pytest.approx(1.5, abs=0.02)
-    left = pair("document.querySelector('.ali3-now').style.transform")
+    left = pair("document.querySelector('.a3-now').style.transform")
     assert float(left.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
-    shown = pair("document.querySelector('.ali3-legend output').textContent")
+    shown = pair("document.querySelector('.a3-legend output').textContent")
     assert float(shown.removesuffix(" rad")) == pytest.approx(2.0 * pair("player.time"), abs=1e-3)
 
 
@@ -158,30 +158,30 @@ def test_it_plays_in_time_and_stands_when_it_is_told(pair: Opened) -> None:
 
 
 def test_the_difference_of_runs(pair: Opened) -> None:
-    pair.page.locator(".ali3-legend button").first.click()
+    pair.page.locator(".a3-legend button").first.click()
     t, difference = pair("player.plots.charts[0].plot.data.map(column => Array.from(column))")
     shown = np.array([np.nan if x is None else x for x in difference])
     np.testing.assert_allclose(shown[:251], 0.5 * np.array(t)[:251], atol=1e-5)
     assert np.isnan(shown[251:]).all()
-    pair.page.locator(".ali3-legend button").first.click()
+    pair.page.locator(".a3-legend button").first.click()
     count = pair("player.plots.charts[0].plot.data.length")
     assert count == 3
 
 
 def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), arrows=False)
-    page.page.locator(".ali3-bar button", has_text="settings").click()
-    box = page.page.locator(".ali3-panel input[type=checkbox]").first
+    page.page.locator(".a3-bar button", has_text="settings").click()
+    box = page.page.locator(".a3-panel input[type=checkbox]").first
     assert not box.is_checked()
     page.page.keyboard.press("f")
     assert box.is_checked()
     assert page("player.player.look.arrows") is True
     page("player.set({arrowScale: 5})")
-    assert "5×" in page.page.inner_text(".ali3-panel")
-    page.page.locator(".ali3-panel input[type=range]").first.fill("1")
+    assert "5×" in page.page.inner_text(".a3-panel")
+    page.page.locator(".a3-panel input[type=range]").first.fill("1")
     assert page("player.player.look.arrowScale") == 10
     page.page.keyboard.press("Escape")
-    assert not page.page.locator(".ali3-panel").is_visible()
+    assert not page.page.locator(".a3-panel").is_visible()
     page.page.keyboard.press("F")  # the same letter with caps lock
     assert page("player.player.look.arrows") is False
 
@@ -189,7 +189,7 @@ def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[...
 def test_signals_are_chosen_by_keyboard_and_space_does_not_play(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES))
     page.page.keyboard.press("G")
-    page.page.locator(".ali3-find input").focus()
+    page.page.locator(".a3-find input").focus()
     page.page.keyboard.press("Tab")  # the button that shows the list
     page.page.keyboard.press("Tab")
     page.page.keyboard.press(" ")
@@ -198,22 +198,22 @@ def test_signals_are_chosen_by_keyboard_and_space_does_not_play(opened: Callable
     page.page.keyboard.press(" ")
     assert page("player.plots.chosen") == []
     assert page("player.player.clock.playing") is False
-    page.page.locator(".ali3-list label", has_text=first).first.click()
+    page.page.locator(".a3-list label", has_text=first).first.click()
     page.page.keyboard.press(" ")  # after a click the keys are the page's
     assert page("player.player.clock.playing") is True
     assert page("player.plots.chosen") == [first]
 
 
 def test_signals_are_searched_and_chosen(pair: Opened) -> None:
-    pair.page.fill(".ali3-find input", "crank qz")
-    assert pair.page.locator(".ali3-list label").count() == 1
-    pair.page.locator(".ali3-list input").click()
+    pair.page.fill(".a3-find input", "crank qz")
+    assert pair.page.locator(".a3-list label").count() == 1
+    pair.page.locator(".a3-list input").click()
     assert pair("player.plots.chosen") == ["angle", "fx", "crank.qz"]
-    assert pair.page.locator(".ali3-chart").count() == 3
-    pair.page.locator(".ali3-list input").click()
-    pair.page.fill(".ali3-find input", "nothing like it")
-    assert "no signal has these words" in pair.page.inner_text(".ali3-list")
-    pair.page.fill(".ali3-find input", "")
+    assert pair.page.locator(".a3-chart").count() == 3
+    pair.page.locator(".a3-list input").click()
+    pair.page.fill(".a3-find input", "nothing like it")
+    assert "no signal has these words" in pair.page.inner_text(".a3-list")
+    pair.page.fill(".a3-find input", "")
     pair("document.activeElement.blur()")
 
 
@@ -235,13 +235,13 @@ def test_it_fits_small_screens(opened: Callable[..., Opened]) -> None:
         page.page.set_viewport_size({"width": size[0], "height": size[1]})
         page("player.seek(0)")  # drawn once more
         assert page("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == list(size)
-        for selector in (".ali3-view", ".ali3-bar", ".ali3-slide", ".ali3-chart canvas", ".ali3-group button"):
+        for selector in (".a3-view", ".a3-bar", ".a3-slide", ".a3-chart canvas", ".a3-group button"):
             box = page.page.locator(selector).first.bounding_box()
             across = box["width"] > 20 and box["x"] >= 0 and box["x"] + box["width"] <= size[0] + 1
             if not (across and box["y"] < size[1]):
                 outside[size, selector] = box
-        if page.page.locator(".ali3-view").bounding_box()["height"] <= 100:
-            outside[size, "height"] = page.page.locator(".ali3-view").bounding_box()
+        if page.page.locator(".a3-view").bounding_box()["height"] <= 100:
+            outside[size, "height"] = page.page.locator(".a3-view").bounding_box()
     assert outside == {}
 
 
@@ -256,7 +256,7 @@ def test_a_gap_hides_the_body_and_cuts_the_line(opened: Callable[..., Opened]) -
         assert is_red(page.picture()[row, column]) == there
     data = page("player.plots.charts[0].plot.data[1].slice(50, 101)")
     assert [value is None for value in data] == [False] + 49 * [True] + [False]
-    assert "values that are no numbers" in page.page.inner_text(".ali3-head")
+    assert "values that are no numbers" in page.page.inner_text(".a3-head")
 
 
 def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> None:
@@ -265,21 +265,21 @@ def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> Non
     assert page.said == []
     page("player.play()")
     assert page("player.clock.playing") is False
-    assert page.page.locator(".ali3-slide").is_disabled()
+    assert page.page.locator(".a3-slide").is_disabled()
 
 
 def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]) -> None:
     page = opened(Recording(None, TIMES, {"x": np.sin(TIMES)}, {"x": "m"}, "foreign"), plots=["x"])
-    assert "no poses in this result" in page.page.inner_text(".ali3-head")
-    assert page.page.locator(".ali3-chart canvas").bounding_box()["height"] > 100
+    assert "no poses in this result" in page.page.inner_text(".a3-head")
+    assert page.page.locator(".a3-chart canvas").bounding_box()["height"] > 100
     page.seek(1.0)
-    assert page("document.querySelector('.ali3-legend output').textContent") == "0.84147 m"
+    assert page("document.querySelector('.a3-legend output').textContent") == "0.84147 m"
     assert page.said == []
 
 
 def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), camera="moon")
-    assert "There is no camera 'moon'" in page.page.inner_text(".ali3-head")
+    assert "There is no camera 'moon'" in page.page.inner_text(".a3-head")
     assert page.page.get_by_role("img", name="drawing of crank").count() == 1  # its own stands
 
 
@@ -289,9 +289,9 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp
     blind = chromium.browser_type.launch(executable_path=find_chromium(), args=[*arguments, "--disable-3d-apis"])
     page = Opened(blind, tmp_path / "p.html")
     assert "no WebGL" in page("player.problem")
-    assert "no WebGL" in page.page.inner_text(".ali3-view")
+    assert "no WebGL" in page.page.inner_text(".a3-view")
     page.seek(1.0)
-    assert page.page.locator(".ali3-chart").count() == 1
+    assert page.page.locator(".a3-chart").count() == 1
     assert [line for line in page.said if line.startswith("error")] == []
     blind.close()
 

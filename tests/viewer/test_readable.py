@@ -31,16 +31,18 @@ SEEN = f"""() => [...document.querySelectorAll('{CONTROLS}')]
   .filter((part) => part.checkVisibility({{ visibilityProperty: true }}) && !part.disabled)"""
 OPEN = """() => {
   for (const part of document.querySelectorAll('details')) part.open = true;
-  for (const part of [player.settings, player.player?.settings, player.cockpit?.panels]) part?.toggle(true);
+  const shell = player.player ?? player.cockpit ?? player;
+  shell.settings.toggle(true);
+  if (shell === player.cockpit) shell.side(true);
 }"""
 INK = """bar => getComputedStyle(document.querySelector(bar + ' button')).color
   .match(/[0-9]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0)"""
 NAMES = f"""() => ({SEEN})().map((part) =>
   (part.labels?.[0] ?? part).textContent.trim() || part.title || part.ariaLabel)"""
-BOXES = """() => ['.a3-controls', '.a3-left', '.a3-cluster', '.a3-inset'].map((part) => document.querySelector(part))
+BOXES = """() => ['.a3-bar', '.a3-left', '.a3-cluster', '.a3-inset'].map((part) => document.querySelector(part))
   .filter((part) => part?.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
 KINDS = ("live", "recorded", "plots", "simulator")
-BARS = {"live": ".a3-bar", "recorded": ".ali3-bar", "plots": ".ali3-bar", "simulator": ".a3-controls"}
+BAR = ".a3-bar"
 
 
 @pytest.fixture(scope="module")
@@ -82,11 +84,11 @@ def open_simulator(page: Any) -> None:
     program.say(REPORT)
 
 
-def use_colours(page: Any, kind: str, colours: str) -> None:
-    """Until its words are as dark as they are to be; those of the simulator stand on dark glass over the picture."""
+def use_colours(page: Any, colours: str) -> None:
+    """Until its words are as dark as they are to be."""
     page.emulate_media(color_scheme=colours)
-    bright = "> 500" if colours == "dark" or kind == "simulator" else "< 300"
-    wait_until(page, f"(bar) => ({INK})(bar) {bright}", BARS[kind])
+    bright = "> 500" if colours == "dark" else "< 300"
+    wait_until(page, f"(bar) => ({INK})(bar) {bright}", BAR)
 
 
 @pytest.fixture(scope="module", params=KINDS)
@@ -125,16 +127,16 @@ def test_axe_would_find_a_control_without_a_name(chromium: Any, tmp_path: Path) 
 
 
 @pytest.mark.slow
-def test_pages_are_dark_where_everything_is(shown: Any, kind: str) -> None:
+def test_pages_are_dark_where_everything_is(shown: Any) -> None:
     """Words and what is behind them change their places between light and dark, also while the page is open."""
     for colours in ("dark", "light"):  # it was opened in the dark
-        use_colours(shown, kind, colours)
+        use_colours(shown, colours)
 
 
 @pytest.mark.slow
-def test_the_bar_is_one_line(shown: Any, kind: str) -> None:
+def test_the_bar_is_one_line(shown: Any) -> None:
     for width in (800, 901, 1000, 1061, 1280):
-        check_bar(shown, BARS[kind], width)
+        check_bar(shown, BAR, width)
 
 
 @pytest.mark.slow
@@ -194,10 +196,10 @@ def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
 @with_axe
 @pytest.mark.slow
 @pytest.mark.parametrize("colours", ["light", "dark"])
-def test_axe_finds_nothing(shown: Any, kind: str, colours: str) -> None:
-    use_colours(shown, kind, colours)
-    if kind == "simulator" or colours == "dark":  # scroll bars and fields too
-        assert "dark" in shown.evaluate("bar => getComputedStyle(document.querySelector(bar)).colorScheme", BARS[kind])
+def test_axe_finds_nothing(shown: Any, colours: str) -> None:
+    use_colours(shown, colours)
+    if colours == "dark":  # scroll bars and fields too
+        assert "dark" in shown.evaluate("bar => getComputedStyle(document.querySelector(bar)).colorScheme", BAR)
     assert findings(shown) == []
     shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(true)")
     assert findings(shown) == [], "with the list of keys over it"

@@ -84,6 +84,7 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
         "([x, y]) => Math.hypot(player.view.origin[0] - x, player.view.origin[1] - y) < 5",
         [wanted["initial.x"], wanted["initial.y"]],
     )
+    page.keyboard.press("o")
     page.select_option("[data-a3=quality]", "medium")
     wait_until(page, "player.view.look.quality === 'medium' && player.view.renderer.info.render.triangles > 100000")
     assert errors == []

@@ -118,7 +118,7 @@ class Driver:
     def begin_at(self, place: str) -> None:
         """Begin again at a place of the world."""
         epoch = self.ask("player.frames.newest.epoch")
-        self.ask("name => player.cockpit.act.place(name)", place)
+        self.ask("name => player.cockpit.acts.place(name)", place)
         wait_until(self.page, "epoch => player.frames.newest.epoch > epoch", arg=epoch)
 
     def still(self) -> None:
@@ -215,7 +215,7 @@ def test_a_minute_on_the_proving_ground(fmu, browser):
         driver.look("chase")
         cones_are_seen(driver)
         report = driver.ask("""() => new Promise(done => {
-          const { report } = player.cockpit.panels;
+          const { report } = player.cockpit;
           const show = report.show.bind(report);
           report.show = given => { show(given); done(given); };
           player.link.send({ type: 'report' });

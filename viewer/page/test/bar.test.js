@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Bar } from "../src/live/bar.js";
+import { Bar } from "../src/shell/bar.js";
 
 /** As much of an element as the bar needs. */
 class Part {
@@ -11,6 +11,10 @@ class Part {
     /** @type {Record<string, () => void>} */ this.listeners = {};
     /** @type {Record<string, string>} */ this.marks = {};
     /** @type {string | undefined} */ this.value = undefined;
+  }
+  /** @param {any[]} children */
+  replaceChildren(...children) {
+    this.children = children;
   }
   /** @param {any[]} children */
   append(...children) {
@@ -40,9 +44,10 @@ test("the same place can be chosen twice, and the entry without a place goes now
   globalThis.document = /** @type {any} */ ({ createElement: (/** @type {string} */ name) => new Part(name) });
   t.after(() => (globalThis.document = before));
   /** @type {string[]} */ const gone = [];
-  const bar = new Bar(/** @type {any} */ ({ place: (/** @type {string} */ name) => gone.push(name) }), { cameras: [], steps: [], step: 1, views: [], places: ["hill_20", "lake"] });
-  const parts = /** @type {any[]} */ (/** @type {unknown} */ (bar.element.children));
-  const place = parts.find(({ marks }) => marks["data-a3"] === "place");
+  const bar = new Bar({ place: (/** @type {string} */ name) => gone.push(name) }, { places: ["hill_20", "lake"] });
+  const all = (/** @type {any} */ part) => [part, ...(part.children ?? []).flatMap(all)];
+  const parts = all(bar.element);
+  const place = parts.find(({ marks }) => marks?.["data-a3"] === "place");
   const choose = (/** @type {string} */ name) => {
     if (place.value === name) return; // a browser tells changes only
     place.value = name;

@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { actOf, ROWS } from "../src/common/key_table.js";
 import { keys, needed } from "../src/common/keys.js";
-import { playerActs } from "../src/player/keys.js";
+import { cameraActs } from "../src/common/views.js";
+import { Recordings } from "../src/sources/recordings.js";
 
 const KEYS = ["a", "A", " ", "Enter", "ArrowLeft", "Home", "5"];
 const input = (type) => ({ tagName: "INPUT", type });
@@ -80,12 +81,24 @@ test("caps lock changes no key", () => {
   }
 });
 
-test("a page of results has the keys of its own cameras only", () => {
-  const ofCameras = (cameras) => {
-    const acts = Object.keys(playerActs(/** @type {any} */ ({ cameras, clock: {}, has: {}, look: {} })));
-    return acts.filter((act) => act.includes("camera"));
-  };
+test("a page has the keys of its own cameras only", () => {
+  const ofCameras = (cameras) => Object.keys(cameraActs({ names: () => cameras, all: cameras, now: () => cameras[0], choose: () => {} }));
   assert.deepEqual(ofCameras([]), []);
   assert.deepEqual(ofCameras(["orbit"]), ["camera orbit"]);
   assert.deepEqual(ofCameras(["orbit", "chase", "wheel FL", "side", "top"]), ["next camera", "camera chase", "camera wheel", "camera orbit", "camera top"]);
+});
+
+test("a recording can do what the table of keys says of recordings, and a page offers nothing else", () => {
+  const run = { scene: null, t: new Float64Array([0, 1, 2]), epoch: new Float64Array(3), columns: {}, name: "", notes: [], missing: [] };
+  const source = new Recordings([run], {});
+  const ofTime = ROWS.filter(({ act, where }) => where === "recorded" && !["path", "settings"].includes(act)).map(({ act }) => act);
+  assert.deepEqual(ofTime.filter((act) => !(act in source.acts)), []);
+  source.acts.after({});
+  assert.equal(source.time, 1);
+  source.acts.before({ shiftKey: true });
+  assert.equal(source.time, 0);
+  source.acts.slower();
+  assert.equal(source.speed, 0.5);
+  source.acts.toggle();
+  assert.equal(source.running, true);
 });

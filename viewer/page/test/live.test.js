@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Blend } from "../src/live/blend.js";
+import { Blend } from "../src/sources/blend.js";
 import { Engine, scriptAt } from "../src/live/engine.js";
 import { Gamepad, readSource, withDeadZone } from "../src/live/gamepad.js";
 import { Hand } from "../src/live/hand.js";
@@ -115,7 +115,7 @@ test("a record: rows in blocks, cut, thinned, as a table, and a picture between 
   record.add([0], [0, 3]);
   for (let k = 1; k < 2100; k++) record.add([k - 1], [10 * k, k % 2 ? -3.1 : 3.1]);
   assert.equal(record.row(1200)[0], 1200); // the input of the step that begins there
-  const at = between(record, 120.05, new Blend(new Map([["x", 1], ["angle", 2]]), { angles: new Set(["angle"]), quaternions: [] }));
+  const at = between(record, 120.05, new Blend({ angles: new Set(["angle"]) }), new Map([["x", 1], ["angle", 2]]));
   assert.ok(Math.abs(at("x") - 12005) < 1e-6);
   assert.ok(Math.abs(Math.abs(at("angle")) - Math.PI) < 1e-9); // the short way, not through nought
   assert.deepEqual(record.series(1, 2000, 50)[1], [20000, 20500]);

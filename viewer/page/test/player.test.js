@@ -1,10 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { Clock } from "../src/player/clock.js";
-import { decoded, fromPlanes } from "../src/player/decode.js";
-import { Sampler, linear, place, slerp } from "../src/player/sampler.js";
-import { byUnit, found, resampled, signalNames } from "../src/player/series.js";
+import { Clock } from "../src/sources/clock.js";
+import { decoded, fromPlanes } from "../src/sources/decode.js";
+import { slerp } from "../src/sources/blend.js";
+import { Sampler, linear, place } from "../src/sources/sampler.js";
+import { byUnit, found, resampled, signalNames } from "../src/shell/series.js";
 
 const near = (a, b, tolerance = 1e-12) => assert.ok(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
 
@@ -116,7 +117,7 @@ test("signals are found by words, grouped by unit, and those of poses come last"
   const runs = [{ scene, columns }];
   assert.deepEqual(signalNames(runs), ["force", "gap", "a.x"]);
   assert.deepEqual(found(["wheel_FL.Fz", "wheel_FR.Fz"], "fz fl"), ["wheel_FL.Fz"]);
-  assert.deepEqual([...byUnit(["gap", "force", "a.x", "none"], runs)], [["m", ["gap", "a.x"]], ["N", ["force"]]]);
+  assert.deepEqual([...byUnit(["gap", "force", "a.x", "none"], new Map([["a.x", "m"], ["force", "N"], ["gap", "m"]]))], [["m", ["gap", "a.x"]], ["N", ["force"]]]);
 });
 
 test("another run is compared at the times of this one", () => {

@@ -80,6 +80,10 @@ const ICONS = {
   pause: "M2 1h4v12H2zM8 1h4v12H8z",
   back: "M1 1h2.5v12H1zM13 1v12L4.5 7z",
   forward: "M10.5 1H13v12h-2.5zM1 1l8.5 6L1 13z",
+  reset: "M1 1h2v12H1zM8.5 1v12L3.5 7zM14 1v12L9 7z",
+  rewind: "M7.5 1v12L1 7zM14 1v12L7.5 7z",
+  sound: "M1 5h3l4-4v12L4 9H1zM9.5 4.5q3 2.5 0 5zM10 1.5q6 5.500 0 11l-.6-1q4.500-4.500 0-9z",
+  silent: "M1 5h3l4-4v12L4 9H1zM9.500 4.500l4.500 4.500-1 1-4.500-4.500zM13 4.500l1 1-4.500 4.500-1-1z",
   full: "M1 1h5v2H3v3H1zM8 1h5v5h-2V3H8zM1 8h2v3h3v2H1zM11 8h2v5H8v-2h3z",
 };
 

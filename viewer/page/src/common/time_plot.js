@@ -25,7 +25,7 @@ export class TimePlot {
     styled(uplotStyle);
     const [x, y] = axes;
     this.time = NaN;
-    this.line = el("div.ali3-now", {
+    this.line = el("div.a3-now", {
       style: "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none",
     });
     this.plot = new uPlot(

@@ -16,7 +16,7 @@ export function control(variable, { change, note = "", texts = [] }) {
   const make = variable.type === "String" ? chooser : variable.type === "Boolean" ? toggle : number;
   const { body, show, range = "" } = make(variable, change, texts);
   const title = [variable.description, range].filter(Boolean).join(" ");
-  const head = el("div.a3-name", { title }, variable.name, el("em", {}, [note, range].filter(Boolean).join(" · ")));
+  const head = el("div.a3-caption", { title }, variable.name, el("em", {}, [note, range].filter(Boolean).join(" · ")));
   const element = el("div.a3-control", { data: `control ${variable.name}` }, head, ...body);
   for (const part of body) if (/^(INPUT|SELECT)$/.test(part.tagName)) part.setAttribute("aria-label", variable.name);
   show(variable.start ?? 0);

@@ -1,26 +1,19 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
 import { button, el, short } from "../common/dom.js";
-import { fullScreen } from "../common/full_screen.js";
-import { Help } from "../common/help.js";
-import { DRIVING_WORDS, hint } from "../common/key_table.js";
-import { keys } from "../common/keys.js";
-import { cameraActs } from "../common/views.js";
-import { decoded } from "../player/decode.js";
-import { styled } from "../styles.js";
-import { Bar } from "./bar.js";
-import { BACK } from "./engine.js";
+import { DRIVING_WORDS } from "../common/key_table.js";
+import { Plots } from "../shell/plots.js";
+import { Shell } from "../shell/shell.js";
+import { decoded } from "../sources/decode.js";
 import { Hands, HANDS_MS } from "./hands.js";
-import { gamepadPanel, inputPanel, parameterPanel, picturePanel } from "./panel.js";
-import { Plots } from "./plots.js";
-import { Session } from "./session.js";
+import { gamepadPanel, inputPanel, parameterPanel } from "./panel.js";
+import { Session } from "../sources/fmu.js";
 import { Stage } from "./stage.js";
-import style from "./style.css";
 import { levers } from "./touch.js";
+import { Sampler } from "../sources/sampler.js";
 import { missingParts, unpack, unpackedJson } from "./unpack.js";
 
 const ACTS = ["steering", "throttle", "brake"];
 const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
-const PLOT_MS = 120;
 const PANEL_MS = 100;
 const RESTART_MS = 250;
 
@@ -37,19 +30,17 @@ export function drive(container, given) {
 }
 
 /** The page of an FMU. */
-class Drive {
+class Drive extends Shell {
   /** @param {HTMLElement} container @param {Data} given - See `drive`. */
   constructor(container, { options = {}, fmus, beside, ends = [], script, ...one }) {
+    super(container, options);
     /** @type {Data} */
     this.options = options;
-    this.container = container;
+    this.quality = options.view?.quality ?? "auto";
     const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
-    this.root = el("div.a3", { tabIndex: -1 });
-    styled(style);
-    container.append(this.root);
     const lacking = missingParts();
     if (lacking) {
-      this.root.append(el("p.a3-notice", { data: "notice" }, lacking));
+      this.viewBox.append(el("p.a3-notice", { data: "notice" }, lacking));
       this.problem = lacking;
       this.ready = Promise.reject(new Error(lacking));
       this.ready.catch(() => {});
@@ -59,14 +50,13 @@ class Drive {
     this.ready.catch((error) => this._tell(`${error.message}`));
   }
 
-  /** The first picture. @returns {import("../scene/scene_view.js").SceneView} */
-  get view() {
-    return this.stage.parts[0].view;
+  get views() {
+    return this.stage?.parts.map(({ view }) => view) ?? [];
   }
 
   /** Time of the run, s. */
   get time() {
-    return this.session.time;
+    return this.session.end;
   }
 
   /** Whether time runs. */
@@ -85,20 +75,8 @@ class Drive {
     this.draw();
   }
 
-  /** Choose a camera of all pictures. @returns {string} A sentence if there is none of this name. */
-  camera(name) {
-    if (!this.view.cameraNames.includes(name)) {
-      return `There is no camera '${name}'; there are ${this.view.cameraNames.join(", ")}.`;
-    }
-    for (const part of this.stage.parts) if (part.view.cameraNames.includes(name)) part.view.camera(name);
-    this.bar?.camera(name);
-    this.stage.dirty = true;
-    return "";
-  }
-
   /** Let time run. @param {number} [speed] - Simulated seconds per second of the clock. */
   run(speed) {
-    this._tell("");
     return this.session.run(speed);
   }
 
@@ -108,27 +86,18 @@ class Drive {
   }
 
   /** Communication steps, then stand. */
-  async advance(count = 1) {
-    await this.session.advance(count);
-    this.draw();
+  advance(count = 1) {
+    return this.session.advance(count);
   }
 
   /** Begin again. */
-  async reset() {
-    const { running } = this.session;
-    await this.session.restart();
-    if (running) await this.session.run();
-    this.draw();
+  reset() {
+    return this.session.again();
   }
 
   /** Go back, and run on if it ran. @param {number} seconds - Of the run. */
-  async back(seconds = 2) {
-    const { session } = this;
-    const { running } = session;
-    await session.back(Math.max(0, Math.round((session.shown - seconds) / session.step)));
-    this._clear();
-    if (running) await session.run();
-    this.draw();
+  back(seconds = 2) {
+    return this.session.rewind(seconds);
   }
 
   /** Set an input or parameter; a fixed one begins the run again. */
@@ -140,7 +109,6 @@ class Drive {
     const restarted = await this.session.set(name, value);
     this._tell(restarted ? `The run began again with ${name} = ${value}.` : "", 3000);
     this.parameters?.show(name, value);
-    if (restarted) this.draw();
     return undefined;
   }
 
@@ -160,8 +128,8 @@ class Drive {
   draw() {
     const { session } = this;
     const { running, speed, step, pace } = session;
-    this.stage.survey(session.record);
-    this.stage.show(session.record, session.shown, { running, speed, step, factor: pace.factor, cost: pace.cost });
+    this.stage.survey(session.range);
+    this.stage.show(session.time, { running, speed, step, factor: pace.factor, cost: pace.cost });
     this.stage.render();
     this._showPanel();
   }
@@ -170,15 +138,18 @@ class Drive {
   dispose() {
     this._ended = true;
     clearInterval(this._asking);
-    this._listeners?.abort();
     this.session?.close();
     this.stage?.dispose();
-    this.container.replaceChildren();
+    super.dispose();
   }
 
   async _open(parts, { beside, ends, script }) {
     const runs = beside ? (await decoded(beside)).runs : [];
-    const recordings = runs.map((run, k) => ({ title: `${run.name} (recorded)`, scene: run.scene, recording: { ...run, end: ends[k] } }));
+    const recordings = runs.map((run, k) => {
+      const sampler = new Sampler(run);
+      const sample = (time) => (sampler.at(time), sampler.lookup);
+      return { title: `${run.name} (recorded)`, scene: run.scene, sample, recording: { ...run, end: ends[k] } };
+    });
     const table = script ? await unpackedJson(script) : null;
     this.script = table;
     const fmus = [];
@@ -188,26 +159,28 @@ class Drive {
       fmus.push({ ...part, scene: await unpackedJson(part.scene), wasm: await unpack(part.wasm), resources });
     }
     const pictures = [];
-    for (const { title, scene, roads, world: packed, description } of fmus) {
+    for (const [k, { title, scene, roads, world: packed, description }] of fmus.entries()) {
       const choices = roads ? await unpackedJson(roads) : {};
       const world = packed ? await unpackedJson(packed) : null;
       const drawn = world ? { ...scene, roads: choices[world.road], scenery: world.scenery } : scene;
-      pictures.push({ title, scene: drawn, roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
+      pictures.push({ title, scene: drawn, sample: (time) => this.session.sample(time)[k], roads: choices, world, variables: new Map(description.variables.map((v) => [v.name, v])) });
     }
     // Nothing is awaited from here until the page hears: the first answer finds everything in its place.
     this.session = new Session(fmus, { ...this.options, script: table }, {
       started: () => this._started(),
+      ran: () => this._tell(""),
+      moved: () => this.draw(),
+      back: () => this._clear(),
       refused: (which, text, alive) => this._refused(which, text, alive),
       message: (which, text) => this._tell(text),
       error: (at, text) => this._error(at, text),
     });
-    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, (sentence) => this._tell(sentence));
+    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, { look: this.look, tell: (sentence) => this._tell(sentence), box: this.viewBox });
     this._layOut(fmus[0]);
     this.stage.open();
     this.problem = this.stage.problem;
-    this._cameras();
+    this._controls();
     await this.session.ready;
-    this.plots.open();
     this.draw();
     this._drawn = NaN; // what the last picture showed
     this._ran = false;
@@ -240,95 +213,44 @@ class Drive {
     const parameters = [...session.variables.values()].filter(settable);
     const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
     this.parameters = parameterPanel(parameters, { set: (v, value) => this._setSoon(v, value), roads });
-    const plotted = [...names, ...new Set(session.outputs.map((name) => name.split(": ").at(-1)))];
-    const wished = this.options.plots ?? PLOTTED.filter((name) => plotted.includes(name));
-    const firstPlots = wished.length ? wished : plotted.slice(names.length, names.length + 3);
-    this.plots = new Plots(plotted, session.variables, firstPlots.slice(0, 4));
     this.gamepadPanel = gamepadPanel(this.hands.gamepad, names);
-    this.side = el("div.a3-side", {}, this.inputPanel.element, this.plots.element, this.parameters.element);
-    if (names.length) this.side.append(this.gamepadPanel.element);
+    this.sideBox.append(this.inputPanel.element, this.parameters.element, ...(names.length ? [this.gamepadPanel.element] : []));
     this.banner = el("div.a3-banner", { data: "banner" });
-    this.stage.element.append(this.banner);
+    this.viewBox.append(this.banner);
     if (this.isCar) {
-      this.stage.element.append(levers(names, want));
+      this.viewBox.append(levers(names, want));
       this.root.classList.toggle("a3-touching", matchMedia("(pointer: coarse)").matches);
     }
-    this.root.append(this.stage.element, this.side);
   }
 
-  _cameras() {
+  _controls() {
     const { session } = this;
     const steps = stepChoices(session.step).map((h) => [h, `${Number((1e3 * h).toPrecision(6))} ms`]);
-    const views = [];
-    const flipLevers = () => this.root.classList.toggle("a3-touching");
-    const has = this.stage.parts.map((part) => part.view.has ?? {});
-    const shown = ["arrows", "stress", "closed"].filter((what) => has.some((one) => one[what]));
-    if (this.isCar) {
-      views.push({ data: "touch levers", text: "Levers", title: hint("levers"), work: flipLevers });
-    }
-    const act = {
-      reset: () => this.reset(),
-      toggle: () => (session.running ? this.pause() : this.run()),
-      step: () => this.advance(),
-      back: () => this.back(),
-      rewind: ({ shiftKey }) => this.back(shiftKey ? 10 : 2),
-      speed: (speed) => (session.running ? this.run(speed) : (session.speed = speed)),
-      scrub: (time) => this.seek(time),
-      camera: (name) => this.camera(name),
-      stepSize: (step) => this._stepSize(step),
+    for (const { holder } of this.stage.parts) this.watch(holder);
+    for (const what of ["arrows", "stress", "deformation", "closed"]) this.has[what] = this.views.some((view) => view.has[what]);
+    this.cameras = this.view.cameraNames;
+    this.cameraName = this.view.cameras?.name;
+    const instruments = this.stage.parts.map((part) => part.instruments).filter(Boolean);
+    const more = {
       csv: () => this._download(),
-      place: (name) => this._place(name),
-      slow: () => this.bar.slow(),
-      panels: () => (this.side.hidden = !this.side.hidden),
-      help: () => this.help.toggle(),
-      close: () => this.help.toggle(false),
-      "full screen": () => fullScreen(this.root),
-      ...cameraActs({ names: () => this.view.cameraNames, all: this.view.cameraNames, now: () => this.view.cameras?.name, choose: (name) => this._tell(this.camera(name), 3000) }),
-      ...(this.stage.parts.some(({ instruments }) => instruments) ? { instruments: () => this.stage.parts.forEach(({ instruments }) => instruments?.toggle()) } : {}),
-      ...Object.fromEntries(shown.map((what) => [what, () => this._flip(what)])),
-      ...(this.isCar ? { levers: flipLevers, mute: () => this._mute() } : {}),
+      ...(instruments.length ? { instruments: () => instruments.forEach((one) => one.toggle()) } : {}),
+      ...(this.isCar ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this._mute() } : {}),
     };
-    this.act = act;
-    const { places = {} } = this.options;
-    this.bar = new Bar(act, { cameras: this.view.cameraNames, steps, step: session.step, views, places: Object.keys(places), sound: this.isCar });
-    this.help = new Help(Object.keys(act), this.isCar);
-    this.root.append(this.bar.element, this.help.element);
+    const driven = this.isCar ? (event) => this.hands.key(event, this.get("speed")) : undefined;
+    this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
-    if (this.view.cameraNames.includes(camera)) this.camera(camera);
-    this.plots.element.before(picturePanel(has, (wishes) => this.stage.set(wishes), this.options.view?.quality));
-  }
-
-  /** @param {string} what is a switch of the picture */
-  _flip(what) {
-    /** @type {HTMLElement | null} */ (this.root.querySelector(`[data-a3="show ${what}"]`))?.click();
+    if (this.cameras.includes(camera)) this.camera(camera);
+    const wished = this.options.plots ?? PLOTTED.filter((name) => session.columns.has(name));
+    const names = [...session.columns.keys()];
+    const first = wished.length ? wished : names.slice(this.inputs.length, this.inputs.length + 3);
+    this.plots = new Plots(this.sideBox, this, session, first.slice(0, 4));
+    this.side(true);
   }
 
   _mute() {
     this._muted = !this._muted;
     this.stage.mute(this._muted);
-    this.bar.sound(this._muted ? "Sound off" : "Sound on");
-  }
-
-  /** Begin again at a place of the world. @param {string} name */
-  async _place(name) {
-    const { session } = this;
-    const { running } = session;
-    await session.restart({ ...session.start, ...this.options.places[name] });
-    if (running) await session.run();
-    this.draw();
-  }
-
-  /** Another communication step; the inner one is not longer than it. */
-  async _stepSize(step) {
-    const { session } = this;
-    const { running } = session;
-    const inner = session.variables.get("step_size");
-    const start = { ...session.start };
-    if (inner && step < Number(inner.start)) start.step_size = Math.max(step, inner.min ?? 0);
-    else delete start.step_size;
-    await session.restart(start, step).catch(() => {});
-    if (running) await session.run();
-    this.draw();
+    this.bar.sound(!this._muted);
   }
 
   _setSoon(variable, value) {
@@ -341,15 +263,13 @@ class Drive {
   }
 
   _started() {
-    this.stage.bind(this.session.record, this.session.prefixes, this.session.start);
     this.stage.chooseRoads(this.session.start["road.file"] ?? "");
-    this._clear();
+    this._clear(true);
     this.hands.clear();
-    this.plots.stale = true;
   }
 
-  _clear() {
-    this.stage.renew();
+  _clear(begun = false) {
+    this.stage.renew(begun);
     for (const part of this.stage.parts) if (!part.view?.problem) this.stage.tell(part, "");
     this._tell("");
   }
@@ -366,10 +286,14 @@ class Drive {
     this._tell(`${what}${text}`);
   }
 
+  tell(sentence) {
+    this._tell(sentence, 3000);
+  }
+
   _tell(sentence, time = 0) {
     clearTimeout(this._banner);
     if (!this.banner) {
-      if (sentence) this.root.append(el("p.a3-notice", { data: "notice" }, sentence));
+      if (sentence) this.viewBox.append(el("p.a3-notice", { data: "notice" }, sentence));
       return;
     }
     this.banner.textContent = sentence;
@@ -377,12 +301,9 @@ class Drive {
   }
 
   _listen() {
-    this._listeners = new AbortController();
-    const { signal } = this._listeners;
-    const { act } = this;
+    const { signal } = this.listeners;
     const once = () => this.stage.sound();
     for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal, once: true });
-    keys({ acts: act, signal, first: (event) => this.hands.key(event, this.get("speed")) });
     window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => this._hidden(), { signal });
   }
@@ -403,29 +324,28 @@ class Drive {
     if (this._ended) return;
     requestAnimationFrame(() => this._frame());
     const { session } = this;
-    const shown = session.shown;
+    const shown = session.time;
     if (shown !== this._drawn || session.running !== this._ran) {
       [this._drawn, this._ran] = [shown, session.running];
       this.draw();
       return;
     }
+    this.stage.dirty ||= this.dirty;
+    this.dirty = false;
     this.stage.render();
   }
 
   _showPanel() {
     const { session } = this;
     const now = performance.now();
-    const { running, oldest, shown: time, scrubbed } = session;
-    this.bar.show({ running, oldest, time, end: session.time, scrubbed: scrubbed !== null });
+    const { running, time } = session;
+    this.bar.show(session);
     if (now - (this._panelled ?? -Infinity) > PANEL_MS || !running) {
       this._panelled = now;
       const row = session.record.row(Math.round(time / session.step));
       session.held.forEach((v, i) => (v.causality === "input" ? this.inputPanel : this.parameters).show(v.name, row[i]));
     }
-    if (now - (this._plotted ?? -Infinity) > PLOT_MS || !running || this.plots.stale) {
-      this._plotted = now;
-      this.plots.show(session.record, session.prefixes, time);
-    }
+    if (this.sideOpen) this.plots.now();
   }
 
   _download() {
@@ -444,5 +364,3 @@ class Drive {
 export function stepChoices(step) {
   return [0.1, 0.2, 0.5, 1, 2, 5].map((factor) => Number((factor * step).toPrecision(6)));
 }
-
-export { BACK };

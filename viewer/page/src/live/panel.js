@@ -1,8 +1,6 @@
 // The panel beside the picture: inputs, the gamepad, parameters by group.
-import { QUALITIES } from "../looks/pace.js";
 import { control } from "./controls.js";
 import { el, named, select, short } from "../common/dom.js";
-import { hint } from "../common/key_table.js";
 import { sourcesOf } from "./gamepad.js";
 
 /** A part of the panel that opens and closes. */
@@ -103,44 +101,3 @@ export function gamepadPanel(gamepad, inputs) {
   };
 }
 
-/** The choice of how finely a picture is drawn. @param {(wish: string) => void} work @param {string} [value] chosen at first */
-export function qualityChoice(work, value = "auto") {
-  return select("quality", "how finely the picture is drawn", QUALITIES.map((level) => [level, `quality ${level}`]), work, value); // prettier-ignore
-}
-
-/**
- * What the pictures show beside shapes.
- * @param {{arrows?: boolean, stress?: boolean, deformation?: boolean, closed?: boolean}[]} has - What each picture can.
- * @param {(wishes: Data) => void} set - Told what a person wants, as `SceneView.set` has it.
- * @param {string} [quality] - That is chosen at first.
- * @returns {HTMLElement}
- */
-export function picturePanel(has, set, quality) {
-  const can = (what) => has.some((one) => one[what]);
-  /** @type {Object<string, HTMLInputElement>} */
-  const boxes = {};
-  /** @type {HTMLElement[]} */
-  const lines = [qualityChoice((wish) => set({ quality: wish }), quality)];
-  for (const what of ["arrows", "stress", "closed"]) {
-    if (!can(what)) continue;
-    const box = el("input", { type: "checkbox", checked: what === "closed", data: `show ${what}` });
-    box.addEventListener("change", () => {
-      set({ [what]: box.checked });
-      if (what === "stress" && box.checked && boxes.closed?.checked) boxes.closed.click(); // what has the colours is within
-    });
-    boxes[what] = box;
-    lines.push(el("label.a3-control", {}, box, hint(what)));
-    set({ [what]: box.checked });
-  }
-  if (can("deformation")) {
-    const slider = el("input", { type: "range", min: 0, max: 200, value: 1, data: "deformation" });
-    const words = el("span", {}, "× 1");
-    slider.addEventListener("input", () => {
-      words.textContent = `× ${slider.value}`;
-      set({ deformation: Number(slider.value) });
-    });
-    lines.push(el("label.a3-control", {}, "deformation ", slider, words));
-    set({ deformation: 1 });
-  }
-  return section("Picture", true, ...lines);
-}

@@ -131,11 +131,13 @@ export class Record {
  * A lookup between two rows, for a picture.
  * @param {Record} record
  * @param {number} time - s.
- * @param {import("./blend.js").Blend} blend - Of the record's rows.
- * @returns {(name: string) => number}
+ * @param {import("../sources/blend.js").Blend} blend
+ * @param {Map<string, number>} columns - Index in a row by name.
+ * @returns {(name: string) => number | undefined}
  */
-export function between(record, time, blend) {
+export function between(record, time, blend, columns) {
   const x = Math.max(record.first, Math.min(record.end - 1, time / record.step));
   const k = Math.min(Math.floor(x), Math.max(record.first, record.end - 2));
-  return blend.lookup(record.row(k), record.row(k + 1), x - k);
+  const numbers = (/** @type {ArrayLike<number>} */ row) => (name) => row[columns.get(name)];
+  return blend.lookup(numbers(record.row(k)), numbers(record.row(k + 1)), x - k);
 }

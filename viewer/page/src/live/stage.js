@@ -1,11 +1,9 @@
 // The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
 import { SceneView } from "../scene/scene_view.js";
 import { Effects } from "../effects/driven.js";
-import { Blend, turnsOf } from "./blend.js";
 import { el } from "../common/dom.js";
 import { Instruments } from "../instruments/index.js";
 import { Hud } from "./hud.js";
-import { between } from "./record.js";
 import { movedRoads } from "./roads.js";
 
 /** Instants of a run that are looked at. */
@@ -16,14 +14,16 @@ const SURVEYED_UNTIL = 20;
 /** Pictures that are drawn when something has changed. */
 export class Stage {
   /**
-   * @param {Data[]} items - `{title, scene, variables}` of an FMU, or `{title, scene, recording}`.
+   * @param {Data[]} items - `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
+   *   gives the numbers of a time.
    * @param {Data} options - Of SceneView.
-   * @param {(sentence: string) => void} [tell] - Told what cannot be heard.
+   * @param {{look: Data, tell: (sentence: string) => void, box: HTMLElement}} page - What pictures show now; told what
+   *   cannot be heard; takes the pictures.
    */
-  constructor(items, options, tell = () => {}) {
+  constructor(items, options, { look, tell, box }) {
     this._tell = tell;
+    this._look = look;
     this._epoch = 0;
-    this.element = el("div.a3-stage");
     this._surveyed = 0;
     /** @type {Data[]} one for each item: what it has, the elements, and what is made of them */
     this.parts = items.map((item) => {
@@ -34,7 +34,7 @@ export class Stage {
       const fixed = (name) => item.variables?.get(name)?.start;
       const instruments = Instruments.of(names) ? new Instruments(names, { scene: item.scene, fixed }) : null;
       const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), hud.element, notice);
-      this.element.append(element);
+      box.append(element);
       return { ...item, holder, notice, hud, instruments, element };
     });
     this._options = { driven: !options.keep, ...options };
@@ -46,9 +46,7 @@ export class Stage {
     for (const part of this.parts) {
       part.road ??= "";
       part.view = new SceneView(part.holder, part.scene, this._options);
-      for (const event of ["pointerdown", "pointermove", "wheel"]) {
-        part.holder.addEventListener(event, () => (this.dirty = true), { passive: true });
-      }
+      part.view.set(this._look);
       new ResizeObserver(() => (this.dirty = true)).observe(part.holder);
     }
     for (const part of this.parts) this._follow(part);
@@ -84,8 +82,9 @@ export class Stage {
     for (const { effects } of this.parts) effects?.sound.mute(on);
   }
 
-  /** Another run, or an earlier instant: nothing goes on across it. */
-  renew() {
+  /** Another run, or an earlier instant: nothing goes on across it. @param {boolean} [begun] another run */
+  renew(begun = false) {
+    if (begun) this._surveyed = 0;
     this._epoch += 1;
     for (const { instruments } of this.parts) instruments?.plan.trail.lift();
   }
@@ -104,63 +103,28 @@ export class Stage {
     part.view = new SceneView(part.holder, { ...part.scene, roads, ...(away ? { scenery: [] } : {}) }, this._options);
     this._follow(part);
     if (camera && !part.view.problem) part.view.camera(camera);
-    if (this._wishes) part.view.set?.(this._wishes);
-  }
-
-  /** What the pictures show, as `SceneView.set` has it. */
-  set(wishes) {
-    this._wishes = { ...this._wishes, ...wishes };
-    for (const part of this.parts) part.view.set?.(wishes);
-    this.dirty = true;
-  }
-
-  /**
-   * Which columns of the record are those of the FMUs, by name; fixed parameters have the values of the start.
-   * @param {import("./record.js").Record} record
-   * @param {string[]} prefixes - Of the columns of each FMU.
-   * @param {Object<string, any>} start - Values that are not those of the FMUs.
-   */
-  bind(record, prefixes, start) {
-    this._surveyed = 0;
-    for (const [which, part] of this.parts.filter((p) => p.variables).entries()) {
-      const names = [...part.variables.values()].filter((v) => v.causality === "output").map((v) => v.name);
-      /** @type {[string, number][]} */
-      const held = record.held.map((name, k) => [name, k]);
-      /** @type {[string, number][]} */
-      const own = names.map((name) => [name, record.column(prefixes[which] + name)]);
-      part.columns = new Map([...held, ...own.filter(([, index]) => index >= 0)]);
-      part.blend = new Blend(part.columns, turnsOf(part.scene));
-      const others = [...part.variables.values()].filter((v) => !part.columns.has(v.name));
-      part.fixed = new Map(others.map((v) => [v.name, start[v.name] ?? v.start]));
-    }
-  }
-
-  /** What the numbers of a picture are at a time. */
-  lookup(part, record, time) {
-    if (part.recording) return lookupOf(part.recording, time);
-    const lookup = between(record, time, part.blend);
-    return (name) => (part.columns.has(name) ? lookup(name) : part.fixed.get(name));
+    part.view.set(this._look);
   }
 
   /**
    * Ranges of arrows and stress, and what a camera that stands must see, from what the run has been; each time the run
    * is twice as long.
    */
-  survey(record) {
-    if (record.time < 2 * this._surveyed || this._surveyed > SURVEYED_UNTIL || record.end - record.first < 2) return;
-    this._surveyed = Math.max(0.25, record.time);
-    const times = Array.from({ length: SURVEYED }, (_, i) => record.first * record.step + (i / (SURVEYED - 1)) * record.time);
+  survey([begin, end]) {
+    if (end < 2 * this._surveyed || this._surveyed > SURVEYED_UNTIL || !(end > begin)) return;
+    this._surveyed = Math.max(0.25, end);
+    const times = Array.from({ length: SURVEYED }, (_, i) => begin + (i / (SURVEYED - 1)) * (end - begin));
     for (const part of this.parts) {
       const { recording: run } = part;
       const instants = run ? times.map((_, i) => run.t[0] + (i / (SURVEYED - 1)) * (run.t.at(-1) - run.t[0])) : times;
-      part.view.scan?.((i) => this.lookup(part, record, instants[i]), SURVEYED);
+      part.view.scan((i) => part.sample(instants[i]), SURVEYED);
     }
   }
 
   /** Draw the instant `time`. */
-  show(record, time, pace) {
+  show(time, pace) {
     for (const part of this.parts) {
-      const lookup = this.lookup(part, record, time);
+      const lookup = part.sample(time);
       this._drawRoads(part, lookup);
       part.view.update(lookup);
       part.effects?.update(lookup, time, this._epoch);
@@ -193,22 +157,4 @@ export class Stage {
       part.view?.dispose();
     }
   }
-}
-
-/** A lookup in a recording, straight between its times; after its end it stands. */
-export function lookupOf({ t, columns }, time) {
-  let [low, high] = [0, t.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (t[middle] <= time) low = middle;
-    else high = middle;
-  }
-  const span = t[high] - t[low];
-  const s = span > 0 ? Math.max(0, Math.min(1, (time - t[low]) / span)) : 1;
-  return (name) => {
-    const column = columns[name];
-    if (!column) return NaN;
-    const values = column.data ?? column;
-    return values[low] + s * (values[high] - values[low]);
-  };
 }

@@ -1,5 +1,5 @@
 // A page of recordings as viewer/page_file.py writes it.
-import { decoded } from "./decode.js";
+import { decoded } from "../sources/decode.js";
 import { play } from "./play.js";
 
 /**

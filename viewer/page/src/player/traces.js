@@ -16,7 +16,7 @@ const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks
 export class Traces {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {import("./decode.js").Run} run
+   * @param {import("../sources/decode.js").Run} run
    * @param {{tint: string, under: number}} [ghost] its colour, and how many paths lie over its own
    */
   constructor(view, run, ghost) {

@@ -13,7 +13,7 @@ export class Notes {
     this.legend = el("div", { style: column });
     const corner = el("div", { style: `position:absolute;right:8px;bottom:8px;max-width:50%;${column}` }, this.list, this.legend);
     const style = "position:absolute;inset:0;pointer-events:none;overflow:hidden;font:12px/1.35 system-ui,sans-serif;color:#1d2328";
-    this.layer = el("div.ali3-notes", { style }, corner);
+    this.layer = el("div.a3-notes", { style }, corner);
     container.append(this.layer);
   }
 

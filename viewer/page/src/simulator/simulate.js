@@ -2,7 +2,6 @@
 import { el } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Cockpit } from "./cockpit.js";
-import { Frames } from "./frames.js";
 import { Link } from "./link.js";
 import style from "./style.css";
 
@@ -24,10 +23,9 @@ class Simulator {
   /** @param {HTMLElement} container @param {{url?: string, token?: string}} options */
   constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
     this.container = container;
-    this.root = el("div.a3-sim", { tabIndex: -1 }, el("p.a3-wait", { data: "waiting" }, "Waiting for the program that drives the car …"));
     styled(style);
-    container.append(this.root);
-    this.frames = new Frames();
+    this._waiting = el("p.a3-wait", { data: "waiting" }, "Waiting for the program that drives the car …");
+    container.append(this._waiting);
     this.cockpit = null;
     this.problem = "";
     this._token = token;
@@ -42,10 +40,15 @@ class Simulator {
       frame: (frame) => this._frame(frame),
       event: (event) => this._event(event),
       refused: ({ text }) => this.cockpit?.notices.tell(text),
-      report: (report) => this.cockpit?.panels.report.show(report),
+      report: (report) => this.cockpit?.report.show(report),
       devices: ({ devices }) => this.cockpit?.devices(devices),
       closed: (sentence) => this._closed(sentence),
     });
+  }
+
+  /** Frames as they come. */
+  get frames() {
+    return this.cockpit?.source.frames;
   }
 
   /** The picture. */
@@ -55,13 +58,12 @@ class Simulator {
 
   /** Number of an output or input of the newest frame. @param {string} name */
   get(name) {
-    const values = this.frames.newest?.values;
-    return values?.[this.cockpit?.columns.get(name)];
+    return this.frames?.newest?.values[this.cockpit.source.index.get(name)];
   }
 
   /** Choose a camera. @returns {string} A sentence where there is none of this name. */
   camera(name) {
-    return this.cockpit.views.choose(name);
+    return this.cockpit.camera(name);
   }
 
   /** Rates and lateness of pictures and frames, as they are shown. */
@@ -84,13 +86,11 @@ class Simulator {
       return hello.scene ?? {};
     });
     if (this._ended) return;
-    const camera = this.cockpit?.views.name;
+    const camera = this.cockpit?.cameraName;
     this.cockpit?.dispose();
-    this.frames = new Frames();
-    this.root.replaceChildren();
-    this.cockpit = new Cockpit(this.root, { ...hello, scene }, this.link, { frames: () => this.frames, clock });
+    this.cockpit = new Cockpit(this.container, { ...hello, scene }, this.link, clock);
     if (missing) this.cockpit.notices.tell(missing);
-    if (camera) this.cockpit.views.choose(camera);
+    if (camera) this.cockpit.camera(camera);
     this.problem = this.cockpit.problem;
     if (!this._running) this._loop();
     this._resolve(this);
@@ -99,14 +99,12 @@ class Simulator {
   /** The page itself is wrong: that is said, and thrown for whoever looks for its place. */
   _wrong(error) {
     this.problem = `This page cannot show the car: ${error.message}`;
-    this.root.prepend(el("p.a3-wait", { data: "problem" }, this.problem));
+    this.container.prepend(el("p.a3-wait", { data: "problem" }, this.problem));
     throw error;
   }
 
   _frame(frame) {
-    if (!this.cockpit || frame.values.length !== this.cockpit.columns.size) return;
-    const restarted = this.frames.add(frame, clock());
-    this.cockpit.add(frame, restarted);
+    if (this.cockpit && frame.values.length === this.cockpit.source.index.size) this.cockpit.add(frame);
   }
 
   _event(event) {
@@ -115,7 +113,7 @@ class Simulator {
 
   _closed(sentence) {
     if (this.cockpit) this.cockpit.lost(sentence);
-    else this.root.firstElementChild.textContent = sentence;
+    else this._waiting.textContent = sentence;
   }
 
   _loop() {

@@ -2,10 +2,11 @@
 import uPlot from "uplot";
 import { el } from "../common/dom.js";
 import { COLOURS, TimePlot } from "../common/time_plot.js";
-import { linear, place } from "./sampler.js";
+import { linear, place } from "../sources/sampler.js";
 import { resampled, values } from "./series.js";
 
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
+const SYNCED = "ali3"; // diagrams of the page have one line under the mouse
 const NULL_RETAIN = 1; // of uPlot.join: a gap of a run stays one
 
 /** @param {number} value @returns {string} */
@@ -17,22 +18,22 @@ export class Chart {
 
   /**
    * @param {HTMLElement} parent
-   * @param {{unit: string, names: string[], runs: Data[], colours: (name: string) => string, player: Data,
+   * @param {{unit: string, names: string[], runs: Data[], colours: (name: string) => string, source: import("./shell.js").Source,
    *   zoomed: (chart: Chart, range: [number, number]) => void, difference: boolean,
    *   compare: (unit: string, on: boolean) => void}} options
    */
-  constructor(parent, { unit, names, runs, colours, player, zoomed, difference, compare }) {
+  constructor(parent, { unit, names, runs, colours, source, zoomed, difference, compare }) {
     this.unit = unit;
     this.names = names;
     this.runs = runs;
     this.colours = colours;
-    this.player = player;
+    this.source = source;
     this.zoomed = zoomed;
     this.difference = difference;
     this.compare = compare;
     this.curves = this.#curves();
     this.legend = this.#legend();
-    this.box = el("div.ali3-chart", {}, this.legend);
+    this.box = el("div.a3-chart", {}, this.legend);
     parent.append(this.box);
     this.timed = new TimePlot(this.box, this.#data(), this.#settings());
     this.plot = this.timed.plot;
@@ -64,7 +65,7 @@ export class Chart {
   }
 
   #data() {
-    if (this.curves.length === 0) return [[this.player.clock.begin, this.player.clock.end]];
+    if (this.curves.length === 0) return [this.source.range];
     const tables = new Map();
     for (const { t, data } of this.curves) tables.set(t, [...(tables.get(t) ?? [Array.from(t)]), data]);
     const lists = [...tables.values()];
@@ -79,12 +80,12 @@ export class Chart {
 
   /** @returns {import("../common/time_plot.js").PlotOptions} */
   #settings() {
-    const { begin, end } = this.player.clock;
+    const [min, max] = this.source.grows ? [] : this.source.range;
     return {
       width: 300,
       height: 140,
       padding: [6, 8, 0, 0],
-      scales: { x: { range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min: begin, max: end } },
+      scales: { x: { range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max } },
       axes: [
         { label: "time, s", size: 26 },
         { label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
@@ -96,7 +97,7 @@ export class Chart {
         width: 1.5,
         points: { show: t.length === 1 ? true : undefined },
       })),
-      cursor: { sync: { key: `ali3-${this.player.id}` }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
+      cursor: { sync: { key: SYNCED }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
         setScale: [(plot, key) => key === "x" && !this.#quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
       },
@@ -108,10 +109,10 @@ export class Chart {
       curve.output = el("output");
       const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
       const style = `background:${curve.dash.length > 0 ? dashed : curve.colour}`;
-      const swatch = el("span.ali3-swatch", { style });
+      const swatch = el("span.a3-swatch", { style });
       return el("span", {}, swatch, curve.label, curve.output);
     });
-    const legend = el("div.ali3-legend", {}, ...entries);
+    const legend = el("div.a3-legend", {}, ...entries);
     if (this.runs.length > 1) {
       const press = () => this.compare(this.unit, !this.difference);
       const title = "show the difference to the first run";
@@ -124,12 +125,22 @@ export class Chart {
     const { select, over } = this.plot;
     if (select.width > 0) return; // the end of a drag, which is a zoom
     const left = event.clientX - over.getBoundingClientRect().left;
-    this.player.seek(this.plot.posToVal(left, "x"));
+    this.source.acts.seek?.(this.plot.posToVal(left, "x"));
+  }
+
+  /** The same signals over other times. @param {Data[]} runs */
+  refresh(runs) {
+    this.runs = runs;
+    const outputs = this.curves.map(({ output }) => output);
+    this.curves = this.#curves().map((curve, k) => ({ ...curve, output: outputs[k] }));
+    this.#quiet = true;
+    this.plot.setData(this.#data());
+    this.#quiet = false;
   }
 
   /** The line and the values at the time that is shown. */
   now() {
-    const { time } = this.player.clock;
+    const { time } = this.source;
     this.timed.at(time);
     for (const { t, data, output } of this.curves) {
       const inside = time >= t[0] && time <= t[t.length - 1];

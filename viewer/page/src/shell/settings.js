@@ -5,19 +5,20 @@ import { hint } from "../common/key_table.js";
 
 /** The panel. */
 export class Settings {
-  /** @param {HTMLElement} parent @param {Data} player */
-  constructor(parent, player) {
+  /** @param {HTMLElement} parent @param {Data} player the shell of the page @param {Data} source */
+  constructor(parent, player, source) {
     this.player = player;
+    this.source = source;
     /** Shows a value that was set elsewhere, by its name. */
     this.shown = {};
-    this.panel = el("div.ali3-panel", { hidden: true });
+    this.panel = el("div.a3-panel", { hidden: true });
     parent.append(this.panel);
     this.#fill();
   }
 
   toggle(open = this.panel.hidden) {
     this.panel.hidden = !open;
-    this.player.bar.settings.setAttribute("aria-pressed", String(open));
+    this.player.bar.buttons.settings.setAttribute("aria-pressed", String(open));
   }
 
   /** @param {Data} look values that were set, by their names */
@@ -29,10 +30,10 @@ export class Settings {
     const { player } = this;
     const { look } = player;
     const rows = [];
-    const check = (text, value, change) => {
-      const box = el("input", { type: "checkbox", onchange: () => change(box.checked) });
+    const check = (text, value, change, data = "") => {
+      const box = el("input", { type: "checkbox", data, onchange: () => change(box.checked) });
       box.checked = value;
-      rows.push(el("label.ali3-wide", {}, box, ` ${text}`));
+      rows.push(el("label.a3-wide", {}, box, ` ${text}`));
       return (now) => (box.checked = now === true || now?.length > 0);
     };
     // A factor from 1/range to range, in equal steps of its logarithm.
@@ -52,22 +53,22 @@ export class Settings {
       return (value) => player.set({ [key]: value });
     };
     if (player.has.arrows) {
-      this.shown.arrows = check(hint("arrows"), look.arrows, (arrows) => player.set({ arrows }));
+      this.shown.arrows = check(hint("arrows"), look.arrows, (arrows) => player.set({ arrows }), "show arrows");
       factor("length of the arrows", "arrowScale", 0.1, 10);
     }
-    if (player.has.path) this.shown.path = check(hint("path"), look.path, (path) => player.set({ path }));
-    if (player.has.closed) this.shown.closed = check(hint("closed"), look.closed, (closed) => player.set({ closed }));
-    if (player.has.stress) this.shown.stress = check(hint("stress"), look.stress, (stress) => player.set({ stress }));
+    if (player.has.path) this.shown.path = check(hint("path"), look.path, (path) => player.set({ path }), "show path");
+    if (player.has.closed) this.shown.closed = check(hint("closed"), look.closed, (closed) => player.set({ closed }), "show closed");
+    if (player.has.stress) this.shown.stress = check(hint("stress"), look.stress, (stress) => player.set({ stress }), "show stress");
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);
       const fit = () => deform(player.view.fittingDeformation);
       rows.push(el("span"), el("button", { onclick: fit }, "make it visible"), el("span"));
     }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
-    this.shown.loop = check(hint("loop"), player.clock.loop, (loop) => player.loop(loop));
-    if (player.solid >= 0) {
+    if (this.source.acts.loop) this.shown.loop = check(hint("loop"), this.source.clock.loop, () => this.source.acts.loop());
+    if (player.view) {
       const text = "quality of the picture";
-      const quality = select("quality", text, named(QUALITIES), (wish) => player.set({ quality: wish }), player.options.quality ?? "auto");
+      const quality = select("quality", text, named(QUALITIES), (wish) => player.set({ quality: wish }), player.quality);
       this.shown.quality = (wish) => (quality.value = wish);
       rows.push(el("span", {}, text), quality, el("span"));
     }
@@ -85,10 +86,10 @@ export class Settings {
         copied.textContent = "it stands in the address bar";
       }
     };
-    if (/^(https?|file):$/.test(location.protocol)) {
+    if (player.remember && /^(https?|file):$/.test(location.protocol)) {
       rows.push(el("span", {}, "link to this time"), el("button", { onclick: copy }, "copy"), copied);
     }
-    for (const note of player.notes) rows.push(el("p", {}, note));
+    for (const note of player.notes ?? []) rows.push(el("p", {}, note));
     this.panel.replaceChildren(...rows);
   }
 }

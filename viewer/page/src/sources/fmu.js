@@ -1,18 +1,29 @@
-// What a person does with the run: start, stop, go back, set values. Between the worker and everything that is seen.
-import { Desk } from "./desk.js";
-import { heldVariables, outputNames } from "./engine.js";
-import { Record } from "./record.js";
-import { clock } from "./worker.js";
+// FMUs that run in the tab, as a source of a page (see `Source` in shell/shell.js): between the worker and what is seen.
+import { Desk } from "../live/desk.js";
+import { heldVariables, outputNames } from "../live/engine.js";
+import { between, Record } from "../live/record.js";
+import { Blend, turnsOf } from "./blend.js";
+import { clock } from "../live/worker.js";
 
 /** The picture is this much behind the run, so that there is a row on either side of it, s. */
 const BEHIND = 0.03;
 
+/** What L makes of the speed. */
+const SLOW = 0.25;
+/** Points of a curve. */
+const MOST_POINTS = 1000;
+/** Seconds of a rewind, without and with Shift. */
+const REWINDS = [2, 10];
+
 /** A run as the page sees it. */
 export class Session {
+  grows = true;
+  speeds = [0.02, 0.1, 0.25, 0.5, 1, 2, 5];
+
   /**
    * @param {Data[]} fmus - `{description, wasm, resources, title}` with unpacked bytes.
-   * @param {Data} options - `step`, `start`, `script` (inputs over time), `worker`.
-   * @param {Data} hears - Functions: started, refused, message, error.
+   * @param {Data} options - `step`, `start`, `script` (inputs over time), `worker`, `places` (start values by name).
+   * @param {Data} hears - Functions: started, refused, message, error, moved (another instant is to be shown), ran.
    */
   constructor(fmus, options, hears) {
     const descriptions = fmus.map((f) => f.description);
@@ -29,6 +40,22 @@ export class Session {
     this.scrubbed = null; // time of the picture where it is not that of the run, s
     this._hears = hears;
     this._waiting = new Map();
+    const inputs = this.held.filter((v) => v.causality === "input").map((v) => v.name);
+    const named = [...inputs, ...new Set(descriptions.flatMap((d) => outputNames(d)))];
+    /** Names and units of what can be plotted. */
+    this.columns = new Map(named.map((name) => [name, this.variables.get(name)?.unit ?? ""]).map(([name, unit]) => [name, unit === "1" ? "" : unit]));
+    this.fmus = fmus;
+    this.acts = {
+      toggle: () => (this.running ? this.pause() : this.run()),
+      step: () => this.advance(),
+      rewind: (event) => this.rewind(event?.shiftKey ? REWINDS[1] : REWINDS[0]),
+      reset: () => this.again(),
+      speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)),
+      slow: () => this.acts.speed(this.speed < 1 ? 1 : SLOW),
+      seek: (time) => this.scrub(time),
+      stepSize: (step) => this.again(this.#fitting(step), step).catch(() => {}), // told by `error`
+      ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
+    };
     this._newRecord();
     this._desk = new Desk((message) => this._take(message), options);
     this.threaded = this._desk.threaded;
@@ -38,17 +65,22 @@ export class Session {
   }
 
   /** Time of the last row, s. */
-  get time() {
+  get end() {
     return this.record.time;
   }
 
+  /** @returns {[number, number]} */
+  get range() {
+    return [this.oldest, this.end];
+  }
+
   /** Time of the picture, s: a little behind the run, and evenly on by the clock. */
-  get shown() {
+  get time() {
     if (this.scrubbed !== null) return this.scrubbed;
-    if (!this.running) return this.time;
+    if (!this.running) return this.end;
     const rate = this.pace.factor === null ? this.speed : Math.min(this.speed, this.pace.factor);
     const wanted = this._k * this.step + rate * (clock() - this.pace.at - BEHIND);
-    this._last = Math.max(this._last, Math.min(this.time, wanted));
+    this._last = Math.max(this._last, Math.min(this.end, wanted));
     return this._last;
   }
 
@@ -57,8 +89,9 @@ export class Session {
     if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
     this.speed = speed;
     this.running = true;
-    this._last = Math.min(this.time, this._last);
+    this._last = Math.min(this.end, this._last);
     this._desk.send({ do: "run", speed });
+    this._hears.ran();
   }
 
   /** Let time stand. */
@@ -71,7 +104,34 @@ export class Session {
   async advance(count = 1) {
     if (this.scrubbed !== null) await this.back(Math.round(this.scrubbed / this.step));
     this.running = false;
-    return this._ask("paused", { do: "step", count });
+    await this._ask("paused", { do: "step", count });
+    this._hears.moved();
+  }
+
+  /** Begin again, and run on if it ran. */
+  async again(start = this.start, step = this.step) {
+    const { running } = this;
+    try {
+      await this.restart(start, step);
+    } finally {
+      if (running) await this.run();
+      this._hears.moved();
+    }
+  }
+
+  /** Go back, and run on if it ran. @param {number} seconds - Of the run. */
+  async rewind(seconds) {
+    const { running } = this;
+    await this.back(Math.max(0, Math.round((this.time - seconds) / this.step)));
+    if (running) await this.run();
+    this._hears.moved();
+  }
+
+  /** Start values with which an inner step is not longer than another communication step. */
+  #fitting(step) {
+    const inner = this.variables.get("step_size");
+    const { step_size: _, ...start } = this.start;
+    return inner && step < Number(inner.start) ? { ...start, step_size: Math.max(step, inner.min ?? 0) } : start;
   }
 
   /** Begin again, with other start values or another communication step where they are given. */
@@ -93,7 +153,7 @@ export class Session {
   /** Show an earlier instant. */
   scrub(time) {
     if (this.running) this.pause();
-    this.scrubbed = Math.max(this.oldest, Math.min(time, this.time));
+    this.scrubbed = Math.max(this.oldest, Math.min(time, this.end));
   }
 
   /** What a hand wants: `[name, value, rate]` each. */
@@ -112,9 +172,7 @@ export class Session {
       this.want([[name, Number(value)]]);
       return false;
     }
-    const running = this.running;
-    await this.restart({ ...this.start, [name]: value });
-    if (running) await this.run();
+    await this.again({ ...this.start, [name]: value });
     return true;
   }
 
@@ -137,6 +195,40 @@ export class Session {
     return record.csv(comments, [...inputs, ...tuned], outputs);
   }
 
+  /** Numbers of each FMU at a time; fixed parameters have the values of the start. @param {number} [time] - s. */
+  sample(time = this.time) {
+    return this._bound.map(({ blend, columns, fixed }) => {
+      const lookup = between(this.record, time, blend, columns);
+      return (name) => (columns.has(name) ? lookup(name) : fixed.get(name));
+    });
+  }
+
+  /** Which columns of the record are those of each FMU. */
+  _bind() {
+    this._bound = this.fmus.map(({ description: { variables }, scene }, k) => {
+      /** @type {[string, number][]} */
+      const found = variables.filter((v) => v.causality === "output").map((v) => [v.name, this.record.column(this.prefixes[k] + v.name)]);
+      const columns = new Map([...this.held.map((v, i) => /** @type {[string, number]} */ ([v.name, i])), ...found.filter(([, index]) => index >= 0)]);
+      const fixed = new Map(variables.filter((v) => !columns.has(v.name)).map((v) => [v.name, this.start[v.name] ?? v.start]));
+      return { blend: new Blend(turnsOf(scene)), columns, fixed };
+    });
+  }
+
+  /** Some columns of each FMU over the last seconds. @param {string[]} names @param {number} span - s. */
+  plotted(names, span) {
+    const { record } = this;
+    const rows = Number.isFinite(span) ? Math.round(span / this.step) : record.end;
+    const from = Math.max(record.first, record.end - rows);
+    const stride = Math.max(1, Math.ceil((record.end - from) / MOST_POINTS));
+    const series = (index) => record.series(index, from, stride);
+    return this.prefixes.map((prefix, k) => {
+      const at = (name) => record.column(prefix + name); // what is set is in no FMU, or in the first
+      const own = names.filter((name) => at(name) >= 0);
+      const columns = Object.fromEntries(own.map((name) => [name, { unit: this.columns.get(name), data: series(at(name))[1] }]));
+      return { name: this.fmus[k].title, t: series(0)[0], columns };
+    });
+  }
+
   /** End it. */
   close() {
     this._desk.close();
@@ -144,6 +236,7 @@ export class Session {
 
   _newRecord() {
     this.record = new Record(this.held.map((v) => v.name), this.outputs, this.step);
+    this._bind();
     this._moved = new Set(); // parameters that were changed in the run
     this._k = 0;
     this._last = 0;
@@ -193,9 +286,10 @@ export class Session {
   }
 
   _on_back({ k }) {
+    this._hears.back();
     this.record.cut(k);
     this._k = k;
-    this._last = this.time;
+    this._last = this.end;
     this._answer("back");
   }
 

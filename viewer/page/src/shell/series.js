@@ -1,5 +1,5 @@
 // What a diagram shows: the signals of one unit, of all runs on one axis of times, and their differences.
-import { linear, place } from "./sampler.js";
+import { linear, place } from "../sources/sampler.js";
 
 /**
  * A signal at the times of another run; nothing outside its own times.
@@ -21,28 +21,22 @@ export const values = (data) => Array.from(data, (value) => (Number.isFinite(val
 
 /**
  * Signals by unit, in the order of their names.
- * @param {string[]} names @param {Pick<import("./decode.js").Run, "columns">[]} runs
+ * @param {string[]} names @param {Map<string, string>} columns units by name
  * @returns {Map<string, string[]>}
  */
-export function byUnit(names, runs) {
+export function byUnit(names, columns) {
   const groups = new Map();
   for (const name of names) {
-    const unit = unitOf(name, runs);
-    if (unit === null) continue;
+    const unit = columns.get(name);
+    if (unit === undefined) continue;
     groups.set(unit, [...(groups.get(unit) ?? []), name]);
   }
   return groups;
 }
 
-/** Unit of a signal in the first run that has it; null where none has. */
-export function unitOf(name, runs) {
-  const run = runs.find(({ columns }) => name in columns);
-  return run === undefined ? null : run.columns[name].unit;
-}
-
 /**
  * Names of all signals: those that do not only place bodies come first.
- * @param {Pick<import("./decode.js").Run, "scene" | "columns">[]} runs
+ * @param {Pick<import("../sources/decode.js").Run, "scene" | "columns">[]} runs
  * @returns {string[]}
  */
 export function signalNames(runs) {

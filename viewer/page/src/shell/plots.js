@@ -1,18 +1,27 @@
-// The side of the page: a list of all signals to choose from, and a diagram for each unit of those chosen.
+// Beside the picture: a list of all signals to choose from, and a diagram for each unit of those chosen.
 import { Chart, palette } from "./chart.js";
-import { el } from "../common/dom.js";
-import { byUnit, found, signalNames, unitOf } from "./series.js";
+import { el, select } from "../common/dom.js";
+import { byUnit, found } from "./series.js";
 
 const LISTED = 300;
 const LOWEST = 130; // pixels of a diagram
+const EVERY = 120; // ms between two drawings of a run that goes on
+/** How much of a run that goes on is shown, s. @type {[number, string][]} */
+const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]]; // prettier-ignore
 
 /** Signals and diagrams. */
 export class Plots {
-  /** @param {HTMLElement} parent @param {Data} player @param {string[]} chosen names at the start */
-  constructor(parent, player, chosen) {
-    this.player = player;
-    this.runs = player.runs;
-    this.names = signalNames(this.runs);
+  span = SPANS[0][0];
+  drawnAt = -Infinity;
+
+  /**
+   * @param {HTMLElement} parent @param {import("./shell.js").Shell} shell of the page
+   * @param {import("./shell.js").Source} source @param {string[]} chosen names at the start
+   */
+  constructor(parent, shell, source, chosen) {
+    this.shell = shell;
+    this.source = source;
+    this.names = [...source.columns.keys()];
     this.chosen = chosen.filter((name) => this.names.includes(name));
     this.differences = new Set();
     this.colours = palette();
@@ -25,9 +34,13 @@ export class Plots {
       onfocus: () => this.#open(true),
     });
     this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this.#open(this.list.hidden) }, "list");
-    this.list = el("div.ali3-list");
-    this.area = el("div.ali3-plots");
-    parent.append(el("div.ali3-find", {}, this.search, this.opener), this.list, this.area);
+    this.list = el("div.a3-list", { hidden: true });
+    this.area = el("div.a3-plots");
+    const span = select("span", "how much time the diagrams show", SPANS, (value) => {
+      this.span = Number(value);
+      this.now(true);
+    });
+    parent.append(el("div.a3-find", {}, this.search, ...(source.grows ? [span] : []), this.opener), this.list, this.area);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.area);
     this.#open(this.chosen.length === 0);
@@ -41,7 +54,13 @@ export class Plots {
     this.#draw();
   }
 
-  now() {
+  /** Show the time, and what a run that goes on has been. @param {boolean} [all] at once */
+  now(all = !this.source.running) {
+    if (this.source.grows && (all || performance.now() - this.drawnAt > EVERY)) {
+      this.drawnAt = performance.now();
+      const runs = this.source.plotted(this.chosen, this.span);
+      for (const chart of this.charts) chart.refresh(runs);
+    }
     for (const chart of this.charts) chart.now();
   }
 
@@ -62,9 +81,10 @@ export class Plots {
   }
 
   #open(open) {
-    this.list.hidden = !open;
     this.opener.setAttribute("aria-pressed", String(open));
-    if (open) this.#list();
+    if (open !== this.list.hidden) return;
+    this.list.hidden = !open;
+    this.#list();
   }
 
   #list() {
@@ -74,18 +94,18 @@ export class Plots {
     const rows = names.slice(0, LISTED).map((name) => {
       const box = el("input", { type: "checkbox", onchange: () => this.#toggle(name) });
       box.checked = this.chosen.includes(name);
-      const unit = el("span.ali3-unit", {}, unitOf(name, this.runs));
-      return el("label", {}, box, el("span.ali3-signal", {}, name), unit);
+      const unit = el("span.a3-unit", {}, this.source.columns.get(name));
+      return el("label", {}, box, el("span.a3-signal", {}, name), unit);
     });
-    if (names.length > LISTED) rows.push(el("div.ali3-more", {}, `and ${names.length - LISTED} more; search for them`));
-    if (names.length === 0) rows.push(el("div.ali3-more", {}, "no signal has these words in its name"));
+    if (names.length > LISTED) rows.push(el("div.a3-more", {}, `and ${names.length - LISTED} more; search for them`));
+    if (names.length === 0) rows.push(el("div.a3-more", {}, "no signal has these words in its name"));
     this.list.replaceChildren(...rows);
   }
 
   #toggle(name) {
     this.chosen = this.chosen.includes(name) ? this.chosen.filter((other) => other !== name) : [...this.chosen, name];
     this.#draw();
-    this.player.changed();
+    this.shell.changed();
   }
 
   #draw() {
@@ -97,20 +117,21 @@ export class Plots {
       else this.differences.delete(unit);
       this.#draw();
     };
-    this.charts = [...byUnit(this.chosen, this.runs)].map(
+    const runs = this.source.plotted(this.chosen, this.span);
+    this.charts = [...byUnit(this.chosen, this.source.columns)].map(
       ([unit, names]) =>
         new Chart(this.area, {
           unit,
           names,
           zoomed,
           compare,
-          runs: this.runs,
+          runs,
           colours: this.colours,
-          player: this.player,
+          source: this.source,
           difference: this.differences.has(unit),
         }),
     );
-    if (this.charts.length === 0) this.area.append(el("div.ali3-empty", {}, "Choose signals from the list; a click in a diagram goes to that time."));
+    if (this.charts.length === 0) this.area.append(el("div.a3-empty", {}, "Choose signals from the list; a click in a diagram goes to that time."));
     this.resize();
   }
 }

@@ -1,0 +1,104 @@
+// The bar below the picture of every page; what a page cannot do has no button.
+import { button, el, icon, select, write } from "../common/dom.js";
+import { hint } from "../common/key_table.js";
+
+/** Buttons before and behind the slider: an act of the table of keys, and what stands on it where there is no icon. */
+const BEFORE = [["reset"], ["rewind"], ["before"], ["toggle"], ["step"], ["upright", "upright"]];
+const BEHIND = [["mute"], ["levers", "levers"], ["panels", "signals"], ["settings", "settings"], ["csv", "CSV"], ["help", "?"], ["full screen"]]; // prettier-ignore
+/** @type {Object<string, Parameters<typeof icon>[0]>} */
+const ICONS = { reset: "reset", rewind: "rewind", before: "back", toggle: "play", step: "forward", mute: "sound", "full screen": "full" };
+const WORDS = { csv: "save inputs and outputs of the run as a table" };
+
+/** The bar; it calls acts of the page by their names and shows what it is told. */
+export class Bar {
+  /**
+   * @param {Object<string, (value?: any, done?: boolean) => unknown>} acts of the table of keys; `speed`, `seek`, `camera`, `place`,
+   *   `stepSize` are called with a value, `seek` with true behind the time when the slider is let go
+   * @param {{cameras?: string[], places?: string[], steps?: (string | number)[][], step?: number, speeds?: number[], digits?: number}} has
+   */
+  constructor(acts, { cameras = [], places = [], steps = [], step, speeds = [], digits = 2 }) {
+    this.digits = digits;
+    this.list = speeds;
+    /** @type {Object<string, HTMLButtonElement>} */
+    this.buttons = {};
+    this.slide = el("input.a3-slide", { type: "range", min: 0, max: 1, step: "any", title: "time", data: "timeline" });
+    for (const end of ["pointerup", "pointercancel", "change"]) this.slide.addEventListener(end, () => (this.held = false));
+    this.slide.addEventListener("pointerdown", () => (this.held = true));
+    this.slide.addEventListener("input", () => {
+      write(this.clock, this.#seconds(Number(this.slide.value)));
+      acts.seek(Number(this.slide.value));
+    });
+    this.slide.addEventListener("change", () => acts.seek(Number(this.slide.value), true));
+    this.clock = el("span.a3-time", { data: "clock" });
+    this.rate = select("speed", `speed: ${hint("slow")}`, [], (value) => acts.speed(Number(value)));
+    this.cameras = select("camera", `camera: ${hint("next camera")}`, cameras.map((name) => [name, name]), (name) => acts.camera(name)); // prettier-ignore
+    const spots = places.map((name) => [name, name.replaceAll("_", " ")]);
+    const place = select("place", "begin at a place of the world", [["", "places \u2026"], ...spots], (name) => {
+      if (name) acts.place(name);
+      place.value = ""; // so that the same one can be chosen again
+    });
+    const size = select("step size", "communication step", steps, (value) => acts.stepSize(Number(value)), step);
+    const some = (list) => list.filter(([act]) => act in acts && (act !== "full screen" || document.fullscreenEnabled)).map(([act, words]) => this.#button(act, words, acts[act])); // prettier-ignore
+    const group = (...parts) => el("div.a3-group", {}, ...parts);
+    const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
+    this.element = el("div.a3-bar", { data: "bar" }, group(...some(BEFORE)), this.slide, this.clock, group(this.rate), group(...choices, ...some(BEHIND)));
+    this.speed(1);
+  }
+
+  #button(act, words, work) {
+    const title = WORDS[act] ?? hint(act);
+    const made = button(act, words ?? "", () => work({}), title);
+    made.setAttribute("aria-label", words ? `${words}: ${title}` : title);
+    if (!words) made.append(icon(ICONS[act]));
+    this.buttons[act] = made;
+    return made;
+  }
+
+  #seconds(time) {
+    return `${time.toFixed(this.digits)} s`;
+  }
+
+  /** @param {number} chosen speed, which may be another than those of the list */
+  speed(chosen) {
+    if (this.chosen === chosen) return;
+    this.chosen = chosen;
+    const all = [...new Set([...this.list, chosen])].sort((a, b) => a - b);
+    this.rate.replaceChildren(...all.map((speed) => el("option", { value: speed }, `${speed}\u00d7`)));
+    this.rate.value = String(chosen);
+  }
+
+  /** A camera was chosen. @param {string} name */
+  camera(name) {
+    this.cameras.value = name;
+  }
+
+  /** Sound is heard or not. @param {boolean} on */
+  sound(on) {
+    this.buttons.mute.replaceChildren(icon(on ? "sound" : "silent"));
+    this.buttons.mute.setAttribute("aria-pressed", String(on));
+  }
+
+  /**
+   * @param {{running: boolean, speed: number, time: number, range: [number, number], grows?: boolean}} source what is true now;
+   *   `grows`: a run that has no end yet
+   */
+  show({ running, speed, time, range: [begin, end], grows = false }) {
+    const moves = end > begin;
+    const { rewind, before, toggle, step } = this.buttons;
+    for (const control of [this.slide, rewind, ...(grows ? [] : [this.rate, before, toggle, step])]) control.disabled = !moves;
+    if (document.activeElement !== this.rate) this.speed(speed);
+    if (this.held) return;
+    if (document.activeElement !== this.slide || running) {
+      Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
+    }
+    write(this.clock, grows ? this.#seconds(time) : `${time.toFixed(this.digits)} / ${this.#seconds(end)}`);
+    if (this.shown === running) return;
+    this.shown = running;
+    this.buttons.toggle.replaceChildren(icon(running ? "pause" : "play"));
+  }
+}
+
+/** Digits of a time so that each recorded one differs from the next. @param {number} step s */
+export function digitsOf(step) {
+  return step > 0 ? Math.min(9, Math.max(2, Math.ceil(-Math.log10(step) - 1e-3))) : 3;
+}

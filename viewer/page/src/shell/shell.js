@@ -1,0 +1,177 @@
+// The shell of every page: pictures of a source of numbers, what stands beside them, the bar below, settings, keys.
+import { el } from "../common/dom.js";
+import { fullScreen } from "../common/full_screen.js";
+import { Help } from "../common/help.js";
+import { keys } from "../common/keys.js";
+import { cameraActs } from "../common/views.js";
+import { styled } from "../styles.js";
+import { Bar } from "./bar.js";
+import { Settings } from "./settings.js";
+import style from "./style.css";
+
+const WIDE = 1.15; // width over height from which signals stand beside the picture
+
+/** A lookup of the numbers of one instant. @typedef {(name: string) => number | undefined} Lookup */
+
+/**
+ * What a page shows: a recording, an FMU that runs in the tab, a car at the other end of a socket.
+ * @typedef {object} Source
+ * @property {[number, number]} range - Times that can be shown, s; `grows`: the run has no end yet.
+ * @property {boolean} [grows]
+ * @property {number} time - That is shown, s.
+ * @property {boolean} running
+ * @property {number} speed - Simulated seconds per second of the clock.
+ * @property {number[]} speeds - To choose from.
+ * @property {Map<string, string>} columns - Names and units of all numbers.
+ * @property {(t?: number) => Lookup[]} sample - Numbers of each run at a time; without one at the time that is shown.
+ * @property {(names: string[], span: number) => Data[]} plotted - Runs with times and columns of these names; of a run
+ *   that grows the last so many seconds.
+ * @property {(source: string, wants: [string, number, number?][]) => void} [want] - Inputs, values, largest changes per second.
+ * @property {Object<string, (value?: any) => unknown>} acts - What it can do, by the names of the table of keys; what
+ *   it cannot, no page offers.
+ */
+
+/** A page; what draws is made by those who extend it. */
+export class Shell {
+  listeners = new AbortController();
+  look = { arrows: false, arrowScale: 1, stress: false, deformation: 1, path: true, closed: true };
+  /** What `set` can change, by name. @type {Data} */
+  has = {};
+  /** Names of cameras. @type {string[]} */
+  cameras = [];
+  /** @type {Data[]} see-through runs */
+  ghosts = [];
+  dirty = true;
+  /** Signals over time, made when they are first shown. @type {import("./plots.js").Plots | undefined} */
+  plots;
+  dark = matchMedia("(prefers-color-scheme: dark)");
+
+  /** @param {HTMLElement} container an element with a size @param {{theme?: string, kind?: string}} [options] `kind`: a class of the page */
+  constructor(container, { theme = "auto", kind = "" } = {}) {
+    styled(style);
+    this.container = container;
+    this.viewBox = el("div.a3-views");
+    this.sideBox = el("aside.a3-side", { hidden: true, data: "panel", "aria-label": "signals" });
+    this.stageBox = el("div.a3-stage", {}, this.viewBox, this.sideBox);
+    this.foot = el("div.a3-foot");
+    this.root = el(`div.a3${kind}`, { tabIndex: -1 }, this.stageBox, this.foot);
+    container.replaceChildren(this.root);
+    this.observer = new ResizeObserver(() => this.shape());
+    this.observer.observe(this.root);
+    this.theme(theme);
+    this.shape();
+  }
+
+  /** Pictures of the page. @returns {import("../scene/scene_view.js").SceneView[]} */
+  get views() {
+    return [];
+  }
+
+  /** The first picture. */
+  get view() {
+    return this.views[0];
+  }
+
+  get sideOpen() {
+    return !this.sideBox.hidden;
+  }
+
+  /**
+   * Bar, settings and keys over a source.
+   * @param {Source} source
+   * @param {Object<string, (value?: any) => unknown>} more acts of this page
+   * @param {Data} [bar] what the bar has, as `Bar` takes it
+   * @param {(event: KeyboardEvent) => boolean} [drive] takes the keys that drive a car
+   */
+  controls(source, more, bar = {}, drive) {
+    const say = (sentence) => sentence && this.tell(sentence);
+    const switches = ["arrows", "stress", "closed", "path"].filter((what) => this.has[what]);
+    const camera = (name) => say(this.camera(name));
+    this.acts = {
+      ...source.acts,
+      camera,
+      ...cameraActs({ names: () => this.cameras, all: this.cameras, now: () => this.cameraName, choose: camera }),
+      ...Object.fromEntries(switches.map((what) => [what, () => this.set({ [what]: !this.look[what] })])),
+      panels: () => this.side(!this.sideOpen),
+      settings: () => this.settings.toggle(),
+      help: () => this.help.toggle(),
+      close: () => (this.settings.toggle(false), this.help.toggle(false)),
+      "full screen": () => fullScreen(this.root),
+      ...more,
+    };
+    if (source.grows) this.root.dataset.grows = "yes";
+    this.bar = new Bar(this.acts, { speeds: source.speeds, cameras: this.cameras, ...bar });
+    if (this.cameraName) this.bar.camera(this.cameraName);
+    this.foot.append(this.bar.element);
+    this.settings = new Settings(this.foot, this, source);
+    this.help = new Help(Object.keys(this.acts), drive !== undefined);
+    this.root.append(this.help.element);
+    keys({ acts: this.acts, first: drive, signal: this.listeners.signal });
+  }
+
+  /** A hand on a picture changes it. @param {HTMLElement} box */
+  watch(box) {
+    for (const event of ["pointerdown", "pointermove", "wheel", "touchmove", "pointerup"]) {
+      box.addEventListener(event, () => (this.dirty = true), { passive: true, signal: this.listeners.signal });
+    }
+  }
+
+  /** @param {string} name @returns {string} a sentence if there is no such camera, else empty */
+  camera(name) {
+    if (!this.cameras.includes(name)) return `There is no camera '${name}'; there are ${this.cameras.join(", ") || "none"}.`;
+    for (const view of this.views) if (view.cameraNames.includes(name)) view.camera(name);
+    this.cameraName = name;
+    this.bar?.camera(name);
+    this.dirty = true;
+    this.changed();
+    return "";
+  }
+
+  /** Change what pictures show. @param {Data} look as `SceneView.set` has it, with `path` */
+  set(look) {
+    if (look.stress && this.look.closed && look.closed === undefined && this.has.closed) look.closed = false; // what has the colours is within
+    Object.assign(this.look, look);
+    for (const view of this.views) view.set(look);
+    this.settings?.refresh(look);
+    this.dirty = true;
+  }
+
+  /** Show or hide what stands beside the picture. @param {boolean} open */
+  side(open) {
+    this.sideBox.hidden = !open;
+    this.bar?.buttons.panels.setAttribute("aria-pressed", String(open));
+    this.shape();
+    this.plots?.resize();
+  }
+
+  /** Colours of the page. @param {string} name auto, light or dark */
+  theme(name) {
+    this.themeName = name;
+    this.dark.onchange = () => this.theme(this.themeName);
+    this.root.dataset.theme = name === "auto" ? (this.dark.matches ? "dark" : "light") : name;
+    this.plots?.redraw();
+  }
+
+  /** Beside or below each other, by the form of the window. */
+  shape() {
+    const { clientWidth, clientHeight } = this.root;
+    this.root.dataset.shape = clientWidth > WIDE * clientHeight ? "wide" : "tall";
+    this.dirty = true;
+  }
+
+  /** Say a sentence over the picture. @param {string} sentence */
+  tell(sentence) {
+    this.view?.notes.tell(sentence);
+  }
+
+  /** What the address of the page may tell has changed. */
+  changed() {}
+
+  dispose() {
+    this.listeners.abort();
+    this.observer.disconnect();
+    this.plots?.dispose();
+    this.dark.onchange = null;
+    this.root.remove();
+  }
+}

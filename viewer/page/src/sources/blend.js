@@ -1,0 +1,86 @@
+// Numbers between two instants: straight, but angles the short way round and quaternions along the shorter arc.
+
+/** What turns: columns that are angles, and those of quaternions by four. @typedef {{angles: Set<string>, quaternions: string[][]}} Turns */
+
+/**
+ * Columns of a scene that turn.
+ * @param {Data | null | undefined} scene
+ * @returns {Turns}
+ */
+export function turnsOf(scene) {
+  const frames = Object.values(scene?.frames ?? {});
+  const quaternions = frames.map((frame) => frame.quaternion).filter(Boolean);
+  const angles = new Set(frames.map((frame) => frame.angle).filter((angle) => typeof angle === "string"));
+  return { angles, quaternions };
+}
+
+/**
+ * The change of an angle from one row to the next. An angle between -pi and pi may jump from one end to the other; one
+ * that counts turns goes on.
+ */
+function turned(a, b) {
+  const change = b - a;
+  const wrapped = Math.abs(change) > Math.PI && Math.max(Math.abs(a), Math.abs(b)) < Math.PI + 1e-6;
+  return wrapped ? change - 2 * Math.PI * Math.sign(change) : change;
+}
+
+/**
+ * Between two orientations along the shorter arc; q and -q are the same one.
+ * @param {number[]} a @param {number[]} b quaternions, of any length but zero
+ * @param {number} share
+ * @returns {number[]} unit quaternion
+ */
+export function slerp(a, b, share) {
+  const p = normal(a);
+  let q = normal(b);
+  let cosine = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+  if (cosine < 0) {
+    q = q.map((x) => -x);
+    cosine = -cosine;
+  }
+  const angle = Math.acos(Math.min(1, cosine));
+  if (angle < 1e-6) return normal(p.map((x, i) => x + share * (q[i] - x)));
+  const [first, second] = [Math.sin((1 - share) * angle), Math.sin(share * angle)];
+  return normal(p.map((x, i) => first * x + second * q[i]));
+}
+
+function normal(q) {
+  const size = Math.hypot(...q);
+  return q.map((x) => x / size);
+}
+
+/** Numbers between instants of the same columns. */
+export class Blend {
+  /** Names of the four parts of a quaternion and which one, by the name of the part. @type {Map<string, [string[], number]>} */
+  #parts = new Map();
+  #angles;
+  #whole;
+
+  /** @param {Partial<Turns>} [turns] @param {Set<string>} [whole] names of whole numbers: those of the nearer instant count */
+  constructor({ angles = new Set(), quaternions = [] } = {}, whole = new Set()) {
+    this.#angles = angles;
+    this.#whole = whole;
+    for (const names of quaternions) names.forEach((name, part) => this.#parts.set(name, [names, part]));
+  }
+
+  /**
+   * @param {(name: string) => number | undefined} a numbers before @param {(name: string) => number | undefined} b after
+   * @param {number} s from 0 to 1
+   * @returns {(name: string) => number | undefined}
+   */
+  lookup(a, b, s) {
+    if (s === 0 || s === 1) return s === 0 ? a : b;
+    const turns = new Map();
+    return (name) => {
+      const [from, to] = [a(name), b(name)];
+      if (from === undefined || to === undefined) return undefined;
+      if (this.#whole.has(name)) return s < 0.5 ? from : to;
+      if (this.#angles.has(name)) return from + s * turned(from, to);
+      const four = this.#parts.get(name);
+      if (four === undefined) return from + s * (to - from);
+      const [names, part] = four;
+      if (!turns.has(names)) turns.set(names, slerp(names.map(a), names.map(b), s));
+      return turns.get(names)[part];
+    };
+  }
+}

@@ -1,0 +1,106 @@
+// Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
+import { signalNames } from "../shell/series.js";
+import { Clock, SPEEDS } from "./clock.js";
+import { Sampler } from "./sampler.js";
+
+/** What L makes of the speed. */
+const SLOW = 0.25;
+/** Recorded times of a step, and seconds of a rewind, without and with Shift. */
+const STEPS = [1, 10];
+const REWINDS = [2, 10];
+
+/** Recordings that are shown at one time. */
+export class Recordings {
+  speeds = SPEEDS;
+  /** Told when another instant (true) or pace is to be shown. @type {(moved: boolean) => Promise<void>} */
+  changed = () => Promise.resolve();
+
+  /** @param {import("./decode.js").Run[]} runs @param {{speed?: number, loop?: boolean, time?: number}} options */
+  constructor(runs, { speed = 1, loop = true, time }) {
+    this.runs = runs;
+    this.samplers = runs.map((run) => new Sampler(run));
+    const [begin, end] = [Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1]))];
+    this.clock = new Clock(begin, end, { speed, loop });
+    this.clock.seek(time ?? begin);
+    this.columns = this.#columns();
+    const far = (/** @type {any} */ event, /** @type {number[]} */ [near, further]) => (event?.shiftKey ? further : near);
+    const toggle = () => this.#pace(() => (this.running ? this.clock.pause() : this.clock.play()));
+    const seek = (t) => this.#seek(t);
+    this.acts = {
+      toggle,
+      play: toggle,
+      seek,
+      step: (event) => seek(this.#beside(far(event, [STEPS[0], STEPS[0]]))),
+      before: (event) => seek(this.#beside(-far(event, STEPS))),
+      after: (event) => seek(this.#beside(far(event, STEPS))),
+      speed: (wish) => this.#pace(() => (this.clock.speed = Math.min(10, Math.max(0.05, wish)))),
+      faster: () => this.acts.speed(this.#next(1)),
+      slower: () => this.acts.speed(this.#next(-1)),
+      slow: () => this.acts.speed(this.speed < 1 ? 1 : SLOW),
+      rewind: (event) => seek(this.time - far(event, REWINDS)),
+      reset: () => seek(begin),
+      end: () => seek(end),
+      loop: () => this.#pace(() => (this.clock.loop = !this.clock.loop)),
+    };
+  }
+
+  get time() {
+    return this.clock.time;
+  }
+
+  /** @returns {[number, number]} */
+  get range() {
+    return [this.clock.begin, this.clock.end];
+  }
+
+  get running() {
+    return this.clock.playing;
+  }
+
+  get speed() {
+    return this.clock.speed;
+  }
+
+  #columns() {
+    const unit = (name) => this.runs.find(({ columns }) => name in columns).columns[name].unit;
+    return new Map(signalNames(this.runs).map((name) => [name, unit(name)]));
+  }
+
+  /** Runs as diagrams show them. */
+  plotted() {
+    return this.runs;
+  }
+
+  /** Numbers of each run. @param {number} [t] s @returns {import("../shell/shell.js").Lookup[]} */
+  sample(t = this.time) {
+    return this.samplers.map((sampler) => {
+      sampler.at(t);
+      return sampler.lookup;
+    });
+  }
+
+  /** A recorded time of the first run, so many from the one that is shown; the run then stands. @param {number} steps */
+  #beside(steps) {
+    this.clock.pause();
+    const { t } = this.runs[0];
+    const [k, share] = this.samplers[0].place;
+    const from = steps < 0 && share > 0 ? k + 1 : k;
+    return t[Math.min(t.length - 1, Math.max(0, from + steps))];
+  }
+
+  #seek(t) {
+    this.clock.seek(t);
+    return this.changed(true);
+  }
+
+  #pace(change) {
+    change();
+    this.changed(false);
+  }
+
+  #next(way) {
+    const k = SPEEDS.findIndex((speed) => speed >= this.speed - 1e-9);
+    const at = k < 0 ? SPEEDS.length - 1 : k;
+    return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + way))];
+  }
+}

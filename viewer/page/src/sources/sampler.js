@@ -1,0 +1,53 @@
+// Numbers of a recorded run at any time.
+import { Blend, turnsOf } from "./blend.js";
+
+/**
+ * Index of the last time that is not after t, and how far t is on the way to the next.
+ * @param {ArrayLike<number>} times not decreasing
+ * @param {number} t outside the times: their ends
+ * @returns {[number, number]}
+ */
+export function place(times, t) {
+  const last = times.length - 1;
+  if (!(t > times[0])) return [0, 0];
+  if (t >= times[last]) return [last, 0];
+  let low = 0;
+  let high = last;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle;
+    else high = middle;
+  }
+  return [low, (t - times[low]) / (times[high] - times[low])];
+}
+
+/** @param {ArrayLike<number>} data @param {number} k @param {number} share of the way to sample k + 1 */
+export function linear(data, k, share) {
+  return share === 0 ? data[k] : data[k] + share * (data[k + 1] - data[k]);
+}
+
+/** A run at an instant; `lookup` gives the numbers that the view asks for. */
+export class Sampler {
+  #blend;
+  /** @type {(name: string) => number | undefined} */
+  #now;
+
+  /** @param {{scene: Data | null, t: ArrayLike<number>, epoch: ArrayLike<number>, columns: import("./decode.js").Run["columns"]}} run */
+  constructor(run) {
+    this.run = run;
+    this.#blend = new Blend(turnsOf(run.scene));
+    this.lookup = (name) => this.#now(name);
+    this.at(run.t[0]);
+  }
+
+  /** @param {number} t s */
+  at(t) {
+    const { t: times, epoch, columns } = this.run;
+    /** Sample before the instant, and the share of the way to the next. @type {[number, number]} */
+    this.place = place(times, t);
+    const [k, share] = this.place;
+    if (share > 0 && epoch && epoch[k] !== epoch[k + 1]) this.place[1] = 0; // nothing moves from one epoch to the next
+    const row = (i) => (name) => columns[name]?.data[i];
+    this.#now = this.#blend.lookup(row(k), row(k + 1), this.place[1]);
+  }
+}

@@ -1,0 +1,113 @@
+// A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames come by a socket.
+import { Wants } from "../simulator/wants.js";
+import { Blend, turnsOf } from "./blend.js";
+import { Frames } from "./frames.js";
+
+/** What L makes of the speed. */
+const SLOW = 0.25;
+/** Seconds of a rewind, without and with Shift. */
+const REWINDS = [2, 10];
+/** Numbers of the frames that diagrams have, in all, and points of a curve. */
+const [KEPT, MOST_POINTS] = [1e7, 1000];
+
+/** The car at the other end of a link. */
+export class Socket {
+  grows = true;
+  speeds = [0.1, 0.25, 0.5, 1];
+  frames = new Frames();
+  /** Frames since the last start, for diagrams: time and values. @type {{time: number, values: ArrayLike<number>}[]} */
+  #past = [];
+  #blend;
+  #fixed;
+  #shown = null;
+
+  /** @param {Data} hello - First message of the program. @param {import("../simulator/link.js").Link} link */
+  constructor({ scene, columns, description, constants = {}, world = {} }, link) {
+    const variables = description?.variables ?? [];
+    this.index = new Map(columns.map((name, k) => [name, k]));
+    const units = new Map(variables.map(({ name, unit }) => [name, unit]));
+    /** Names and units of what can be plotted. */
+    this.columns = new Map(columns.map((name) => [name, units.get(name) ?? ""]).map(([name, unit]) => [name, unit === "1" ? "" : unit]));
+    const { quaternions, angles } = turnsOf(scene);
+    const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
+    this.#blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
+    this.#fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
+    this.wants = new Wants(link);
+    const command = (name, value) => link.command(name, value);
+    const back = (seconds) => command("rewind", seconds);
+    this.acts = {
+      toggle: () => command(this.running ? "pause" : "run"),
+      step: () => command("step", 1),
+      speed: (wish) => command("speed", wish),
+      slow: () => command("speed", this.speed < 1 ? 1 : SLOW),
+      rewind: (event) => back(event?.shiftKey ? REWINDS[1] : REWINDS[0]),
+      seek: (time, done) => done && back(this.range[1] - time), // the program goes back once it is told how far
+      upright: () => command("upright"),
+      reset: () => command("reset"),
+      ...((world.places ?? []).length ? { place: (name) => link.send({ type: "place", name }) } : {}),
+    };
+  }
+
+  get running() {
+    return this.frames.newest?.running ?? false;
+  }
+
+  get speed() {
+    return this.frames.newest?.speed ?? 1;
+  }
+
+  /** Time of the picture, s. */
+  get time() {
+    return this.#shown?.time ?? 0;
+  }
+
+  /** What the program can go back to. @returns {[number, number]} */
+  get range() {
+    const { time = 0, saved = 0 } = this.frames.newest ?? {};
+    return [time - saved, time];
+  }
+
+  /** A frame has come. @param {any} frame As `readFrame` has it. @param {number} now - Clock of the page, s. @returns {boolean} Whether it begins an epoch. */
+  add(frame, now) {
+    const restarted = this.frames.add(frame, now);
+    while (this.#past.length && this.#past.at(-1).time >= frame.time) this.#past.pop();
+    this.#past.push(frame);
+    if (this.#past.length * this.index.size > KEPT) this.#past.splice(0, this.#past.length >> 2);
+    return restarted;
+  }
+
+  /** Where the picture stands; null before the first frame. @param {number} now - Clock of the page, s. */
+  at(now) {
+    this.#shown = this.frames.at(now);
+    return this.#shown;
+  }
+
+  /** Numbers of the car where the picture stands. @returns {import("../shell/shell.js").Lookup[]} */
+  sample() {
+    const { before, after, share } = this.#shown;
+    const numbers = (/** @type {Data} */ { values }) => (name) => values[this.index.get(name)];
+    const row = this.#blend.lookup(numbers(before), numbers(after), share);
+    return [(name) => (this.index.has(name) ? row(name) : Number(this.#fixed.get(name) ?? NaN))];
+  }
+
+  /** A constant or a parameter at the start. @param {string} name */
+  fixed(name) {
+    return this.#fixed.get(name);
+  }
+
+  /** @param {string} source @param {[string, number, number?][]} wants */
+  want(source, wants) {
+    this.wants.want(source, wants);
+  }
+
+  /** Some columns over the last seconds. @param {string[]} names @param {number} span - s. */
+  plotted(names, span) {
+    const first = (this.#past.at(-1)?.time ?? 0) - span;
+    const recent = this.#past.filter(({ time }) => time >= first);
+    const stride = Math.max(1, Math.ceil(recent.length / MOST_POINTS));
+    const thinned = recent.filter((_, k) => k % stride === 0);
+    const column = (name) => thinned.map(({ values }) => values[this.index.get(name)]);
+    const columns = Object.fromEntries(names.map((name) => [name, { unit: this.columns.get(name), data: column(name) }]));
+    return [{ name: "", t: thinned.map(({ time }) => time), columns }];
+  }
+}
