@@ -50,6 +50,7 @@ LIBRARY: Mapping[str, Callable[..., Any]] = {
     "abs": np.abs,
     "all": np.all,
     "any": np.any,
+    "argmax": np.argmax,
     "bool": bool,
     "cos": math.cos,
     "degrees": np.degrees,

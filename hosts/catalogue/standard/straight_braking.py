@@ -12,6 +12,7 @@ from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import RunUp, early_end, held
 from hosts.catalogue.sheet import Sheet
 from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
@@ -46,8 +47,10 @@ def drive(sheet: Sheet) -> None:
     sheet.progress(1.0)
 
 
-def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, tuple[str, ...]]:
-    """Drive straight, brake to rest.
+def stop(
+    car: TestedCar, settings: Mapping[str, float], start: Mapping[str, Value] | None = None
+) -> tuple[Result, float, tuple[str, ...]]:
+    """Drive straight, brake to rest. `start`: of the car, beside its speed.
 
     Returns
     -------
@@ -74,7 +77,7 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
         started = not math.isnan(pilot.onset)
         return (ends(outputs) and (started or ends.reason != "stands")) or (not started and time > run_up.longest)
 
-    result = car.drive(held(car, "straight_braking", stop_time, {}, run_up.start), pilot, over)
+    result = car.drive(held(car, "straight_braking", stop_time, {}, {**run_up.start, **(start or {})}), pilot, over)
     last, notes = result.time[-1], early_end("straight braking", result)
     if math.isnan(pilot.onset):
         notes += (
