@@ -170,10 +170,10 @@ def _true(scope: Scope, expression: str) -> bool:
         return False
 
 
-def _number(scope: Scope, expression: str) -> tuple[float, str]:
-    """A number, and why there is none."""
+def _number(scope: Scope, expression: str, side: str = "") -> tuple[float, str]:
+    """A number, of the scope of that name within another, and why there is none."""
     try:
-        return float(scope.evaluate(expression)), ""
+        return float((scope[side] if side else scope).evaluate(expression)), ""
     except HostError as error:
         return math.nan, str(error)
 
@@ -183,11 +183,13 @@ def _measure(name: str, line: _MeasureLine, scope: Scope) -> Measure:
     unit = scope.words(line.unit if scope["is_angle"] or not line.unit_of_input else line.unit_of_input)
     text = scope.words(line.text)
     if line.sides:
-        (left, lost), (right, _) = (_number(scope[side], line.value) for side in ("left", "right"))
+        (left, lost), (right, _) = (_number(scope, line.value, side) for side in ("left", "right"))
         if line.sides == "difference":
-            return asymmetry(name, left, right, text, why)
+            return asymmetry(name, left, right, text, lost or why)
         missing = lost or why or scope.words(line.missing)
-        return mean_of_sides(name, left, right, unit, text, missing, exists and bool(scope.evaluate(line.exists)))
+        return mean_of_sides(
+            name, left, right, unit, text, missing, exists and (bool(lost) or bool(scope.evaluate(line.exists)))
+        )
     value, lost = _number(scope, line.value)
     limit = None if line.limit is None else _limit(line.limit, scope)
     if math.isfinite(value):

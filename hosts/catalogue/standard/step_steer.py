@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,11 +10,13 @@ import numpy as np
 from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steady_map import SteadyMap, driven_ramp
-from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
+from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import SteeringInput
+from hosts.common.errors import HostError
 from hosts.measures.step_response import step_of_steering
 
 _BEFORE, _CLOSE, _MOST_RUNS = (-0.8, 0.0), 0.02, 4
+_SIGNALS = ("yaw_rate", "acceleration", "roll", "sideslip")
 
 
 def drive(sheet: Sheet) -> None:
@@ -23,52 +24,45 @@ def drive(sheet: Sheet) -> None:
     levels = {n: x for n in ("level_1", "level_2", "level_3") if (x := sheet.settings[n]) > 0.0}
     ramp = driven_ramp(sheet, max(levels.values()))
     sheet.add("speed", speed=ramp.speed)
-    given, driven = SteeringInput.of(sheet.car.facts), []
+    driven = []
     for k, (level, wanted) in enumerate(levels.items()):
-        names: dict[str, Any] = {"level": level, "wanted": wanted, "is_angle": given.is_angle}
         if math.isnan(ramp.angle_at(wanted)):
-            why = (
-                f"At {3.6 * ramp.speed:g} km/h the car reaches {ramp.largest:.3g} m/s² in a slow ramp of the "
-                f"steering, not {wanted:g} m/s²: {level} is left out."
+            reached = (
+                f"{ramp.largest:.3g} m/s² in a slow ramp of the steering, not {wanted:g} m/s²: {level} is left out."
             )
-            sheet.notes.append(why)
-            nothing = _responses(ramp.run, (math.inf, math.inf))
-            sheet.add("level", why_none=why, left=nothing, right=nothing, **names)
-            continue
-        begin, share = 0.2 + 0.8 * k / len(levels), 0.8 / len(levels)
-        sides = _both_sides(sheet, ramp, wanted, lambda done, b=begin, s=share: sheet.progress(b + s * done))  # type: ignore[misc]
-        sheet.runs |= {f"{level}_{side}": found["run"].thinned() for side, found in sides.items()}
-        sheet.add("level", **sides, **names)
-        sheet.add("steadiness", **sides, **names)
-        driven.append({"wanted": wanted, "run": sides["left"]["run"]})
+            sheet.notes.append(f"At {3.6 * ramp.speed:g} km/h the car reaches {reached}")
+            sides: dict[str, Any] = dict.fromkeys(("left", "right"), HostError(sheet.notes[-1]))
+        else:
+            sides = _both_sides(sheet, ramp, wanted, 0.2 + 0.8 * k / len(levels), 0.8 / len(levels))
+            sheet.runs |= {f"{level}_{side}": found["run"].thinned() for side, found in sides.items()}
+            driven.append({"wanted": wanted, "run": sides["left"]["run"]})
+        is_angle = SteeringInput.of(sheet.car.facts).is_angle
+        sheet.add("level", level=level, wanted=wanted, is_angle=is_angle, **sides)
     sheet.add("pictures", driven=driven)
 
 
 TEST = load_test("step_steer", drive)
 
 
-def _responses(run: SteeredRun, steady: tuple[float, float]) -> dict[str, Any]:
-    signals = {name: getattr(run, name) for name in ("yaw_rate", "acceleration", "roll", "sideslip")}
-    return {"run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE, steady)}
+def _both_sides(sheet: Sheet, ramp: SteadyMap, wanted: float, begin: float, share: float) -> dict[str, dict[str, Any]]:
+    """Runs to both sides with the amplitude that has the wanted steady acceleration to the left.
 
-
-def _both_sides(
-    sheet: Sheet, ramp: SteadyMap, wanted: float, progress: Callable[[float], None]
-) -> dict[str, dict[str, Any]]:
-    """Runs to both sides with the amplitude that has the wanted steady acceleration to the left."""
-    given, settings = SteeringInput.of(sheet.car.facts), sheet.settings
-    steady = (settings["steady_from"], settings["steady_to"])
+    `begin`, `share`: what is done before, and these runs, of the whole test.
+    """
+    given, steady = SteeringInput.of(sheet.car.facts), (sheet.settings["steady_from"], sheet.settings["steady_to"])
 
     def step(angle: float) -> dict[str, Any]:
-        rise = max(abs(angle) / math.radians(settings["steering_rate"]), 1e-3) if given.is_angle else 0.1
-        name = f"{wanted:g} m/s2 {'left' if angle > 0.0 else 'right'}"
+        rise = max(abs(angle) / math.radians(sheet.settings["steering_rate"]), 1e-3) if given.is_angle else 0.1
         time, table = np.array([0.0, rise, rise + steady[1] + 0.1]), np.array([0.0, angle, angle])
-        return _responses(steer(sheet.car, name, ramp.speed, time, table, Pedals.FIXED), steady)
+        name = f"{wanted:g} m/s2 {'left' if angle > 0.0 else 'right'}"
+        run = steer(sheet.car, name, ramp.speed, time, table, Pedals.FIXED)
+        signals = {name: getattr(run, name) for name in _SIGNALS}
+        return {"run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE, steady)}
 
     angle, before = ramp.angle_at(wanted), (0.0, 0.0)
     for n in range(_MOST_RUNS):
         left = step(angle)
-        progress((n + 1) / (_MOST_RUNS + 1))
+        sheet.progress(begin + share * (n + 1) / (_MOST_RUNS + 1))
         got = left["acceleration"].steady
         slope = (got - before[1]) / (angle - before[0])
         if not got > 0.0 or abs(got - wanted) <= _CLOSE * wanted or not slope > 0.0 or n == _MOST_RUNS - 1:
@@ -76,5 +70,5 @@ def _both_sides(
         # at most half as much again: near the limit the slope says little
         before, angle = (angle, got), min(angle + min((wanted - got) / slope, 0.5 * angle), given.largest)
     right = step(-angle)
-    progress(1.0)
+    sheet.progress(begin + share)
     return {"left": left, "right": right}
