@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import model_validator
 
 from ali3.reading import read_toml
-from hosts.catalogue.record import MeasureText, Perform, Setting, Standard, StandardTest, WhyNot, always
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.record import Setting, Standard, StandardTest, TestRecord
+from hosts.catalogue.sheet import Sheet, TestTables
 from hosts.common.errors import HostError
 
 _FOLDER = Path(__file__).parent / "standard"
 
 
-class _TestFile(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class TestFile(TestTables):
+    """The file of a test."""
 
     title: str
     needs: tuple[str, ...]
     standards: tuple[Standard, ...] = ()
     settings: tuple[Setting, ...] = ()
-    measures: dict[str, MeasureText] = {}
 
     @model_validator(mode="before")
     @classmethod
@@ -30,11 +32,18 @@ class _TestFile(BaseModel):
         return {**content, "settings": settings}
 
 
-def load_test(name: str, perform: Perform, why_not: WhyNot = always) -> StandardTest:
-    """The test with title, standards, settings and needs of ``standard/NAME.toml``, and what it does.
+def file_of_test(name: str) -> TestFile:
+    """The file ``standard/NAME.toml``."""
+    return TestFile.model_validate(read_toml(_FOLDER / f"{name}.toml", HostError))
 
-    `perform`, `why_not`: see `StandardTest`.
-    """
-    about = _TestFile.model_validate(read_toml(_FOLDER / f"{name}.toml", HostError))
-    parts = about.standards, about.settings, about.needs, about.measures
-    return StandardTest(name, about.title, perform, *parts, why_not)
+
+def load_test(name: str, drive: Callable[[Sheet], None]) -> StandardTest:
+    """The test that ``standard/NAME.toml`` describes, and whose runs `drive` makes and adds to a sheet."""
+    about = file_of_test(name)
+
+    def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
+        sheet = Sheet(about, car, settings, progress)
+        drive(sheet)
+        return sheet.record()
+
+    return StandardTest(name, about.title, perform, about.standards, about.settings, about.needs, about.why_not)

@@ -52,14 +52,6 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class MeasureText:
-    """What a measure of a test is."""
-
-    unit: str
-    text: str
-
-
-@dataclass(frozen=True)
 class Line:
     """Points that are joined in a plot; of length n both, NaN where there is none."""
 
@@ -123,7 +115,5 @@ class StandardTest:
     settings: tuple[Setting, ...] = ()
     needs: tuple[str, ...] = ()
     """Variables by our names without which the test cannot be done."""
-    measures: Mapping[str, MeasureText] = field(default_factory=dict)
-    """Of those that its file describes, by their names."""
     why_not: WhyNot = always
     """``why_not(car, settings)`` gives a sentence where the settings do not fit each other or the car, else None."""

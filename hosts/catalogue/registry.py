@@ -17,6 +17,7 @@ _ALL = (
     "sine_with_dwell",
     "double_lane_change",
     "straight_braking",
+    "split_braking",
     "braking_in_a_turn",
     "kerb",
     "drop",

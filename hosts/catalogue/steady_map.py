@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.plausible import implausible
+from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
@@ -120,6 +121,15 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
     if wrong is not None:
         raise HostError(wrong)
     return found
+
+
+def driven_ramp(sheet: Sheet, acceleration: float) -> SteadyMap:
+    """`map_at_reachable_speed` of the setting `speed` or of 80 km/h, with its run and its notes on the sheet."""
+    speed = sheet.settings["speed"] / 3.6
+    ramp = map_at_reachable_speed(sheet.car, speed, min(speed, 80.0 / 3.6), acceleration)
+    sheet.runs["ramp_left"] = ramp.run.thinned()
+    sheet.notes += [*ramp.notes, *filter(None, [SteeringInput.of(sheet.car.facts).note])]
+    return ramp
 
 
 def why_not_reached(result: Result, speed: float) -> str:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import is_round_off
 from hosts.measures.measure import Measure
 
 _SAME = 0.05
+NOT_SHOWN = "The runs do not show it."
 
 
 def mean_of_sides(
@@ -28,7 +28,7 @@ def mean_of_sides(
     """
     known = [x for x in (left, right) if math.isfinite(x)]
     if not known:
-        return Measure(name, math.nan, unit, text, None, why or "The runs do not show it.", exists)
+        return Measure(name, math.nan, unit, text, None, why or NOT_SHOWN, exists)
     mean = sum(known) / len(known)
     note = ""
     if len(known) == 1:
@@ -39,12 +39,10 @@ def mean_of_sides(
     return Measure(name, mean, unit, text, None, note)
 
 
-def asymmetry(name: str, pairs: Sequence[tuple[float, float]], text: str) -> Measure:
-    """Largest difference of left and right over their mean."""
-    known = [
-        0.0 if is_round_off(a - b, a) else abs(a - b) / (0.5 * abs(a + b))
-        for a, b in pairs
-        if math.isfinite(a + b) and a + b != 0.0
-    ]
-    note = "" if known else "There are no runs to both sides."
-    return Measure(name, max(known, default=math.nan), "1", text, None, note)
+def asymmetry(name: str, left: float, right: float, text: str, why: str = "") -> Measure:
+    """Difference of left and right over their mean; `why`: note where one is missing."""
+    value = math.nan
+    if math.isfinite(left + right) and left + right != 0.0:
+        value = 0.0 if is_round_off(left - right, left) else abs(left - right) / (0.5 * abs(left + right))
+    note = "" if math.isfinite(value) else why or "There are no runs to both sides."
+    return Measure(name, value, "1", text, None, note)

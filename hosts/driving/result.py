@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.angles import continuous
+from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 
 
@@ -74,6 +75,8 @@ class Result:
         return name in self.names
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
+        if name not in self.names:
+            raise HostError(f"The car does not tell {name}.")
         return np.asarray(self.values[:, self.names.index(name)])
 
     def continuous(self, name: str) -> NDArray[np.float64]:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,3 +97,28 @@ def step_response(
         overshoot=peak - 1.0 if over else 0.0,
         unsteadiness=deviation / abs(final),
     )
+
+
+def step_of_steering(
+    time: NDArray[np.float64],
+    steering: NDArray[np.float64],
+    signals: Mapping[str, NDArray[np.float64]],
+    before: tuple[float, float],
+    steady: tuple[float, float],
+) -> dict[str, Any]:
+    """The step of the steering, `angle`, rad, and `rise` from 10 to 90 %, s, and the response of each signal.
+
+    See `reference_time` for the arguments. Numbers are NaN where the record ends before the steady state.
+    """
+    angle = rise = reference = math.nan
+    if len(time) and time[-1] >= steady[1] - 1e-6:
+        first = mean_between(time, steering, *before)[0]
+        angle = mean_between(time, steering, *steady)[0] - first
+        reference = reference_time(time, steering, before, steady)
+    if angle == 0.0 or not math.isfinite(reference):
+        angle = math.nan
+    else:
+        part = (steering - first) / angle
+        rise = float(time[np.argmax(part >= 0.9)] - time[np.argmax(part >= 0.1)])
+    responses = {name: step_response(time, x, reference, before, steady) for name, x in signals.items()}
+    return {"angle": angle, "rise": rise, **responses}

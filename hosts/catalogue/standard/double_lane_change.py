@@ -11,9 +11,9 @@ import numpy as np
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
-from hosts.catalogue.lane_change_measures import Passage, measures_of, plots_of
-from hosts.catalogue.preparation import RunUp, held, with_step_up_to
-from hosts.catalogue.record import TestRecord
+from hosts.catalogue.passage import Passage
+from hosts.catalogue.preparation import RunUp, held
+from hosts.catalogue.sheet import Sheet
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.courses import course_of
@@ -48,34 +48,35 @@ DRIVERS: dict[str, tuple[float, float, float]] = {
 """Drivers that try each speed, as people have several attempts: preview, horizon and lead of `LineFollower`, s."""
 
 
-def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-    """See `StandardTest`."""
-    if settings["course"] not in (0.0, 1.0, 2.0):
-        raise HostError(f"The course is {settings['course']:g}; it must be 0 (both), 1 or 2.")
-    if settings["lowest"] >= settings["highest"]:
-        raise HostError(
-            f"The lowest speed is {settings['lowest']:g} km/h and the highest {settings['highest']:g} km/h; it "
-            "must be less."
-        )
-    car, notes = with_step_up_to(car, STEP, "the steering of the driver")
-    notes += (
-        f"The result depends on the driver: it is that of the best of {len(DRIVERS)}; another one may be faster.",
-    )
+def drive(sheet: Sheet) -> None:
+    """Each course faster and faster until a cone is hit, then the limit by bisection."""
+    car, settings = sheet.with_step_up_to(STEP, "the steering of the driver"), sheet.settings
+    sheet.add("driver", count=len(DRIVERS))
     chosen = _LAYOUTS if settings["course"] == 0.0 else (_LAYOUTS[int(settings["course"]) - 1],)
-    measures, plots, runs = [], [], {}
     for k, layout in enumerate(chosen):
 
         def part(done: float, k: int = k) -> None:
-            progress((k + done) / len(chosen))
+            sheet.progress((k + done) / len(chosen))
 
-        passed, failed, more = limit(car, layout, settings, part)
-        notes += more
-        measures += measures_of(layout.name, passed, failed, settings["resolution"])
-        plots += plots_of(layout.name, passed, failed)
-        for name, passage in (("passed", passed), ("failed", failed)):
+        passed, failed, notes = limit(car, layout, settings, part)
+        sheet.notes += notes
+        add_limit(sheet, layout.name, passed, failed)
+        for word, passage in (("passed", passed), ("failed", failed)):
             if passage is not None:
-                runs[f"{layout.name}_{name}"] = passage.result
-    return TestRecord(measures, plots, runs, notes)
+                sheet.runs[f"{layout.name}_{word}"] = passage.result
+
+
+def add_limit(sheet: Sheet, name: str, passed: Passage | None, failed: Passage | None) -> None:
+    """The measures of a course. `passed`, `failed`: the fastest without and the slowest with a cone."""
+    names = {"name": name, "title": name.upper().replace("_", " ", 1).replace("_", "-")}
+    sheet.add("limit", fastest=passed, slowest=failed, **names)
+    nothing = HostError("no speed was passed")
+    sheet.add("fastest", passed=nothing if passed is None else passed, **names)
+    shown = {word: p for word, p in (("passed", passed), ("failed", failed)) if p is not None and p.after.any()}
+    for word, passage in shown.items():
+        sheet.add("path", passage=passage, word=word, **names)
+    if shown:
+        sheet.add("signals", best=next(iter(shown.values())), **names)
 
 
 def limit(
@@ -124,7 +125,7 @@ def tries(car: TestedCar, layout: _Layout, speed: float, passed: Passage | None)
     order = sorted(DRIVERS, key=lambda name: passed is None or name != passed.driver)
     made = []
     for driver in order:
-        made.append(drive(car, layout, speed, driver))
+        made.append(drive_through(car, layout, speed, driver))
         if made[-1].clean:
             return made[-1]
     return max(
@@ -145,7 +146,7 @@ def steering_of(driver: str, course: Course, constants: Mapping[str, float], spe
     return LineFollower(planned(course, 0.0, length, width), wheelbase, angle, preview, horizon, lead)
 
 
-def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage:
+def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage:
     """One passage of a course.
 
     `speed`: in km/h; `driver`: one of `DRIVERS`.
@@ -176,4 +177,4 @@ def drive(car: TestedCar, layout: _Layout, speed: float, driver: str) -> Passage
     return Passage(speed, result, driver, course, (length, width), pilot.pose, after, ends.reason, layout.release)
 
 
-TEST = load_test("double_lane_change", perform)
+TEST = load_test("double_lane_change", drive)

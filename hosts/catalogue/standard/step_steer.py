@@ -3,126 +3,72 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
-from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import load_test
-from hosts.catalogue.record import Line, Plot, TestRecord
-from hosts.catalogue.steady_map import SteadyMap, map_at_reachable_speed
+from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.steady_map import SteadyMap, driven_ramp
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import SteeringInput
-from hosts.catalogue.stepped_run import SteppedRun, measures_of_step, remarks, stepped
-from hosts.driving.result import Result
-from hosts.measures.measure import Measure
+from hosts.common.errors import HostError
+from hosts.measures.step_response import step_of_steering
 
-_LEVELS = ("level_1", "level_2", "level_3")
-_CLOSE = 0.02
-_MOST_RUNS = 4
+_BEFORE, _CLOSE, _MOST_RUNS = (-0.8, 0.0), 0.02, 4
+_SIGNALS = ("yaw_rate", "acceleration", "roll", "sideslip")
 
 
-def why_not(car: TestedCar, settings: Mapping[str, float]) -> str | None:
-    """See `StandardTest`."""
-    begin, end = settings["steady_from"], settings["steady_to"]
-    if end <= begin:
-        return (
-            f"The window of the steady state begins at steady_from = {begin:g} s and ends at steady_to = {end:g} "
-            "s; it must end later."
-        )
-    if not any(settings[name] > 0.0 for name in _LEVELS):
-        return "level_1, level_2 and level_3 are all 0; one of them must be above 0 m/s²."
-    return None
-
-
-def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-    """See `StandardTest`."""
-    levels = {name: settings[name] for name in _LEVELS if settings[name] > 0.0}
-    given = SteeringInput.of(car.facts)
-    speed = settings["speed"] / 3.6
-    ramp = map_at_reachable_speed(car, speed, min(speed, 80.0 / 3.6), max(levels.values()))
-    progress(0.2)
-    notes = [*ramp.notes, *filter(None, [given.note])]
-    runs: dict[str, Result] = {"ramp_left": ramp.run.thinned()}
-    measures = [Measure("speed", ramp.speed, "m/s", "speed at the beginning of the step")]
-    driven: list[tuple[float, SteppedRun]] = []
-    share = 0.8 / len(levels)
-    for k, (name, wanted) in enumerate(levels.items()):
-        begin = 0.2 + k * share
-
-        def part(done: float, begin: float = begin) -> None:
-            progress(begin + share * done)
-
+def drive(sheet: Sheet) -> None:
+    """A slow ramp, then a step to both sides at each level."""
+    levels = {n: x for n in ("level_1", "level_2", "level_3") if (x := sheet.settings[n]) > 0.0}
+    ramp = driven_ramp(sheet, max(levels.values()))
+    sheet.add("speed", speed=ramp.speed)
+    driven = []
+    for k, (level, wanted) in enumerate(levels.items()):
         if math.isnan(ramp.angle_at(wanted)):
-            notes.append(
-                f"At {3.6 * ramp.speed:g} km/h the car reaches {ramp.largest:.3g} m/s² in a slow ramp of the "
-                f"steering, not {wanted:g} m/s²: {name} is left out."
+            reached = (
+                f"{ramp.largest:.3g} m/s² in a slow ramp of the steering, not {wanted:g} m/s²: {level} is left out."
             )
-            nothing = stepped(ramp.run, (math.inf, math.inf))
-            found = measures_of_step(TEST.measures, name, wanted, nothing, nothing, given.is_angle)
-            measures += [Measure(m.name, m.value, m.unit, m.text, m.limit, notes[-1]) for m in found]
-            continue
-        left, right = _both_sides(car, ramp, wanted, settings, part)
-        measures += measures_of_step(TEST.measures, name, wanted, left, right, given.is_angle)
-        runs |= {f"{name}_left": left.run.thinned(), f"{name}_right": right.run.thinned()}
-        notes += remarks(wanted, left, right)
-        driven.append((wanted, left))
-    return TestRecord(measures, _plots(driven), runs, notes)
+            sheet.notes.append(f"At {3.6 * ramp.speed:g} km/h the car reaches {reached}")
+            sides: dict[str, Any] = dict.fromkeys(("left", "right"), HostError(sheet.notes[-1]))
+        else:
+            sides = _both_sides(sheet, ramp, wanted, 0.2 + 0.8 * k / len(levels), 0.8 / len(levels))
+            sheet.runs |= {f"{level}_{side}": found["run"].thinned() for side, found in sides.items()}
+            driven.append({"wanted": wanted, "run": sides["left"]["run"]})
+        is_angle = SteeringInput.of(sheet.car.facts).is_angle
+        sheet.add("level", level=level, wanted=wanted, is_angle=is_angle, **sides)
+    sheet.add("pictures", driven=driven)
 
 
-TEST = load_test("step_steer", perform, why_not)
+TEST = load_test("step_steer", drive)
 
 
-def _both_sides(
-    car: TestedCar,
-    ramp: SteadyMap,
-    wanted: float,
-    settings: Mapping[str, float],
-    progress: Callable[[float], None],
-) -> tuple[SteppedRun, SteppedRun]:
-    """Runs to both sides with the amplitude that has the wanted steady acceleration to the left."""
-    given = SteeringInput.of(car.facts)
-    steady = (settings["steady_from"], settings["steady_to"])
-    rate = math.radians(settings["steering_rate"])
+def _both_sides(sheet: Sheet, ramp: SteadyMap, wanted: float, begin: float, share: float) -> dict[str, dict[str, Any]]:
+    """Runs to both sides with the amplitude that has the wanted steady acceleration to the left.
 
-    def drive(angle: float) -> SteppedRun:
-        rise = max(abs(angle) / rate, 1e-3) if given.is_angle else 0.1
+    `begin`, `share`: what is done before, and these runs, of the whole test.
+    """
+    given, steady = SteeringInput.of(sheet.car.facts), (sheet.settings["steady_from"], sheet.settings["steady_to"])
+
+    def step(angle: float) -> dict[str, Any]:
+        rise = max(abs(angle) / math.radians(sheet.settings["steering_rate"]), 1e-3) if given.is_angle else 0.1
+        time, table = np.array([0.0, rise, rise + steady[1] + 0.1]), np.array([0.0, angle, angle])
         name = f"{wanted:g} m/s2 {'left' if angle > 0.0 else 'right'}"
-        time = np.array([0.0, rise, rise + steady[1] + 0.1])
-        run = steer(car, name, ramp.speed, time, np.array([0.0, angle, angle]), Pedals.FIXED)
-        return stepped(run, steady)
+        run = steer(sheet.car, name, ramp.speed, time, table, Pedals.FIXED)
+        signals = {name: getattr(run, name) for name in _SIGNALS}
+        return {"run": run, **step_of_steering(run.time, run.steering, signals, _BEFORE, steady)}
 
-    angle = ramp.angle_at(wanted)
-    tried: list[tuple[float, float]] = [(0.0, 0.0)]
+    angle, before = ramp.angle_at(wanted), (0.0, 0.0)
     for n in range(_MOST_RUNS):
-        left = drive(angle)
-        progress((n + 1) / (_MOST_RUNS + 1))
-        got = left.acceleration.steady
-        tried.append((angle, got))
-        if not got > 0.0 or abs(got - wanted) <= _CLOSE * wanted:
-            break
-        (a0, y0), (a1, y1) = tried[-2:]
-        slope = (y1 - y0) / (a1 - a0)
-        if not slope > 0.0 or n == _MOST_RUNS - 1:
+        left = step(angle)
+        sheet.progress(begin + share * (n + 1) / (_MOST_RUNS + 1))
+        got = left["acceleration"].steady
+        slope = (got - before[1]) / (angle - before[0])
+        if not got > 0.0 or abs(got - wanted) <= _CLOSE * wanted or not slope > 0.0 or n == _MOST_RUNS - 1:
             break
         # at most half as much again: near the limit the slope says little
-        angle = min(a1 + min((wanted - got) / slope, 0.5 * a1), given.largest)
-    right = drive(-angle)
-    progress(1.0)
-    return left, right
-
-
-def _plots(driven: list[tuple[float, SteppedRun]]) -> list[Plot]:
-    """Steps to the left over time."""
-
-    def plot(title: str, y: str, of: Callable[[SteppedRun], np.ndarray]) -> Plot:
-        lines = [Line(f"{wanted:g} m/s²", s.run.time, of(s)) for wanted, s in driven if len(s.run.time)]
-        return Plot(f"{title}, step to the left", "time, s", y, lines)
-
-    return [
-        plot("Steering wheel", "angle, °", lambda s: np.degrees(s.run.steering)),
-        plot("Yaw rate", "yaw rate, °/s", lambda s: np.degrees(s.run.yaw_rate)),
-        plot("Lateral acceleration", "lateral acceleration, m/s²", lambda s: s.run.acceleration),
-        plot("Sideslip angle", "sideslip angle, °", lambda s: np.degrees(s.run.sideslip)),
-        plot("Roll angle", "roll angle, °", lambda s: np.degrees(s.run.roll)),
-    ]
+        before, angle = (angle, got), min(angle + min((wanted - got) / slope, 0.5 * angle), given.largest)
+    right = step(-angle)
+    sheet.progress(begin + share)
+    return {"left": left, "right": right}

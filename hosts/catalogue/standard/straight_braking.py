@@ -3,53 +3,54 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
+from typing import Any
 
-from hosts.catalogue.braking_measures import measures_of, plots_of
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
-from hosts.catalogue.preparation import RunUp, early_end, held, with_step_up_to
-from hosts.catalogue.record import TestRecord
-from hosts.common.wheels import WHEELS
+from hosts.catalogue.preparation import RunUp, early_end, held
+from hosts.catalogue.sheet import Sheet
+from hosts.common.errors import HostError
+from hosts.common.numbers import Value
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
 from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
-from hosts.measures.measure import Measure
 
 STEP = 0.005  # s; the pedal rises in a multiple of it
 RESOLUTION = 0.01  # of the pedal without locked wheels
 
 
-def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]) -> TestRecord:
-    """See `StandardTest`."""
-    car, notes = with_step_up_to(car, STEP, "the rise of the deceleration")
-    if settings["neutral"] >= 0.5 and "selector" not in car.facts.inputs:
-        notes += ("The car has no selector: it is braked in the gear it has.",)
-    result, onset, more = stop(car, settings)
-    notes += more
-    progress(0.2)
-    runs, measures = {"straight_braking": result}, measures_of(result, onset, settings)
-    locking = _locks(measures)
-    if locking:
-        notes += (
-            f"Wheels lock at a pedal of {settings['pedal']:g}: {', '.join(locking)}. ISO 21994 is for cars with an "
-            "anti-lock system; what the car reaches without a locked wheel is in the measures that begin with "
-            "unlocked.",
-        )
-        best, run = _best_unlocked(car, settings, progress)
-        runs |= {"unlocked": run[0]} if run is not None else {}
-    else:
-        best, run = settings["pedal"], (result, onset)
-    measures += _unlocked(best, run, settings)
-    progress(1.0)
-    return TestRecord(measures, plots_of(result, onset), runs, notes)
+def drive(sheet: Sheet) -> None:
+    """A stop; where wheels lock, others with less pedal until none does."""
+    car, settings = sheet.with_step_up_to(STEP, "the rise of the deceleration"), sheet.settings
+    sheet.add("selector")
+    run, onset, notes = stop(car, settings)
+    sheet.runs["straight_braking"] = run
+    sheet.notes += notes
+    sheet.progress(0.2)
+    sheet.add("stop", run=run, onset=onset)
+    best: float = settings["pedal"]
+    found: dict[str, Any] = {"run": run, "onset": onset}
+    if sheet.value("locking", **found):
+        sheet.add("locked", **found)
+        best, found = _best_unlocked(sheet, car)
+        sheet.runs |= {"unlocked": found["run"]} if found else {}
+    nothing = HostError("wheels lock at every pedal")
+    if found and not sheet.value("locks_known", **found):
+        nothing, found = HostError("the car does not tell the slip of its wheels, or did not brake"), {}
+    missing = {} if found else dict.fromkeys(("best", "run", "onset"), nothing)
+    sheet.add("unlocked", **{"best": best, "resolution": RESOLUTION, **found, **missing})
+    sheet.add("pictures", run=run, onset=onset)
+    sheet.progress(1.0)
 
 
-def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, tuple[str, ...]]:
-    """Drive straight, brake to rest.
+def stop(
+    car: TestedCar, settings: Mapping[str, float], start: Mapping[str, Value] | None = None
+) -> tuple[Result, float, tuple[str, ...]]:
+    """Drive straight, brake to rest. `start`: of the car, beside its speed.
 
     Returns
     -------
@@ -76,7 +77,7 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
         started = not math.isnan(pilot.onset)
         return (ends(outputs) and (started or ends.reason != "stands")) or (not started and time > run_up.longest)
 
-    result = car.drive(held(car, "straight_braking", stop_time, {}, run_up.start), pilot, over)
+    result = car.drive(held(car, "straight_braking", stop_time, {}, {**run_up.start, **(start or {})}), pilot, over)
     last, notes = result.time[-1], early_end("straight braking", result)
     if math.isnan(pilot.onset):
         notes += (
@@ -90,43 +91,20 @@ def stop(car: TestedCar, settings: Mapping[str, float]) -> tuple[Result, float, 
     return result, pilot.onset, notes
 
 
-def _locks(measures: Sequence[Measure]) -> list[str]:
-    """Wheels that lock."""
-    return [m.name.partition(".")[2] for m in measures if m.name.startswith("locked_time.") and m.value > 0.0]
-
-
-def _best_unlocked(
-    car: TestedCar, settings: Mapping[str, float], progress: Callable[[float], None]
-) -> tuple[float, tuple[Result, float] | None]:
-    """The largest pedal below the one that locks wheels, to `RESOLUTION`, with its run."""
-    low, high, best = 0.0, settings["pedal"], None
+def _best_unlocked(sheet: Sheet, car: TestedCar) -> tuple[float, dict[str, Any]]:
+    """The largest pedal below the one that locks wheels, to `RESOLUTION`, with its run; empty: there is none."""
+    low, high = 0.0, sheet.settings["pedal"]
+    best: dict[str, Any] = {}
     tries = math.ceil(math.log2(max(high / RESOLUTION, 1.0)))
     for k in range(tries):
         pedal = 0.5 * (low + high)
-        result, onset, _ = stop(car, {**settings, "pedal": pedal})
-        if math.isnan(onset) or _locks(measures_of(result, onset, {**settings, "pedal": pedal})):
+        run, onset, _ = stop(car, {**sheet.settings, "pedal": pedal})
+        if math.isnan(onset) or sheet.value("locking", run=run, onset=onset):
             high = pedal
         else:
-            low, best = pedal, (result, onset)
-        progress(0.2 + 0.8 * (k + 1) / tries)
+            low, best = pedal, {"run": run, "onset": onset}
+        sheet.progress(0.2 + 0.8 * (k + 1) / tries)
     return low, best
 
 
-def _unlocked(pedal: float, run: tuple[Result, float] | None, settings: Mapping[str, float]) -> list[Measure]:
-    """What is reached without a locked wheel."""
-    note = f"pedal to within {RESOLUTION:g}" if run is not None else "wheels lock at every pedal"
-    made = {m.name: m for m in measures_of(*run, settings)} if run is not None else {}
-    told = f"locked_time.{WHEELS[0]}" in made and not math.isnan(made[f"locked_time.{WHEELS[0]}"].value)
-    if run is not None and not told:
-        note, made = "the car does not tell the slip of its wheels, or did not brake", {}
-    rows = [Measure("unlocked.pedal", pedal if made else math.nan, "1", "largest pedal that locks no wheel", note=note)]
-    for name in ("stopping_distance", "stopping_distance.corrected", "deceleration.mean_fully_developed"):
-        m = made.get(name, Measure(name, math.nan, "m/s2" if "decel" in name else "m", ""))
-        # the demand is on a full pedal or less, as long as no wheel locks
-        rows.append(
-            Measure(f"unlocked.{name}", m.value, m.unit, f"without a locked wheel: {m.text or name}", m.limit, note)
-        )
-    return rows
-
-
-TEST = load_test("straight_braking", perform)
+TEST = load_test("straight_braking", drive)

@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any, cast
+
+from hosts.catalogue.definition import file_of_test
 from hosts.catalogue.record import TestRecord
+from hosts.catalogue.sheet import Sheet
 
 
 def values(record: TestRecord) -> dict[str, float]:
     """Numbers by the names of measures."""
     return {m.name: m.value for m in record.measures}
+
+
+def sheet_of(test: str, car: Any = None, **settings: float) -> Sheet:
+    """A sheet of a test on which nothing stands; settings that are not given are by default."""
+    file = file_of_test(test)
+    given = {s.name: s.value for s in file.settings} | settings
+    return Sheet(file, cast(Any, car), given, lambda done: None)

@@ -9,14 +9,17 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.circle_stop import Stop
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.standard import braking_in_a_turn
-from hosts.catalogue.turn_braking_measures import Stop, measures_of
+from hosts.catalogue.registry import standard_test
+from hosts.catalogue.standard.braking_in_a_turn import add_stops
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
-from tests.hosts.catalogue.measured import values
+from hosts.measures.measure import Measure
+from tests.hosts.catalogue.measured import sheet_of, values
 
+TEST = standard_test("braking_in_a_turn")
 FEW = {"levels": 2.0, "pedal": 0.3, "deceleration": 4.0}
 
 
@@ -40,10 +43,16 @@ def turn(deceleration: float, factor: float, radius: float, drift: float) -> Sto
     return Stop(0.5, Result(names, dict.fromkeys(names, "1"), time, columns, 0.0, 6.0, 0, []), onset, "stands")
 
 
+def measures_of(stops: list[Stop], deceleration: float) -> dict[str, Measure]:
+    sheet = sheet_of("braking_in_a_turn", deceleration=deceleration)
+    add_stops(sheet, stops)
+    return {m.name: m for m in sheet.measures}
+
+
 @pytest.mark.parametrize("radius", [80.0, -80.0])
 def test_measures_of_a_made_turn(radius: float) -> None:
     stops = [turn(a, 1.2, radius, 0.4) for a in (3.0, 5.0)]
-    measured = {m.name: m for m in measures_of(stops, {"deceleration": 4.0})}
+    measured = measures_of(stops, 4.0)
     value = {name: m.value for name, m in measured.items()}
     assert value["steady.radius"] == pytest.approx(80.0, rel=1e-6)
     assert value["steady.ay"] == pytest.approx(400.0 / 80.0, rel=1e-6)
@@ -60,7 +69,7 @@ def test_measures_of_a_made_turn(radius: float) -> None:
 
 
 def test_a_deceleration_that_no_stop_has_is_told() -> None:
-    measured = {m.name: m for m in measures_of([turn(3.0, 1.0, 80.0, 0.0)], {"deceleration": 6.0})}
+    measured = measures_of([turn(3.0, 1.0, 80.0, 0.0)], 6.0)
     assert math.isnan(measured["yaw_rate.ratio"].value)
     assert "3 to 3 m/s2" in measured["yaw_rate.ratio"].note
     assert measured["worst.yaw_rate.ratio"].value == pytest.approx(1.0)
@@ -68,7 +77,7 @@ def test_a_deceleration_that_no_stop_has_is_told() -> None:
 
 @pytest.fixture(scope="module")
 def left(prototype: TestedCar) -> TestRecord:
-    return perform(braking_in_a_turn.TEST, prototype, FEW)
+    return perform(TEST, prototype, FEW)
 
 
 def test_prototype_brakes_from_the_circle_that_was_asked_for(left: TestRecord) -> None:
@@ -84,7 +93,7 @@ def test_prototype_brakes_from_the_circle_that_was_asked_for(left: TestRecord) -
 
 @pytest.mark.slow
 def test_right_is_the_mirror_of_left_and_the_step_does_not_matter(prototype: TestedCar, left: TestRecord) -> None:
-    right = values(perform(braking_in_a_turn.TEST, replace(prototype, step=0.002), FEW | {"radius": -100.0}))
+    right = values(perform(TEST, replace(prototype, step=0.002), FEW | {"radius": -100.0}))
     odd = ("steady.yaw_rate", "steady.sideslip")
     for name, value in values(left).items():
         if not math.isnan(value):
@@ -93,7 +102,7 @@ def test_right_is_the_mirror_of_left_and_the_step_does_not_matter(prototype: Tes
 
 
 def test_a_circle_that_cannot_be_held_is_told(prototype: TestedCar) -> None:
-    record = perform(braking_in_a_turn.TEST, prototype, FEW | {"lateral_acceleration": 14.0, "radius": 60.0})
+    record = perform(TEST, prototype, FEW | {"lateral_acceleration": 14.0, "radius": 60.0})
     assert record.notes
     assert "asked for" in record.notes[-1] or "did not get onto" in record.notes[-1]
 
@@ -101,4 +110,4 @@ def test_a_circle_that_cannot_be_held_is_told(prototype: TestedCar) -> None:
 @pytest.mark.parametrize(("setting", "value"), [("radius", 5.0), ("levels", 2.5)])
 def test_wrong_settings(prototype: TestedCar, setting: str, value: float) -> None:
     with pytest.raises(HostError, match=f"{setting}.*{value:g}"):
-        perform(braking_in_a_turn.TEST, prototype, {setting: value})
+        perform(TEST, prototype, {setting: value})

@@ -10,15 +10,17 @@ import pytest
 
 from ali3.iso_3888 import Gate
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.lane_change_measures import Passage, measures_of
+from hosts.catalogue.passage import Passage
 from hosts.catalogue.perform import missing_for, perform
 from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard import double_lane_change
-from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, limit
+from hosts.catalogue.standard.double_lane_change import _LAYOUTS, DRIVERS, add_limit, limit
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.result import Result
-from tests.hosts.catalogue.measured import values
+from hosts.measures.measure import Measure
+from tests.hosts.catalogue.measured import sheet_of, values
 
 OBSTACLE = {"course": 2.0, "lowest": 60.0, "highest": 80.0, "increment": 10.0, "resolution": 5.0}
 LANE = Course("lane", (Gate(10.0, 30.0, -1.5, 1.5),))
@@ -52,7 +54,7 @@ def test_clearance_and_speeds_are_taken_in_the_axes_of_the_course() -> None:
     clean = passage(72.0, 0.2)
     assert clean.clean
     assert clean.least_clearance == pytest.approx(0.3)
-    measured = {m.name: m for m in measures_of("lane", clean, None, 1.0)}
+    measured = {m.name: m for m in measures_of("lane", clean)}
     # the front is at the lane after 8 m of 50
     assert measured["lane.entry_speed"].value == pytest.approx(20.0 - 2.0 * 8.0 / 50.0, abs=0.003)
     assert measured["lane.exit_speed"].value == pytest.approx(20.0 - 2.0 * 28.0 / 50.0, abs=0.003)
@@ -61,8 +63,14 @@ def test_clearance_and_speeds_are_taken_in_the_axes_of_the_course() -> None:
     assert "chassis.roll" in measured["lane.roll.largest"].note
 
 
+def measures_of(name: str, passed: Passage | None) -> list[Measure]:
+    sheet = sheet_of("double_lane_change")
+    add_limit(sheet, name, passed, None)
+    return sheet.measures
+
+
 def test_each_measure_says_of_which_course_it_is() -> None:
-    texts = [m.text for name in ("iso_3888_1", "iso_3888_2") for m in measures_of(name, None, None, 1.0)]
+    texts = [m.text for name in ("iso_3888_1", "iso_3888_2") for m in measures_of(name, None)]
     assert len({*texts}) == len(texts) == 24
     assert all(text.startswith(("ISO 3888-1: ", "ISO 3888-2: ")) for text in texts)
 
@@ -83,7 +91,7 @@ def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> Non
         # only the second driver gets through at all, and up to 77.3 km/h
         return passage(speed, 0.0 if speed < 77.3 and driver == list(DRIVERS)[1] else 1.0, driver=driver)
 
-    monkeypatch.setattr(double_lane_change, "drive", made)
+    monkeypatch.setattr(double_lane_change, "drive_through", made)
     settings = {"lowest": 40.0, "highest": 160.0, "increment": 10.0, "resolution": 1.0}
     done: list[float] = []
     passed, failed, notes = limit(None, _LAYOUTS[0], settings, done.append)  # type: ignore[arg-type]
@@ -107,7 +115,7 @@ def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> Non
 
 @pytest.fixture(scope="module")
 def driven(prototype: TestedCar) -> TestRecord:
-    return perform(double_lane_change.TEST, prototype, OBSTACLE)
+    return perform(standard_test("double_lane_change"), prototype, OBSTACLE)
 
 
 @pytest.mark.slow
@@ -129,7 +137,7 @@ def test_prototype_has_a_limit_on_the_obstacle_course(driven: TestRecord) -> Non
 @pytest.mark.slow
 def test_clearance_does_not_depend_on_the_step(prototype: TestedCar) -> None:
     least = [
-        double_lane_change.drive(
+        double_lane_change.drive_through(
             replace(prototype, step=step), _LAYOUTS[1], 55.0, "least curvature, late"
         ).least_clearance
         for step in (0.001, 0.005)
@@ -142,16 +150,16 @@ def test_what_a_car_lacks_and_wrong_settings_are_told(prototype: TestedCar) -> N
     bare = replace(prototype)
     constants = {n: x for n, x in prototype.facts.constants.items() if n != "vehicle.width"}
     bare.__dict__["facts"] = replace(prototype.facts, constants=constants)
-    assert "vehicle.width" in str(missing_for(double_lane_change.TEST, bare, {}))
+    assert "vehicle.width" in str(missing_for(standard_test("double_lane_change"), bare, {}))
     with pytest.raises(HostError, match="course is 1.5"):
-        perform(double_lane_change.TEST, prototype, {"course": 1.5})
+        perform(standard_test("double_lane_change"), prototype, {"course": 1.5})
     with pytest.raises(HostError, match="lowest speed is 90"):
-        perform(double_lane_change.TEST, prototype, {"lowest": 90.0, "highest": 80.0})
+        perform(standard_test("double_lane_change"), prototype, {"lowest": 90.0, "highest": 80.0})
 
 
 @pytest.mark.slow
 def test_a_car_that_does_not_reach_the_speed_is_told(prototype: TestedCar) -> None:
-    slow = double_lane_change.drive(prototype, _LAYOUTS[0], 240.0, next(iter(DRIVERS)))
+    slow = double_lane_change.drive_through(prototype, _LAYOUTS[0], 240.0, next(iter(DRIVERS)))
     assert not slow.clean
     assert "the speed was not reached" in slow.why
 

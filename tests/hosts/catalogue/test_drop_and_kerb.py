@@ -11,18 +11,18 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.standard import drop, kerb
+from hosts.catalogue.registry import standard_test
 from tests.hosts.catalogue.measured import values
 
 
 @pytest.fixture(scope="module")
 def fallen(prototype: TestedCar) -> TestRecord:
-    return perform(drop.TEST, prototype)
+    return perform(standard_test("drop"), prototype)
 
 
 @pytest.fixture(scope="module")
 def over_kerb(prototype: TestedCar) -> TestRecord:
-    return perform(kerb.TEST, prototype)
+    return perform(standard_test("kerb"), prototype)
 
 
 def test_car_falls_freely_and_rests_on_its_weight(fallen: TestRecord) -> None:
@@ -51,7 +51,7 @@ def test_wheels_droop_in_the_air_and_touch_before_a_point_would(fallen: TestReco
 
 
 def test_a_fall_that_is_too_short_to_settle_says_so(prototype: TestedCar) -> None:
-    record = perform(drop.TEST, prototype, {"duration": 1.0})
+    record = perform(standard_test("drop"), prototype, {"duration": 1.0})
     error = next(m for m in record.measures if m.name == "rest.load_error")
     assert math.isnan(error.value)
     assert error.is_kept is False
@@ -77,7 +77,7 @@ def test_kerb_is_passed_both_ways(over_kerb: TestRecord) -> None:
 
 @pytest.mark.slow
 def test_results_do_not_depend_on_the_step(prototype: TestedCar, fallen: TestRecord, over_kerb: TestRecord) -> None:
-    for record, test, worst in ((fallen, drop.TEST, 0.01), (over_kerb, kerb.TEST, 0.03)):
+    for record, test, worst in ((fallen, standard_test("drop"), 0.01), (over_kerb, standard_test("kerb"), 0.03)):
         coarse = values(perform(test, replace(prototype, step=0.005)))
         for name, fine in values(record).items():
             if "time" in name:
@@ -87,7 +87,7 @@ def test_results_do_not_depend_on_the_step(prototype: TestedCar, fallen: TestRec
 
 
 def test_kerb_on_a_step_too_long_for_the_weighting(prototype: TestedCar) -> None:
-    record = perform(kerb.TEST, replace(prototype, step=0.01), {"ahead": 2.0})
+    record = perform(standard_test("kerb"), replace(prototype, step=0.01), {"ahead": 2.0})
     rms = next(m for m in record.measures if m.name == "down.az.running_rms")
     assert math.isnan(rms.value)
     assert "0.005 s or less" in rms.note
@@ -97,5 +97,5 @@ def test_kerb_on_a_step_too_long_for_the_weighting(prototype: TestedCar) -> None
 @pytest.mark.slow
 def test_a_kerb_that_is_not_reached_is_told(prototype: TestedCar) -> None:
     # so slow that rolling resistance stops the car before the edge
-    record = perform(kerb.TEST, prototype, {"speed": 4.0, "ahead": 7.5})
+    record = perform(standard_test("kerb"), prototype, {"speed": 4.0, "ahead": 7.5})
     assert any("not all wheels" in note for note in record.notes)

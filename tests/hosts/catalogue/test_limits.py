@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import math
 from pathlib import Path
 
 import pytest
 
-import hosts.catalogue
 from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.definition import file_of_test
 from hosts.catalogue.kept import KeptTests
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.registry import standard_test
+from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.task import Outcome, Task
 from hosts.common.errors import HostError
 from hosts.measures.limits import read_limits
@@ -125,11 +124,8 @@ def test_the_command_says_which_measure_is_outside(
 
 def test_measures_are_in_si_units() -> None:
     """Tables of data keep them; reports show degrees and km/h."""
-    found = []
-    for file in Path(hosts.catalogue.__file__).parent.rglob("*.py"):
-        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "Measure":
-                found += [unit.value for unit in call.args[2:3] if isinstance(unit, ast.Constant)]
-    assert len(found) > 20
+    found = [m.unit for test in TESTS for part in file_of_test(test).parts.values() for m in part.measures.values()]
+    found = [unit for unit in found if "{" not in unit]
+    assert len(found) > 100
     known = {unit: known_unit(str(unit)) for unit in found}
     assert {unit: told.factor for unit, told in known.items() if told is not None and told.factor != 1.0} == {}

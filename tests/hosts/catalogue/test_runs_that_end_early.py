@@ -9,18 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hosts.catalogue.braking_measures import measures_of
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.dwell_measures import measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, processed, table
 from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.steered_run import Pedals, steer
+from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
 from hosts.measures.sine_with_dwell import sine_with_dwell
 from tests.hosts.catalogue.bicycle import BicycleCar
+from tests.hosts.catalogue.measured import sheet_of
 
 MOVED_BY_ITSELF = ("drop",)
 """Tests of a car that nobody drives."""
@@ -80,11 +80,12 @@ def stop(end: float) -> Result:
 
 @pytest.mark.parametrize(("end", "whole"), [(1.05, False), (2.0, False), (4.4, False), (5.0, True)])
 def test_a_stop_keeps_its_limits_once_the_car_stands(end: float, whole: bool) -> None:
-    measures = measures_of(stop(end), 1.0, {"speed": 100.0, "pedal": 1.0})
-    judged = {m.name: m.is_kept for m in measures if m.limit is not None}
+    sheet = sheet_of("straight_braking")
+    sheet.add("stop", run=stop(end), onset=1.0)
+    judged = {m.name: m.is_kept for m in sheet.measures if m.limit is not None}
     assert len(judged) == 7
     assert [kept for name, kept in judged.items() if name != "deceleration.mean_fully_developed"] == 6 * [whole]
-    assert all(m.note for m in measures if m.is_missing)
+    assert all(m.note for m in sheet.measures if m.is_missing)
 
 
 def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
@@ -96,8 +97,11 @@ def test_a_series_that_one_side_has_lost_has_no_displacement() -> None:
 
     both, one = [[[driven(f * a, s) for f in fs] for s, fs in zip((1.0, -1.0), sides, strict=True)]
                  for sides in (((2.0, 5.0), (2.0, 5.0)), ((2.0, 5.0), (2.0,)))]  # fmt: skip
-    kept = [
-        {m.name: m.is_kept for m in measures_of_dwell(a, [a, a], sides, [2.0 * a, 5.0 * a], 1.0)}["displacement"]
-        for sides in (both, one)
-    ]
-    assert kept == [True, False]
+    kept = []
+    for left, right in (both, one):
+        sheet = sheet_of("sine_with_dwell")
+        found = {"a": a, "found": [a, a], "sides": {"left": left, "right": right}, "wanted": [2.0 * a, 5.0 * a]}
+        sheet.add("series", given=SteeringInput.of(car.facts), ramps={}, **found)
+        kept += [m for m in sheet.measures if m.name == "displacement"]
+    # of the car that is measured 1 m is enough
+    assert [m.value > 1.0 for m in kept] == [True, False]

@@ -9,7 +9,7 @@ import pytest
 
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.standard.steady_circle import TEST
+from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 
@@ -18,7 +18,7 @@ QUASI_STATIC = 8e-5 * RISE  # rad s2/m: what the rise of the speed adds to the g
 
 
 def drive(car: Any, **settings: float) -> tuple[dict[str, float], TestRecord]:
-    record = perform(TEST, car, {"speed_rise": RISE, **settings})
+    record = perform(standard_test("steady_circle"), car, {"speed_rise": RISE, **settings})
     return {m.name: m.value for m in record.measures}, record
 
 
@@ -93,4 +93,4 @@ def test_a_car_that_is_too_weak_has_no_gradient_but_a_reason() -> None:
 )
 def test_wrong_settings_are_told(settings: dict[str, float], words: str) -> None:
     with pytest.raises(HostError, match=words):
-        perform(TEST, BicycleCar(), settings)
+        perform(standard_test("steady_circle"), BicycleCar(), settings)

@@ -37,8 +37,8 @@ def step() -> TestRecord:
 
 
 def test_round_off_is_no_asymmetry() -> None:
-    assert asymmetry("a", [(0.5, 0.5 * (1.0 + 1e-11)), (2.0, 2.0)], "").value == 0.0
-    assert asymmetry("a", [(0.5, 0.5 * (1.0 + 1e-8))], "").value == pytest.approx(1e-8, rel=1e-6)
+    assert asymmetry("a", 0.5, 0.5 * (1.0 + 1e-11), "").value == 0.0
+    assert asymmetry("a", 0.5, 0.5 * (1.0 + 1e-8), "").value == pytest.approx(1e-8, rel=1e-6)
 
 
 def test_steady_values_of_a_step(step: TestRecord) -> None:

@@ -8,13 +8,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hosts.catalogue.braking_measures import measures_of
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.standard import straight_braking
+from hosts.catalogue.registry import standard_test
 from hosts.driving.result import Result
-from tests.hosts.catalogue.measured import values
+from hosts.measures.measure import Measure
+from tests.hosts.catalogue.measured import sheet_of, values
+
+
+def measures_of(result: Result, onset: float) -> list[Measure]:
+    """Of a stop from 72 km/h."""
+    sheet = sheet_of("straight_braking", speed=72.0)
+    sheet.add("stop", run=result, onset=onset)
+    return sheet.measures
+
 
 G = 9.81
 
@@ -22,7 +30,7 @@ G = 9.81
 @pytest.fixture(scope="module")
 def gentle(prototype: TestedCar) -> TestRecord:
     """A pedal that locks no wheel."""
-    return perform(straight_braking.TEST, prototype, {"pedal": 0.6})
+    return perform(standard_test("straight_braking"), prototype, {"pedal": 0.6})
 
 
 def test_stop_is_that_of_its_forces(gentle: TestRecord) -> None:
@@ -58,7 +66,7 @@ def test_loads_move_forward_by_the_moment_of_the_deceleration(gentle: TestRecord
 
 @pytest.mark.slow
 def test_locked_wheels_are_told(prototype: TestedCar) -> None:
-    record = perform(straight_braking.TEST, prototype)
+    record = perform(standard_test("straight_braking"), prototype)
     measured = values(record)
     assert measured["locked_time.FL"] > 0.99
     assert measured["slip.front"] == measured["slip.rear"] == 1.0  # against the carrier, which pitches
@@ -68,10 +76,10 @@ def test_locked_wheels_are_told(prototype: TestedCar) -> None:
     assert limits["deceleration.mean_fully_developed"] is True
     # the best pedal that locks no wheel, and it is one
     assert 0.5 < measured["unlocked.pedal"] < 1.0
-    checked = values(perform(straight_braking.TEST, prototype, {"pedal": measured["unlocked.pedal"]}))
+    checked = values(perform(standard_test("straight_braking"), prototype, {"pedal": measured["unlocked.pedal"]}))
     assert max(checked[f"locked_time.{w}"] for w in ("FL", "FR", "RL", "RR")) == 0.0
     assert checked["stopping_distance"] == pytest.approx(measured["unlocked.stopping_distance"], rel=1e-9)
-    harder = values(perform(straight_braking.TEST, prototype, {"pedal": measured["unlocked.pedal"] + 0.02}))
+    harder = values(perform(standard_test("straight_braking"), prototype, {"pedal": measured["unlocked.pedal"] + 0.02}))
     assert max(harder[f"locked_time.{w}"] for w in ("FL", "FR", "RL", "RR")) > 0.0
 
 
@@ -79,7 +87,7 @@ def test_locked_wheels_are_told(prototype: TestedCar) -> None:
 def test_results_do_not_depend_on_the_step(prototype: TestedCar, gentle: TestRecord) -> None:
     fine = values(gentle)
     for step in (0.001, 0.005):
-        coarse = values(perform(straight_braking.TEST, replace(prototype, step=step), {"pedal": 0.6}))
+        coarse = values(perform(standard_test("straight_braking"), replace(prototype, step=step), {"pedal": 0.6}))
         assert coarse["stopping_distance.corrected"] == pytest.approx(fine["stopping_distance.corrected"], rel=1e-3)
         mean = "deceleration.mean_fully_developed"
         assert coarse[mean] == pytest.approx(fine[mean], rel=1e-3)
@@ -89,7 +97,7 @@ def test_results_do_not_depend_on_the_step(prototype: TestedCar, gentle: TestRec
 
 @pytest.mark.slow
 def test_a_car_too_weak_for_the_speed_is_told(prototype: TestedCar) -> None:
-    record = perform(straight_braking.TEST, prototype, {"speed": 250.0})
+    record = perform(standard_test("straight_braking"), prototype, {"speed": 250.0})
     assert any("250 km/h" in note for note in record.notes)
     assert all(math.isnan(m.value) and m.note for m in record.measures if "stopping" in m.name)
 
@@ -98,7 +106,7 @@ def test_a_car_that_tells_its_speed_only() -> None:
     time = np.arange(0.0, 6.0, 0.01)
     speed = np.clip(20.0 - 5.0 * (time - 1.0), 0.0, 20.0)
     result = Result(["speed"], {"speed": "m/s"}, time, speed[:, None], 0.0, 6.0, 0, [])
-    measures = {m.name: m for m in measures_of(result, 1.0, {"speed": 72.0, "pedal": 1.0})}
+    measures = {m.name: m for m in measures_of(result, 1.0)}
     assert measures["stopping_distance.corrected"].value == pytest.approx(40.0, rel=1e-4)
     assert measures["deceleration.mean_fully_developed"].value == pytest.approx(5.0, rel=1e-9)
     assert measures["deceleration.largest"].value == pytest.approx(5.0, rel=1e-9)
@@ -117,7 +125,7 @@ def test_the_deviation_is_beside_the_line_of_travel() -> None:
     names = ["speed", "chassis.x", "chassis.y", "chassis.yaw"]
     values = np.column_stack([speed, x, y, np.full_like(time, heading)])
     result = Result(names, dict.fromkeys(names, "1"), time, values, 0.0, 6.0, 0, [])
-    measures = {m.name: m.value for m in measures_of(result, 1.0, {"speed": 72.0, "pedal": 1.0})}
+    measures = {m.name: m.value for m in measures_of(result, 1.0)}
     assert measures["deviation.lateral"] == pytest.approx(0.3, abs=1e-9)
 
 
@@ -125,7 +133,7 @@ def test_a_car_that_cannot_be_started_at_speed_gathers_it(prototype: TestedCar) 
     bare, settings = replace(prototype), {"speed": 40.0, "pedal": 0.6}
     parameters = tuple(n for n in prototype.facts.parameters if n != "initial.speed")
     bare.__dict__["facts"] = replace(prototype.facts, parameters=parameters)
-    slow, fast = (values(perform(straight_braking.TEST, car, settings)) for car in (bare, prototype))
+    slow, fast = (values(perform(standard_test("straight_braking"), car, settings)) for car in (bare, prototype))
     assert slow["initial_speed"] == pytest.approx(40.0 / 3.6, abs=0.06)
     for name in ("stopping_distance.corrected", "deceleration.mean_fully_developed"):
         assert slow[name] == pytest.approx(fast[name], rel=0.02)

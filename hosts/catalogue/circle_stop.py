@@ -1,0 +1,105 @@
+"""A stop from a circle."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.driving.result import Result
+from hosts.measures.braking import locked
+from hosts.measures.turning import circle_through, off_circle, yaw_rate_on_circle
+from hosts.measures.wheels import at_wheels
+
+STEADY = 1.0  # s before the onset, over which the circle is taken
+SLOWEST = 2.0  # m/s; slower, angles of travel mean little
+
+
+@dataclass(frozen=True)
+class Stop:
+    """One stop from the circle."""
+
+    pedal: float
+    result: Result
+    onset: float
+    """First movement of the pedal, s; NaN if the car did not get there."""
+    reason: str
+    """Why the run ended."""
+
+    @property
+    def steady(self) -> NDArray[np.bool_]:
+        """Samples of the undisturbed circle, of shape (n,)."""
+        t = self.result.time
+        return np.asarray((t >= self.onset - STEADY - 1e-9) & (t <= self.onset + 1e-9))
+
+    def at(self, name: str, after: float) -> float:
+        """Value of an output a time after the onset; NaN if the run does not last so long."""
+        t, when = self.result.time, self.onset + after
+        return float(np.interp(when, t, self.result.continuous(name))) if t[-1] >= when else math.nan
+
+    def before(self, name: str) -> float:
+        """Mean of an output on the undisturbed circle."""
+        return float(self.result.continuous(name)[self.steady].mean())
+
+    @property
+    def circle(self) -> tuple[float, float, float]:
+        """Centre and radius of the undisturbed circle, m."""
+        return circle_through(self.result["chassis.x"][self.steady], self.result["chassis.y"][self.steady])
+
+    @property
+    def signed_radius(self) -> float:
+        """m; negative: to the right."""
+        return math.copysign(self.circle[2], self.before("chassis.wz"))
+
+    @property
+    def deceleration(self) -> float:
+        """Mean over the first second, m/s2."""
+        return self.before("speed") - self.at("speed", 1.0)
+
+    @property
+    def lateral_acceleration(self) -> NDArray[np.float64]:
+        """Towards the left, m/s2; speed times yaw rate where the car does not tell it."""
+        r = self.result
+        return r["chassis.ay"] if "chassis.ay" in r else r["speed"] * r["chassis.wz"]
+
+    def values(self) -> dict[str, float]:
+        """What has changed 1 s after the onset; NaN where the car stands or the run is over before."""
+        speed = self.at("speed", 1.0)
+        if math.isnan(speed) or speed < SLOWEST:
+            return {}
+        t, wanted = self.result.time, float(yaw_rate_on_circle(np.array([speed]), self.signed_radius)[0])
+        first = (t >= self.onset) & (t <= self.onset + 1.0)
+        change = np.gradient(self.result["chassis.wz"], t)[first] if first.sum() > 2 else np.full(1, math.nan)
+        yaw_rate = self.at("chassis.wz", 1.0)
+        side = math.copysign(1.0, self.signed_radius)
+        ay = float(np.interp(self.onset + 1.0, t, self.lateral_acceleration))
+        x, y = (np.array([self.at(n, 1.0)]) for n in ("chassis.x", "chassis.y"))
+        # towards the inside of the turn positive, so that left and right turns read alike
+        return {
+            "yaw_rate.ratio": yaw_rate / wanted,
+            "yaw_rate.change": side * (yaw_rate - wanted),
+            "yaw_acceleration.largest": float(side * change[np.argmax(np.abs(change))]),
+            "sideslip.change": side * (self.at("sideslip", 1.0) - self.before("sideslip")),
+            "ay.ratio": ay * self.signed_radius / speed**2,
+            "path.deviation": float(off_circle(x, y, self.circle)[0]),
+        }
+
+    @property
+    def shown(self) -> NDArray[np.bool_]:
+        """Samples that are drawn, from `STEADY` before the onset, of shape (n,)."""
+        return np.asarray(self.result.time >= self.onset - STEADY)
+
+    def over_time(self, name: str) -> NDArray[np.float64]:
+        """An output where it is drawn; a sideslip while the car is fast enough for it."""
+        values = self.result[name][self.shown]
+        return np.where(self.result["speed"][self.shown] > SLOWEST, values, math.nan) if name == "sideslip" else values
+
+    @property
+    def locks(self) -> bool | None:
+        """Whether a wheel locks; None where the car does not tell slips."""
+        slip = at_wheels(self.result, "slip")
+        if slip is None:
+            return None
+        return bool(locked(slip, self.result["speed"])[self.result.time > self.onset].any())

@@ -1,0 +1,23 @@
+"""Braking on a road whose left and right side have different friction, with the steering fixed, after ISO 14512."""
+
+from __future__ import annotations
+
+from hosts.catalogue.definition import load_test
+from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.standard.straight_braking import stop
+
+STEP = 0.005  # s; the yaw rate rises within some 0.1 s
+ROAD = "split.road"  # of every car's FMU: friction 1.0 on the left, 0.15 on the right
+
+
+def drive(sheet: Sheet) -> None:
+    """One stop, astride the line between both frictions."""
+    car = sheet.with_step_up_to(STEP, "the rise of the yaw rate")
+    run, onset, notes = stop(car, sheet.settings, {"road.file": ROAD})
+    sheet.runs["split_braking"] = run
+    sheet.notes += notes
+    sheet.progress(1.0)
+    sheet.add("stop", run=run, onset=onset)
+
+
+TEST = load_test("split_braking", drive)

@@ -1,0 +1,102 @@
+"""The functions that expressions of measures can use, by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import trapezoid
+
+from hosts.common.errors import HostError
+from hosts.common.wheels import WHEELS
+from hosts.driving.result import Result
+from hosts.measures.braking import (
+    corrected_to,
+    locked,
+    mean_fully_developed_deceleration,
+    stopping_distance,
+    time_to_reach,
+    travelled,
+)
+from hosts.measures.gradient import gradient
+from hosts.measures.impact import fall_time, first_contact, rebound, settling_time, weight_from_momentum
+from hosts.measures.vibration import largest_running_rms, vibration_dose, weighted
+from hosts.measures.wheels import at_wheels, duration, lifted_wheels
+
+
+def _wheels(result: Result, quantity: str) -> NDArray[np.float64]:
+    """A quantity of the four wheels, shape (n, 4). Raises `HostError` where a wheel lacks it."""
+    values = at_wheels(result, quantity)
+    if values is None:
+        raise HostError(f"The car does not tell wheel_{WHEELS[0]}.{quantity} and its like.")
+    return values
+
+
+def _reduced(python: Callable[..., float], numpy: Callable[[Any], Any]) -> Callable[..., float]:
+    """A function of several numbers as Python has it, or of one array; NaN of an empty one."""
+
+    def reduce(*values: Any) -> float:
+        if len(values) > 1:
+            return float(python(*values))
+        return float(numpy(values[0])) if np.size(values[0]) else math.nan
+
+    return reduce
+
+
+LIBRARY: Mapping[str, Callable[..., Any]] = {
+    "abs": np.abs,
+    "all": np.all,
+    "any": np.any,
+    "argmax": np.argmax,
+    "bool": bool,
+    "cos": math.cos,
+    "degrees": np.degrees,
+    "derivative": lambda x, time: np.gradient(x, time) if len(time) > 1 else np.zeros(1),
+    "farthest": lambda values, x: max(values, key=lambda v: abs(v - x)) if values else math.nan,
+    "fit": np.polyfit,
+    "float": float,
+    "interp": lambda x, time, values: float(np.interp(x, time, values)),
+    "isfinite": math.isfinite,
+    "isnan": math.isnan,
+    "join": ", ".join,
+    "leading": lambda flags: int(np.cumprod(flags).sum()),
+    "len": len,
+    "max": _reduced(max, np.max),
+    "maximum": np.maximum,
+    "mean": _reduced(lambda *x: sum(x) / len(x), np.mean),
+    "min": _reduced(min, np.min),
+    "range": _reduced(math.nan.__add__, np.ptp),
+    "radians": math.radians,
+    "round": round,
+    "row_at": lambda time, t: min(int(np.searchsorted(time, t)), len(time) - 1),
+    "sign": lambda x: math.copysign(1.0, x),
+    "sin": math.sin,
+    "sorted": sorted,
+    "sqrt": math.sqrt,
+    "sum": np.sum,
+    "thinned": lambda x, count: x[np.unique(np.linspace(0, max(len(x) - 1, 0), count).astype(int))] if len(x) else x,
+    # of runs
+    "corrected_to": corrected_to,
+    "duration": duration,
+    "fall_time": fall_time,
+    "first_contact": first_contact,
+    "gradient": gradient,
+    "largest_running_rms": largest_running_rms,
+    "lifted_wheels": lifted_wheels,
+    "locked": locked,
+    "mean_fully_developed_deceleration": mean_fully_developed_deceleration,
+    "rebound": rebound,
+    "settling_time": settling_time,
+    "stopping_distance": stopping_distance,
+    "time_to_reach": time_to_reach,
+    "trapezoid": trapezoid,
+    "travelled": travelled,
+    "vibration_dose": vibration_dose,
+    "weight_from_momentum": weight_from_momentum,
+    "weighted": weighted,
+    "wheels": _wheels,
+}
+"""Sizes, means and ranges of arrays of length 0 are NaN."""
