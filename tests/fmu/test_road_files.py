@@ -290,6 +290,11 @@ def test_starts_on_a_slope_and_parameters_without_effect_are_told(car: Path, hos
     sinks = float(re.search(r"above its place of rest sinks by (\S+) m\.", said)[1])
     assert sinks == pytest.approx(0.05 * 2.3, rel=0.1)  # the wheelbase
     assert "'road.friction' is 0.5, without effect" in said
+    assert "With 'initial.settling' of 3 it begins at rest" in said
+    settled = host(car)
+    text(settled, str(roads / "slope.road"))
+    settled.start({"brake": 1.0, "initial.settling": 3.0})
+    assert settled.messages == []
     driven.messages.clear()
     assert driven.set("road.kerb_height", 0.1) == OK
     assert "'road.kerb_height' was set to 0.1 m, without effect" in driven.messages[-1]
