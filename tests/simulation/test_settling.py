@@ -136,7 +136,7 @@ def test_on_a_slope_it_begins_in_balance(name):
 
 @pytest.mark.slow
 def test_with_its_front_on_a_kerb_it_begins_in_balance():
-    road = KerbRoad(-1.3, 0.1, side="after")
+    road = KerbRoad(-1.3, 0.1, upper="after")
     loads, moved, left = in_balance("hatchback", road, 5.0, brake=1.0)
     assert np.abs(loads - loads[0]).max() < 0.1
     assert abs(moved) < 1e-6
