@@ -19,6 +19,7 @@
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "ali3p.h"
+#include "check_method.h"
 #include "contact_event.h"
 #include "defect_correction.h"
 #include "energy_balance.h"
@@ -265,12 +266,11 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
 ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, double t, double h), (in, t, h))
 
 static bool projects(const ali3_instance *in) { return in->settings.project; }
-static bool always(const ali3_instance *in) { return in != NULL; }
 
 const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
-                                       .has_guides_work = always,
+                                       .has_guides_work = ali3_always,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};
