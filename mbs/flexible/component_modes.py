@@ -17,6 +17,7 @@ from mbs.flexible.modal_body import InterfaceModes
 from mbs.flexible.reduced_body import ReducedBody
 
 DEPENDENT = 1e-10  # of the mass norm: inertia modes that add nothing new are left out
+ROUND_OFF = 2e-16  # of the squared mass norm
 MOST_MODES = 10**6
 FIRST_BATCH = 20  # modes considered first when they are chosen by frequency
 
@@ -149,8 +150,13 @@ def _with_inertia_modes(fixed: FixedInterface, dynamic: np.ndarray) -> tuple[np.
     model = fixed.model
     M = model.mass_matrix()
     sag = fixed.solve(np.asarray(M @ model.rigid_motions(model.origin(fixed.reference))))
+    whole_square = np.einsum("ij,ij->j", sag, M @ sag)
     sag -= dynamic @ (dynamic.T @ (M @ sag))
-    sag /= np.sqrt(np.einsum("ij,ij->j", sag, M @ sag))
+    square = np.einsum("ij,ij->j", sag, M @ sag)
+    bends = (
+        square > ROUND_OFF * whole_square
+    )  # nothing bends a straight beam without rotary inertia that turns about it
+    sag = sag[:, bends] / np.sqrt(square[bends])
     weights, directions = np.linalg.eigh(sag.T @ (M @ sag))
     sag = sag @ directions[:, weights > DEPENDENT] / np.sqrt(weights[weights > DEPENDENT])
     basis = np.hstack([dynamic, sag])

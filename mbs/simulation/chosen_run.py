@@ -175,7 +175,7 @@ def _by(
     _warn(control, error)
     if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=4)
-    if rim := run.simulation.rim_text:
+    if rim := run.simulation.road_text:
         warnings.warn(rim, RoadWarning, stacklevel=4)
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))

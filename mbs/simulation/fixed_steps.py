@@ -117,7 +117,7 @@ def judged_run(
         jump = made and made[0].report.branch_kind == BranchKind.JUMP
         branch = made[0].branch_change if jump else found.branch if found is not None else ""
         bent = made[0].bending.once() if made else ""
-        rim = made[0].rim_text if made and found is not None else ""  # else the refusal says it
+        rim = made[0].road_text if made and found is not None else ""  # else the refusal says it
         said = ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim))
         told += [(category, text) for category, text in said if text]
     trajectory = run[0].thinned(every // often)

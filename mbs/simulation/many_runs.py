@@ -165,7 +165,7 @@ class _Run:
             if run.accuracy is not None and run.accuracy.message:
                 told.append((AccuracyWarning, run.accuracy.message))
             return told
-        bent, rim = self.simulation.bending.message, self.simulation.rim_text
+        bent, rim = self.simulation.bending.message, self.simulation.road_text
         return told + [(kind, text) for kind, text in ((BendingWarning, bent), (RoadWarning, rim)) if text]
 
     def _told(self, run: Trajectory) -> Told:
@@ -177,7 +177,7 @@ class _Run:
             told += [(AccuracyWarning, text) for text in (report.coarse_text, report.quick_text) if text]
         told += [(BranchWarning, run.branch_change)] if run.branch_change else []
         told += [(BendingWarning, self.simulation.bending.message)] if self.simulation.bending.message else []
-        wall = self.simulation.rim_text
+        wall = self.simulation.road_text
         told += [(RoadWarning, wall)] if wall else []
         return told
 

@@ -10,6 +10,8 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.system_instance import SystemInstance
 from mbs.system.system import System
 
+UNEVEN = 1e-3  # m: of a start on a road that is not level, as an FMU says it
+
 
 class SteppedSystem(SystemInstance):
     """An instance of the kernel, and what runs and error messages read of it.
@@ -38,10 +40,20 @@ class SteppedSystem(SystemInstance):
         return self.instance.branch_text()
 
     @property
-    def rim_text(self) -> str:
-        """A sentence about the wheel that was pressed deepest into a road; empty where none was."""
+    def road_text(self) -> str:
+        """A sentence about the wheel that was pressed deepest into a road, or about a start on a road that is not
+        level; empty where there is nothing to say."""
         element, text = self.instance.rim_text()
-        return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'." if text else ""
+        if text:
+            return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'."
+        lift, uneven = self.instance.start_lift()
+        if not uneven > UNEVEN:
+            return ""
+        return (
+            f"The road is not level where this starts: the start is raised by {lift:.3g} m so that nothing is in the "
+            f"road, and the part that hangs highest above its place of rest sinks by {uneven:.3g} m. With "
+            "Simulation.settle(3.0, h) before the first step it begins at rest in the road, or in its motion along it."
+        )
 
     def change_settings(self, settings: Settings) -> None:
         """Solve the steps from now on in another way."""

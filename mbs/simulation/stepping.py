@@ -288,7 +288,8 @@ class Simulation(SteppedSystem):
         """Hold the horizontal motion of a start while roll, tyres, springs and steering settle, time unchanged.
 
         After each step the scene is put back as a whole: place along the ground and horizontal velocity of its heaviest
-        point, heading and yaw rate of its heaviest direction stay. Works are counted from here on, as in an FMU with
+        point, heading and yaw rate of its heaviest direction stay, on a slope along the slope. A scene that hangs above
+        its road is lowered to it first. Works are counted from here on, as in an FMU with
         `initial.settling`.
 
         Parameters
@@ -478,7 +479,7 @@ class Simulation(SteppedSystem):
 
     def _warn_once(self) -> None:
         """The part of `simulate`'s check that costs nothing."""
-        if not self._rim_told and (told := self.rim_text):
+        if not self._rim_told and (told := self.road_text):
             self._rim_told = True
             warnings.warn(told, RoadWarning, stacklevel=3)
         if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:

@@ -172,6 +172,20 @@ def test_inertia_modes_leave_only_what_moves_fast_to_the_dynamic_modes() -> None
     assert set(range(3)) <= set(fast), "modes below the frequency that matters are never left out"
 
 
+def test_a_straight_beam_without_rotary_inertia_has_no_inertia_mode_about_its_axis() -> None:
+    """Five are left of six, and the weight and steady accelerations bend it exactly."""
+    model = straight(8).finite_element_model(rotary=False)
+    body = craig_bampton(model, 0, [Interface(8, rotations=True)], 0, inertia_modes=True)
+    assert body.n_modes - body.n_static == 5
+    load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(0)))
+    held = np.r_[:6, 48:54]
+    free = np.setdiff1d(np.arange(model.n_dof), held)
+    exact = spsolve(sp.csc_matrix(model.K[free][:, free]), load[free])
+    shapes = body.modes[free, body.n_static :]
+    found = shapes @ np.linalg.solve(body.K[body.n_static :, body.n_static :], shapes.T @ load[free])
+    assert np.abs(found - exact).max() < 1e-9 * np.abs(exact).max()
+
+
 def _largest(model: FiniteElementModel, rows: sp.sparray) -> float:
     exact = craig_bampton(model, REFERENCE, INTERFACES, 0, inertia_modes=True)
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)))

@@ -121,7 +121,8 @@ def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(
     assert not [m for m in driven.messages if "rests on its body" in m]
     simulation = mbs.Simulation(mbs.compile(prototype_car.build()), parameters={"road.file": road})
     assert simulation.sensors["chassis.ground_force"] == driven.get("chassis.ground_force")
-    assert simulation.run(0.02, 0.002, progress=False).notices == ()
+    with pytest.warns(RoadWarning, match=r"raised by 0\.\d+ m .* Simulation.settle"):
+        assert simulation.run(0.02, 0.002, progress=False).notices == ()
 
 
 @pytest.mark.parametrize("name", sorted(path.name for path in FOLDER.glob("*.road")))
@@ -290,6 +291,11 @@ def test_starts_on_a_slope_and_parameters_without_effect_are_told(car: Path, hos
     sinks = float(re.search(r"above its place of rest sinks by (\S+) m\.", said)[1])
     assert sinks == pytest.approx(0.05 * 2.3, rel=0.1)  # the wheelbase
     assert "'road.friction' is 0.5, without effect" in said
+    assert "With 'initial.settling' of 3 it begins at rest" in said
+    settled = host(car)
+    text(settled, str(roads / "slope.road"))
+    settled.start({"brake": 1.0, "initial.settling": 3.0})
+    assert settled.messages == []
     driven.messages.clear()
     assert driven.set("road.kerb_height", 0.1) == OK
     assert "'road.kerb_height' was set to 0.1 m, without effect" in driven.messages[-1]

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 import mbs
+from mbs.elements import KerbRoad, PlaneRoad
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.results.simulation_error import SimulationError
 from mbs.scenes import double_four_bar
+from mbs.vehicle import car_names, load
 
-H = 0.005
+H, G = 0.005, 9.81
 POSE = mbs.Pose(speed=15.0, lateral_speed=0.2, yaw_rate=0.4)
 
 
@@ -89,3 +92,53 @@ def test_after_a_step_that_fails_the_state_is_the_one_before(car: mbs.System) ->
         run.settle(1.0, 0.5)
     assert run.save() == before
     run.step(1e-4)
+
+
+def in_balance(name, road, duration, brake=0.0, **pose):
+    """A car that settles on a road: the loads of its wheels then, after 10 ms and after a second, N, shape (3, 4), how
+    far it has moved along x, m, and the speed that settling left, m/s."""
+    system = mbs.compile(load(name).model(road))
+    known = {entry["name"] for entry in system.meta["inputs"]}
+    inputs = {name: value for name, value in {"brake": brake, "selector": 0.0}.items() if name in known}
+    run = mbs.Simulation(system, inputs=inputs, pose=mbs.Pose(z=1.7, **pose))
+    left = run.settle(duration, 0.002)
+    loads, before = [], run.sensors["chassis.x"]
+    for steps in (0, 5, 495):
+        if steps:
+            run.step(0.002, steps)
+        loads.append([run.sensors[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")])
+    return np.array(loads), run.sensors["chassis.x"] - before, left
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", car_names())
+def test_on_a_slope_it_begins_in_balance(name):
+    """Parked along and across slopes the loads stay for a second; let go or driven it begins without a jump of them;
+    in all of these the wheels carry the part of the weight across the road."""
+    weight = in_balance(name, PlaneRoad(), 10.0, brake=1.0)[0][0].sum()
+    for way in ("grade_x", "grade_y"):
+        for degrees, duration in ((10.0, 5.0), (30.0, 10.0)):
+            slope = math.radians(degrees)
+            road, across = PlaneRoad(**{way: math.tan(slope)}, friction=1.0), weight * math.cos(slope)
+            loads, moved, left = in_balance(name, road, duration, brake=1.0)
+            assert loads.sum(axis=1) == pytest.approx(across, rel=1e-3), (way, degrees)
+            assert np.abs(loads - loads[0]).max() < 1e-3 * weight, (way, degrees)
+            assert abs(moved) < 2e-3, (way, degrees)
+            assert left < 1e-4, (way, degrees)
+        road, across = PlaneRoad(**{way: math.tan(0.15)}, friction=1.0), weight * math.cos(0.15)
+        for speed in (0.0, 15.0):
+            loads, moved, _ = in_balance(name, road, 5.0, speed=speed)
+            assert loads[0].sum() == pytest.approx(across, rel=2e-3), (way, speed)
+            assert np.abs(loads[1] - loads[0]).max() < 1e-4 * weight, (way, speed)
+            if (way, speed) == ("grade_x", 0.0):  # wheels and gears turn with it
+                assert -0.5 * G * math.sin(0.15) * math.cos(0.15) < moved < -0.35 * G * math.sin(0.15), speed
+
+
+@pytest.mark.slow
+def test_with_its_front_on_a_kerb_it_begins_in_balance():
+    road = KerbRoad(-1.3, 0.1, upper="after")
+    loads, moved, left = in_balance("hatchback", road, 5.0, brake=1.0)
+    assert np.abs(loads - loads[0]).max() < 0.1
+    assert abs(moved) < 1e-6
+    assert left < 1e-5
+    assert loads[0].sum() == pytest.approx(in_balance("hatchback", PlaneRoad(), 5.0, brake=1.0)[0][0].sum(), rel=1e-3)

@@ -100,7 +100,8 @@ void slave_texts_remark(slave *s) {
   if (uneven > 1e-3)
     slave_say(s, SLAVE_WARNING,
               "The road is not level where this starts: the start is raised by %.3g m so that nothing is in the road, "
-              "and the part that hangs highest above its place of rest sinks by %.3g m.",
+              "and the part that hangs highest above its place of rest sinks by %.3g m. With 'initial.settling' of 3 "
+              "it begins at rest in the road, or in its motion along it.",
               lift, uneven);
   if (ali3_unsettled(s->fidelity.kernel) > STILL)
     slave_say(s, SLAVE_WARNING,

@@ -179,6 +179,11 @@ class Instance(StandingInstance):
         self._start(self._library.ali3_settle(self._handle, duration, h))
         return float(self._library.ali3_unsettled(self._handle))
 
+    def start_lift(self) -> tuple[float, float]:
+        """How far the start was raised onto the road of a file, m, and how far the highest part hangs above it, m."""
+        uneven = c_double()
+        return float(self._library.ali3_start_lift(self._handle, byref(uneven))), uneven.value
+
     def start_excess(self) -> tuple[float, int, str]:
         """Why a start was refused with `START_REFUSED`.
 

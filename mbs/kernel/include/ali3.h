@@ -295,8 +295,8 @@ ALI3_API double ali3_unsettled(const ali3_instance *in);
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
 /* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: how much the last
- * start was raised for that, m; *uneven: how far the part that is highest above its place of rest has to sink, m; NULL:
- * not asked for. */
+ * start was raised for that, m; *uneven: how far the part that is highest above its place of rest has to sink, m, 0
+ * after ali3_settle; NULL: not asked for. */
 ALI3_API double ali3_start_lift(const ali3_instance *in, double *uneven);
 /* What is no force in the System: 1e-6 of the largest force of gravity on a coordinate, N. */
 ALI3_API double ali3_no_force(const ali3_instance *in);

@@ -100,6 +100,8 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   ali3_status status = ali3_check_method(in);
   if (status != ALI3_OK || !(steps > 0.0)) return status;
   if (!(steps <= MOST_SETTLING_STEPS) || !ali3_hold(in, &held)) return ALI3_BAD_ARGUMENT;
+  if (ali3_lower_to_road(in)) status = ali3_refresh(in);
+  ali3_follow_slope(in, &held);
   h = duration / steps;
   in->t_base = t0 - steps * h;
   in->h_last = 0.0;
@@ -108,7 +110,7 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
     status = ali3_step(in, h);
     if (status != ALI3_OK) break;
     if (in->work_left != NULL) *in->work_left -= ALI3_SETTLING_WORK;
-    ali3_put_back(in, &held);
+    ali3_put_back(in, &held, ali3_kept_velocity(&held, h, (double)k / steps));
     status = ali3_refresh(in);
   }
   if (status != ALI3_OK) {
@@ -118,6 +120,7 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   const ali3_report none = {0};
   in->report = none;
   in->unsettled = ali3_unsettled_speed(in, &held);
+  in->uneven = 0.0; /* what hung above the road has come to rest */
   ali3_vectors_copy(in, &in->start, &in->now);
   status = begin(in, ali3_solve_rates(in, true), t0);
   in->initialised = status == ALI3_OK;

@@ -13,6 +13,7 @@ static const double VELOCITY_TOLERANCE = 1e-12, ACCELERATION_TOLERANCE = 1e-9;
 /* A tangent serves the next iteration too where rows are open by at most so many m/s2 (or so) times h^2, no more than at
  * 10 ms, and the last one left at most so much of the residual. What is left open is an error of the multipliers where
  * a row loses its lever. */
+static const double CLOSES = 0.5; /* of the violation before: rows that stay above it close no further */
 static const double KEPT_VIOLATION = 2e-5, KEPT_RESIDUAL = 0.3;
 
 /* Where the last iteration left less than the one before, rates of signals change by less than REACH residuals times 2/h

@@ -19,6 +19,7 @@
 #include "../state/vectors.h"
 #include "../state/work.h"
 #include "ali3p.h"
+#include "check_method.h"
 #include "contact_event.h"
 #include "defect_correction.h"
 #include "energy_balance.h"
@@ -137,7 +138,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
   const int64_t most = limited && share < any ? share : any;
   bool kept = false, mixes = false;
   const double fine = in->system->fine;
-  double before = HUGE_VAL;
+  double before = HUGE_VAL, open = HUGE_VAL;
   evaluate(in, h, true);
   in->report.last_iterations = 0;
   while (in->report.last_iterations < most) {
@@ -151,9 +152,13 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
       for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
     if (!judge(in)) return ALI3_NOT_FINITE;
-    if (in->report.residual <= fine * settings->tolerance_r &&
-        ali3_closed(in->system, in->Phi, fine * settings->tolerance_phi))
-      return ALI3_OK;
+    if (in->report.residual <= fine * settings->tolerance_r) {
+      if (ali3_closed(in->system, in->Phi, fine * settings->tolerance_phi)) return ALI3_OK;
+      if (in->report.violation > CLOSES * open && /* far from the drawing no iteration closes rows further */
+          ali3_closed_here(in->system, in->Phi, in->next.q, fine * settings->tolerance_phi))
+        return ALI3_OK;
+    }
+    open = in->report.violation;
     kept = settings->update == ALI3_UPDATE_LINEARISED &&
            in->report.violation <= KEPT_VIOLATION * fmin(h * h, 1e-4 * fine) &&
            in->report.residual <= KEPT_RESIDUAL * before; /* (16) converges too slowly for more */
@@ -261,12 +266,11 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
 ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, double t, double h), (in, t, h))
 
 static bool projects(const ali3_instance *in) { return in->settings.project; }
-static bool always(const ali3_instance *in) { return in != NULL; }
 
 const ali3_method ali3_method_ali3p = {.step = ali3_augmented_lagrangian,
                                        .motion = ali3_balance_step,
                                        .has_balance = projects,
-                                       .has_guides_work = always,
+                                       .has_guides_work = ali3_always,
                                        .owner = ALI3_METHOD_ALI3P,
                                        .fills = true,
                                        .round_off = ALI3_ROUND_OFF_INDEX_3};

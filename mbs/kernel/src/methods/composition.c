@@ -44,6 +44,7 @@ static ali3_status takes(const ali3_instance *in) {
 const ali3_method ali3_method_energy_momentum_4 = {.step = step,
                                                    .before = before,
                                                    .motion = motion,
+                                                   .has_guides_work = ali3_always,
                                                    .takes = takes,
                                                    .excludes =
                                                        ALI3_STATES_IN_WORDS ", no tabled bodies, and no damping",

@@ -23,6 +23,7 @@
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "check_method.h"
 #include "energy_balance.h"
 #include "energy_momentum.h"
 #include "history.h"
@@ -267,6 +268,16 @@ static void clean(ali3_instance *in, double weight, double *lam) {
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
 
+/* The kinetic energy of the carried velocity changes by D'(Q - A' lam): of that what driven rows give, the force of the
+ * step along its own travel. */
+static double work_of_drives(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double work = 0.0;
+  ali3_rows_times(S, in->A, in->D, in->mu);
+  for (int32_t i = 0; i < S->n_driven; i++) work -= in->next.lam[S->driven_row[i]] * in->mu[S->driven_row[i]];
+  return work;
+}
+
 /* Energy bounds what the carried velocity has off the rows, but not in coordinates without mass, which flexible bodies
  * have many of: there it changes sign with every step and grows with the rate at which they turn. These Systems carry
  * the reported velocity. Not in a composition, whose steps must be symmetric. */
@@ -301,6 +312,7 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   ALI3_EACH(0, nq, ALI3_AT(own) = twice * ALI3_AT(D) - ALI3_AT(before);
             ALI3_AT(d0) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(before)) / square)
   ali3_work_step(in, 1.0);
+  if (S->n_guide_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
   ali3_predict_rates(in, h);
   clean(in, weight, to->lam);
   ali3_history_append(in, h, in->d0);
@@ -349,6 +361,7 @@ const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .excludes = "no tabled bodies",
                                                  .before = ali3_energy_momentum_restart,
                                                  .motion = motion,
+                                                 .has_guides_work = ali3_always,
                                                  .after_unobserved = ali3_energy_momentum_report,
                                                  .owner = ALI3_METHOD_ENERGY_MOMENTUM,
                                                  .round_off = ALI3_ROUND_OFF_INDEX_3};

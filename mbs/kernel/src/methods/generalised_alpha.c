@@ -7,6 +7,10 @@
 #include "history.h"
 
 enum { DAMPED_STEPS = 6 };
+/* What damped steps leave of the velocity, in h (qdd - own) of the last one, for smooth accelerations of rate j: the
+ * first is off by h^2 j / 2 as it has one acceleration, and its `own` by h j, which halves in each step: its share of the
+ * velocity is off by h^2 j (1/4 + 1/8 + ... + 1/64), and qdd - own is h j (1 - 1/16). */
+static const double LEFT_BEHIND = (0.5 + 31.0 / 64.0) / (15.0 / 16.0);
 static const double UNRESOLVED = 2.0; /* step times frequency of a mode, rad */
 
 /* Generalised-alpha of Chung and Hulbert in the form of Arnold and Bruels: an algorithmic acceleration a (in->now.own)
@@ -55,11 +59,13 @@ void ali3_alpha_rule(ali3_instance *in, double h) {
     }
     return;
   }
+  const bool last = ali3_damped_start(in, h) && in->report.steps == DAMPED_STEPS - 1;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double known = h * from->qd[i] + (0.5 - x.beta) * h * h * from->own[i];
     in->d0[i] = known - c * (x.am * from->own[i] - x.af * from->qdd[i]) / (1.0 - x.af);
     in->hat[i] = from->qd[i] + (1.0 - x.gamma) * h * from->own[i] -
                  x.gamma / x.beta * (from->qd[i] + (0.5 - x.beta) * h * from->own[i]);
+    if (last) in->hat[i] -= LEFT_BEHIND * h * (from->qdd[i] - from->own[i]);
   }
 }
 

@@ -321,6 +321,21 @@ static ali3_status inputs(ali3_instance *in) {
   return status;
 }
 
+/* Of driven rows, the force of each stage along its own velocity, which need not be on the rows. Ends with the last one. */
+static double work_of_drives(ali3_instance *in, double t, double h) {
+  const ali3_system *S = in->system;
+  double work = 0.0;
+  for (int i = 0; i < STAGES; i++) {
+    const double *lam = of_rows(in, in->stage_lam, i);
+    place(in, t, h, i);
+    ali3_rows_times(S, of_entries(in, in->stage_J, i), in->next.qd, in->mu);
+    for (int32_t k = 0; k < S->n_driven; k++)
+      work -= h * first[LAST][i] * lam[S->driven_row[k]] * in->mu[S->driven_row[k]];
+  }
+  in->force_input = in->input;
+  return work;
+}
+
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
 static ali3_status step(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
@@ -336,6 +351,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  if (S->n_guide_work > 0) ali3_guides_work(in, to, work_of_drives(in, t, h));
   memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
   memcpy(to->lam, of_rows(in, in->stage_lam, LAST), (size_t)S->size.nc * sizeof(double));
   for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * first[LAST][i], power_of(in, i), to->work);
@@ -357,6 +373,7 @@ static ali3_status takes(const ali3_instance *in) {
 
 const ali3_method ali3_method_radau_5 = {.step = step,
                                          .motion = ali3_balance_long_step,
+                                         .has_guides_work = ali3_always,
                                          .takes = takes,
                                          .excludes =
                                              ALI3_STATES_IN_WORDS ", no tabled bodies, and no rolling without slip",

@@ -111,6 +111,8 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
   double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->stage, in->r) : 0.0;
   ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
+  const bool guides = S->n_guide_work > 0;
+  double drives = guides ? h * ali3_order_8.weight[0] * ali3_guides_power(in, to) : 0.0;
   for (int stage = 1; stage < STAGES && status == ALI3_OK; stage++) {
     combine(in, h, ali3_order_8.node[stage], ali3_order_8.stage_weight[stage], stage);
     ali3_guides_time(in, to, t - (1.0 - ali3_order_8.node[stage]) * h);
@@ -118,6 +120,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
     if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
     ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watched, to->work);
+    if (guides) drives += h * ali3_order_8.weight[stage] * ali3_guides_power(in, to);
     if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
     memcpy(in->stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
@@ -135,6 +138,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
+  ali3_guides_work(in, to, drives);
   to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
   for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
@@ -147,6 +151,7 @@ static bool has_balance(const ali3_instance *in) { return in->system->n_flexible
 const ali3_method ali3_method_runge_kutta_8 = {.step = step,
                                                .motion = ali3_balance_long_step,
                                                .has_balance = has_balance,
+                                               .has_guides_work = ali3_always,
                                                .takes = ali3_needs_no_states,
                                                .excludes = ALI3_STATES_IN_WORDS,
                                                .owner = ALI3_METHOD_RUNGE_KUTTA_8,

@@ -1,7 +1,8 @@
 /* A start in motion, held until what nobody sets has settled: roll and pitch, springs, tyres, steering, the speed of
  * wheels under brakes. The scene makes steps; after each it is put back as a whole to the start: place along the
- * ground and horizontal velocity of its heaviest point, heading and yaw rate of its heaviest direction. Only a motion as
- * one rigid body is taken away, so that every part feels the accelerations that the forces give it. */
+ * ground and horizontal velocity of its heaviest point, heading and yaw rate of its heaviest direction. On a slope it
+ * comes back along the slope: what touches the road stays as deep as it was. Only a motion as one rigid body is taken
+ * away, so that every part feels the accelerations that the forces give it. */
 #include "settle.h"
 
 #include <math.h>
@@ -10,6 +11,10 @@
 #include "../elements/signal.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
+#include "start_on_road.h"
+
+static const double SLIDING = 50.0; /* 1/s */
+static const double HELD_FROM = 0.7; /* of the settling */
 
 /* M_ii of the bodies prepared. */
 static double mass_of(ali3_instance *in, int32_t i) {
@@ -78,11 +83,21 @@ double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *star
   return start->direction[0] * now.direction[1] - start->direction[1] * now.direction[0];
 }
 
-void ali3_put_back(ali3_instance *in, const ali3_held_motion *start) {
+/* What stands slides until the deflections of its tyres hold it: with no velocity left after a step that would take
+ * 2 m / (k h), with this damping 2 / SLIDING, mass m and stiffness k being those of cars. Then it is held. */
+double ali3_kept_velocity(const ali3_held_motion *held, double h, double done) {
+  const bool stands = held->velocity[0] == 0.0 && held->velocity[1] == 0.0 && held->rate == 0.0;
+  return stands && done < HELD_FROM ? 1.0 / (1.0 + SLIDING * h) : 0.0;
+}
+
+void ali3_put_back(ali3_instance *in, const ali3_held_motion *start, double kept) {
   const ali3_system *S = in->system;
   double *q = in->now.q, *qd = in->now.qd;
   ali3_held_motion now = *start;
+  double spread;
+  const double slope[2] = {ali3_climb(in, S->pose_x, in->x, &spread), ali3_climb(in, S->pose_y, in->x, &spread)};
   look(in, &now);
+  const double rise = slope[0] * (start->place[0] - now.place[0]) + slope[1] * (start->place[1] - now.place[1]);
   shift(S, q, -now.place[0], -now.place[1], q);
   const double c = now.direction[0] * start->direction[0] + now.direction[1] * start->direction[1];
   const double s = now.direction[0] * start->direction[1] - now.direction[1] * start->direction[0];
@@ -90,21 +105,41 @@ void ali3_put_back(ali3_instance *in, const ali3_held_motion *start) {
   turn(in, c, s, true, qd);
   look(in, &now);
   for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = ali3_turned(S, i, q, false);
-  const double rate = start->rate - now.rate;
-  const double vx = start->velocity[0] - now.velocity[0], vy = start->velocity[1] - now.velocity[1];
-  for (int32_t i = 0; i < S->size.nq; i++) qd[i] += rate * in->w[i] + vx * S->pose_x[i] + vy * S->pose_y[i];
+  const double rate = (1.0 - kept) * (start->rate - now.rate);
+  const double vx = (1.0 - kept) * (start->velocity[0] - now.velocity[0]);
+  const double vy = (1.0 - kept) * (start->velocity[1] - now.velocity[1]);
+  const double vz = slope[0] * vx + slope[1] * vy;
+  for (int32_t i = 0; i < S->size.nq; i++)
+    qd[i] += rate * in->w[i] + vx * S->pose_x[i] + vy * S->pose_y[i] + vz * S->pose_z[i];
   shift(S, q, start->place[0], start->place[1], q);
+  for (int32_t i = 0; i < S->size.nq; i++) q[i] += rise * S->pose_z[i];
 }
 
-double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *held) {
+/* The held motion, level, in in->w; how fast the road rises under it. */
+static double held_climb(ali3_instance *in, const ali3_held_motion *held, double *spread) {
   const ali3_system *S = in->system;
-  const double *qd = in->now.qd, rate = held->rate;
-  double most = 0.0;
-  shift(S, in->now.q, -held->place[0], -held->place[1], in->w);
+  shift(S, in->now.q, -held->place[0], -held->place[1], in->x);
+  for (int32_t i = 0; i < S->size.nq; i++) {
+    const double along = held->velocity[0] * S->pose_x[i] + held->velocity[1] * S->pose_y[i];
+    in->w[i] = held->rate * ali3_turned(S, i, in->x, false) + along;
+  }
+  return ali3_climb(in, in->w, in->x, spread);
+}
+
+void ali3_follow_slope(ali3_instance *in, const ali3_held_motion *held) {
+  double spread;
+  const double climb = held_climb(in, held, &spread);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->now.qd[i] += climb * in->system->pose_z[i];
+}
+
+double ali3_unsettled_speed(ali3_instance *in, const ali3_held_motion *held) {
+  const ali3_system *S = in->system;
+  double spread;
+  const double climb = held_climb(in, held, &spread);
+  double most = spread;
   for (int32_t i = 0; i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0 && S->pose_z[i] == 0.0) continue; /* wheels turn */
-    const double along = held->velocity[0] * S->pose_x[i] + held->velocity[1] * S->pose_y[i];
-    most = fmax(most, fabs(qd[i] - rate * ali3_turned(S, i, in->w, false) - along));
+    most = fmax(most, fabs(in->now.qd[i] - in->w[i] - climb * S->pose_z[i]));
   }
   return most;
 }

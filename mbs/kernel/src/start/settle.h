@@ -11,6 +11,10 @@ typedef struct {
 
 bool ali3_hold(ali3_instance *in, ali3_held_motion *held); /* false: no body has a point and a direction of its own */
 double ali3_heading_change(const ali3_instance *in, const ali3_held_motion *held); /* sine of the angle to the left */
-void ali3_put_back(ali3_instance *in, const ali3_held_motion *held);
-double ali3_unsettled_speed(const ali3_instance *in, const ali3_held_motion *held); /* m/s beside the held motion */
+void ali3_follow_slope(ali3_instance *in, const ali3_held_motion *held); /* the velocity of a start: along the road */
+/* `kept`: the share of the velocity beside the held one that stays. */
+void ali3_put_back(ali3_instance *in, const ali3_held_motion *held, double kept);
+double ali3_kept_velocity(const ali3_held_motion *held, double h, double done); /* done: share of the settling */
+/* m/s beside the held motion, or at which the road comes to parts unevenly in it */
+double ali3_unsettled_speed(ali3_instance *in, const ali3_held_motion *held);
 #endif

@@ -12,6 +12,8 @@
 #include "initialise.h"
 
 static const double LEVEL = 1e-10; /* m: a height that needs no lift, and the error of one */
+static const double TOUCHING = 1e-6; /* m: depth of what is lowered */
+static const double WAY = 0.01; /* m, along which a slope is measured */
 enum { MOST_MOVES = 100 };
 
 /* Depth of element e at q, raised; its signals are those of `roads`. */
@@ -37,11 +39,16 @@ static bool drawn_depths(ali3_instance *in) {
   return touching;
 }
 
-/* The rise from `from` on at which element e is as deep as `wanted`. */
-static double rise_of(const ali3_instance *in, int32_t e, double from, double wanted) {
+static double depth_now(const ali3_instance *in, int32_t e) {
+  double part;
+  return in->system->el_kind[e]->depth != NULL ? depth(in, in->road, in->now.q, e, 0.0, &part) : -INFINITY;
+}
+
+/* The rise from `from` on at which element e at q is as deep as `wanted`. */
+static double rise_of(const ali3_instance *in, const double *q, int32_t e, double from, double wanted) {
   double rise = from, part = 1.0;
   for (int k = 0; k < MOST_MOVES; k++) {
-    const double excess = depth(in, in->road, in->now.q, e, rise, &part) - wanted;
+    const double excess = depth(in, in->road, q, e, rise, &part) - wanted;
     if (!(fabs(excess) > LEVEL)) break;
     rise += excess * part;
   }
@@ -56,12 +63,12 @@ void ali3_start_on_road(ali3_instance *in) {
   const bool touching = drawn_depths(in);
   for (int32_t e = 0; e < S->size.ne; e++)
     if (S->el_kind[e]->depth != NULL && (!touching || in->potential_work[e] > 0.0))
-      lift = fmax(lift, rise_of(in, e, 0.0, in->potential_work[e]));
+      lift = fmax(lift, rise_of(in, in->now.q, e, 0.0, in->potential_work[e]));
   if (!(lift > -INFINITY)) return; /* nothing meets a road */
   for (int32_t e = 0; e < S->size.ne && touching; e++) {
     if (S->el_kind[e]->depth == NULL) continue;
     if (in->potential_work[e] <= 0.0 && depth(in, in->road, in->now.q, e, lift, &part) > 0.0)
-      lift = fmax(lift, rise_of(in, e, lift, 0.0));
+      lift = fmax(lift, rise_of(in, in->now.q, e, lift, 0.0));
   }
   for (int32_t e = 0; e < S->size.ne && touching; e++)
     if (S->el_kind[e]->depth != NULL && in->potential_work[e] > 0.0)
@@ -71,13 +78,45 @@ void ali3_start_on_road(ali3_instance *in) {
   for (int32_t i = 0; i < S->size.nq; i++) in->now.q[i] += lift * S->pose_z[i];
 }
 
+bool ali3_lower_to_road(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double rise = -INFINITY;
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    if (S->el_kind[e]->depth == NULL) continue;
+    if (depth_now(in, e) > 0.0) return false;
+    rise = fmax(rise, rise_of(in, in->now.q, e, 0.0, TOUCHING));
+  }
+  if (!(rise > -INFINITY)) return false; /* nothing meets a road */
+  for (int32_t i = 0; i < S->size.nq; i++) in->now.q[i] += rise * S->pose_z[i];
+  return true;
+}
+
+double ali3_climb(const ali3_instance *in, const double *rate, double *q, double *spread) {
+  const ali3_system *S = in->system;
+  double fastest = 0.0, sum = 0.0, least = INFINITY, most = -INFINITY;
+  int32_t touching = 0;
+  *spread = 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++) fastest = fmax(fastest, fabs(rate[i]));
+  if (!(fastest > 0.0)) return 0.0;
+  for (int32_t i = 0; i < S->size.nq; i++) q[i] = in->now.q[i] + WAY / fastest * rate[i];
+  for (int32_t e = 0; e < S->size.ne; e++) {
+    const double deep = depth_now(in, e);
+    if (!(deep > 0.0)) continue;
+    const double rise = fastest / WAY * rise_of(in, q, e, 0.0, deep);
+    sum += rise, least = fmin(least, rise), most = fmax(most, rise);
+    touching++;
+  }
+  if (touching == 0) return 0.0;
+  *spread = most - least;
+  return sum / touching;
+}
+
 double ali3_start_lift(const ali3_instance *in, double *uneven) {
   if (uneven != NULL) *uneven = in != NULL ? in->uneven : 0.0;
   return in != NULL ? in->lift : 0.0;
 }
 
 void ali3_contacts(const ali3_instance *in, unsigned char *touching) {
-  double part;
   for (int32_t e = 0; in != NULL && touching != NULL && e < in->system->size.ne; e++)
-    touching[e] = in->system->el_kind[e]->depth != NULL && depth(in, in->road, in->now.q, e, 0.0, &part) > 0.0;
+    touching[e] = depth_now(in, e) > 0.0;
 }

@@ -159,6 +159,6 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));
   memset(in->now.qd, 0, (size_t)S->size.nq * sizeof(double));
   const double turned = floats ? fabs(ali3_heading_change(in, &drawn)) : 0.0;
-  if (turned > TURNED && turned < HELD) ali3_put_back(in, &drawn);
+  if (turned > TURNED && turned < HELD) ali3_put_back(in, &drawn, 0.0);
   return ali3_solve_rates(in, true);
 }

@@ -5,7 +5,8 @@
  * where f is a discrete gradient. Runge-Kutta and collocation: sum of h b_i P_i over the stages.
  *
  * The work of guides is behind that of the elements: with the energy balance of ALi3-P and generalised-alpha
- * (../methods/constraint_work.c), by other methods as the mean of the powers at both ends of a step. */
+ * (../methods/constraint_work.c), by the force of driven rows along their own way with energy-momentum and Radau, by
+ * the powers of the stages with Runge-Kutta, and in relative coordinates as the mean of the powers at both ends. */
 #include <string.h>
 
 #include "../algebra/processor.h"
