@@ -166,9 +166,7 @@ def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
             cells.append(_value_cell(measure, found[0] if k else None, known, "" if shared else measure.note))
     limit = known.limit
     cells.append(
-        ""
-        if limit is None
-        else element("td", limit.words(unit_shown(known.unit)), element("small", limit.source))
+        "" if limit is None else element("td", limit.words(unit_shown(known.unit)), element("small", limit.source))
     )
     return cells
 
