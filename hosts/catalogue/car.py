@@ -15,9 +15,8 @@ from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.result import Result
 from hosts.driving.run_checks import communication_step
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.variables import default_step
 
 __all__ = ["CarFacts", "Pilot", "TestedCar"]
@@ -87,8 +86,7 @@ class TestedCar:
             If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range;
             or an output is no number.
         """
-        with Fmu(self.path) as opened:
-            fmu = AliasedFmu(opened, self.aliases)
+        with FmuSource(self.path, self.aliases).opened() as fmu:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
@@ -102,8 +100,7 @@ class TestedCar:
     @cached_property
     def facts(self) -> CarFacts:
         """What the FMU tells of its car; it is loaded once."""
-        with Fmu(self.path) as opened:
-            fmu = AliasedFmu(opened, self.aliases)
+        with FmuSource(self.path, self.aliases).opened() as fmu:
             return CarFacts(
                 tuple(fmu.names("input")),
                 tuple(fmu.names("output")),

@@ -38,7 +38,7 @@ def perform(options: argparse.Namespace) -> int:
         print(f"note: {note}", flush=True)
     long = sum(s.end for s in task.stretches) > _WORTH_PROCESSES
     jobs = (available_cores() if long else 1) if options.jobs is None else options.jobs
-    with Replay(options.fmu, task.aliases, task.stretches, task.step, jobs) as replay:
+    with Replay(task.fmu, task.stretches, task.step, jobs) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
         if task.windowed:
@@ -110,7 +110,7 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
         print(f"note: {note}", flush=True)
     compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
     opposite = turned_signals(compared)
-    cause = turned_input(options.fmu, task, compared, opposite)
+    cause = turned_input(task, compared, opposite)
     told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
     right = consistent(task.echo)  # a factor in one of these would break what holds among them
     odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in told.items() if n not in right]

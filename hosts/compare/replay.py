@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +19,8 @@ from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
 from hosts.experiment.pool import Pool
-from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import StartRefusedError
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.own_process import files_of
 
 
@@ -93,8 +92,6 @@ class Replay(Closing):
 
     Parameters
     ----------
-    aliases : Aliases
-        Our names for its variables.
     step : float
         Communication step, s.
     stretches : sequence of Stretch
@@ -112,15 +109,14 @@ class Replay(Closing):
 
     def __init__(
         self,
-        path: Path,
-        aliases: Aliases,
+        fmu: FmuSource,
         stretches: Sequence[Stretch],
         step: float,
         jobs: int = 1,
     ) -> None:
         self.stretches, self.step = list(stretches), step
-        reads = [path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
-        work = StretchWork(StretchFmu(path.absolute(), aliases, step), stretches)
+        reads = [fmu.path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
+        work = StretchWork(StretchFmu(fmu, step), stretches)
         self._pool: Pool[Task, Result | str] = Pool(work, Result | str, min(jobs, len(stretches)), reads)
         self._can_reset: bool | None = None
         self.said: dict[str, int] = {}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ali3.files import write_text
 from ali3.html_elements import document, element, picture, table
@@ -13,7 +13,10 @@ from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
 from hosts.compare.windows import Bin
-from hosts.compare.words import common_sentence, unit_shown
+from hosts.compare.words import common_sentence, signal_rows, unit_shown
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
 
 _COLUMNS = ("signal", "unit", "rms", "normalised", "mean", "largest", "at, s", "correlation", "rating",
             "corridor", "phase", "magnitude", "slope", "delay, ms")  # fmt: skip
@@ -44,11 +47,11 @@ def write_report(
     """
     parts = [element("h1", title), *(element("p", line, class_="problem") for line in problems)]
     parts.append(element("h2", "Deviations" if after is None else "Deviations before the fit"))
-    parts.append(table("", _COLUMNS, _rows(before), "numbers"))
+    parts.append(_table_of(before))
     if after is not None and fit is not None:
         parts += [
             element("h2", "Deviations with the fitted parameters and sensors"),
-            table("", _COLUMNS, _rows(after), "numbers"),
+            _table_of(after),
         ]
         parts += [element("h2", "Fit"), table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
         residuals, *others = result_words(fit)
@@ -81,20 +84,6 @@ def bin_rows(told: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]
     return rows
 
 
-def _rows(comparison: Comparison) -> list[Sequence[str]]:
-    rows: list[Sequence[str]] = []
-    for name, s in comparison.signals.items():
-        d, r, a = s.deviations, s.rating, s.alignment
-        scores = [_number(x, ".3f") for x in (r.overall, r.corridor, r.phase, r.magnitude, r.slope)]
-        delay = f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else "–"
-        unit, factor = shown_in(s.measured.unit, name)
-        values = [f"{factor * x:.4g}" for x in (d.rms, d.mean, d.largest)]
-        rows.append(
-            [name, unit_shown(unit), values[0], _number(d.normalised, ".3f"), *values[1:],
-             f"{d.time_of_largest:.4g}", _number(d.correlation, ".4f"), *scores, delay]
-        )  # fmt: skip
-    return rows
-
-
-def _number(value: float, form: str) -> str:
-    return format(value, form) if math.isfinite(value) else "–"
+def _table_of(comparison: Comparison) -> HtmlElement:
+    rows = [[row[name] for name in _COLUMNS] for row in signal_rows(comparison, "–")]
+    return table("", _COLUMNS, rows, "numbers")

@@ -64,7 +64,7 @@ def write_outcome(
     told = bins(outcome.best, task.scales)
     write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths)
     if outcome.fit is not None:
-        values = task.aliases.values(dict(task.set_values) | outcome.fit.parameters)
+        values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)
         parameters = parameter_set_of(Variables(description), description.modelName, values)
         write_parameter_set(parameters, paths[".ssv"], as_built=False)

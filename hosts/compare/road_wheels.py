@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +12,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.compare.log import Signal
-from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.fmu import Fmu
-from hosts.fmu.own_process import files_of, in_own_process
+from hosts.fmu.fmu_source import FmuSource
 
 ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
 _POINTS = 21  # of the curve between both locks
@@ -34,7 +30,7 @@ def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
     return replace(first, source=" and ".join(s.source for s in there), values=values)
 
 
-def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle: Signal) -> Signal:
+def steering_for(fmu: FmuSource, start: Mapping[str, Value], angle: Signal) -> Signal:
     """The input ``steering`` at which the standing car turns its front wheels by the measured angle on the mean.
 
     `angle`: of `mean_angle`. Raises `HostError`: the wheels of the FMU do not follow its steering, or the measured
@@ -46,32 +42,29 @@ def steering_for(path: Path, aliases: Aliases, start: Mapping[str, Value], angle
     FMU whose column or frame gives turns its wheels by less than `angle` then, as the car does.
     """
     steering = np.linspace(-1.0, 1.0, _POINTS)
-    found = in_own_process(
-        _turned, (path.absolute(), aliases, dict(start), steering), NDArray[np.float64], [path, *files_of(start)]
-    )
+    found = fmu.done_apart(_turned, (dict(start), steering), NDArray[np.float64], start)
     rises = np.diff(found)
     if not (rises > 0.0).all():
-        raise HostError(f"{path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")
+        raise HostError(f"{fmu.path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")
     largest = float(np.max(np.abs(angle.values)))
     if largest > min(-found[0], found[-1]):
         raise HostError(
-            f"The log turns the front wheels by up to {math.degrees(largest):.3g} deg; {path.name} by "
+            f"The log turns the front wheels by up to {math.degrees(largest):.3g} deg; {fmu.path.name} by "
             f"{math.degrees(-found[0]):.3g} to the right and {math.degrees(found[-1]):.3g} to the left at full lock."
         )
     return replace(angle, name="steering", unit="1", values=np.interp(angle.values, found, steering))
 
 
 def _turned(
-    task: tuple[Path, Aliases, dict[str, Value], NDArray[np.float64]], tell: Callable[[float], None]
+    task: tuple[FmuSource, tuple[dict[str, Value], NDArray[np.float64]]], tell: Callable[[float], None]
 ) -> NDArray[np.float64]:
     """Mean angles of the front wheels at values of the steering."""
-    path, aliases, start, steering = task
+    source, (start, steering) = task
     found, values = np.empty(len(steering)), np.empty(len(ANGLES))
-    with Fmu(path) as opened:
+    with source.opened() as fmu:
         for k, x in enumerate(steering.tolist()):
             if k:
-                opened.reset()
-            fmu = AliasedFmu(opened, aliases)
+                fmu.reset()
             slippery = {_FRICTION: 0.0} if _FRICTION in fmu.variables else {}
             fmu.initialise({**start, **slippery, "steering": x})
             for step in range(_SETTLING):

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from pathlib import Path
 
 import numpy as np
 
 from hosts.common.numbers import Value
 from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.fmu import Fmu
-from hosts.fmu.own_process import files_of, in_own_process
+from hosts.fmu.fmu_source import FmuSource
 
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"
@@ -95,22 +92,17 @@ def measured_start(
     return start, notes
 
 
-def reference_point(fmu_path: Path, aliases: Aliases, start: Mapping[str, Value]) -> tuple[float, float]:
+def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, float]:
     """Where the reference point of the car at rest lies from the origin of its drawing, forward and to the left, m.
 
     `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not tell its place.
     """
-    return in_own_process(
-        _reference_point, (fmu_path.absolute(), aliases, dict(start)), tuple[float, float], [fmu_path, *files_of(start)]
-    )
+    return fmu.done_apart(_reference_point, dict(start), tuple[float, float], start)
 
 
-def _reference_point(
-    task: tuple[Path, Aliases, dict[str, Value]], tell: Callable[[float], None]
-) -> tuple[float, float]:
-    path, aliases, start = task
-    with Fmu(path) as opened:
-        fmu = AliasedFmu(opened, aliases)
+def _reference_point(task: tuple[FmuSource, dict[str, Value]], tell: Callable[[float], None]) -> tuple[float, float]:
+    source, start = task
+    with source.opened() as fmu:
         names = [f"chassis.{a}" for a in "xy"]
         if any(n not in fmu.variables for n in names):
             return 0.0, 0.0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from scipy.optimize import brentq
@@ -12,26 +11,27 @@ from scipy.optimize import brentq
 from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import StretchFmu
 from hosts.compare.stretches import Stretch
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.own_process import in_own_process
+from hosts.fmu.fmu_source import FmuSource
 
 _AHEAD = 0.5  # s, until when the speed is met
 _CLOSE = 0.005  # of the pedal
 
 
-def starting_pedals(path: Path, aliases: Aliases, stretches: Sequence[Stretch], step: float) -> list[Stretch]:
+def starting_pedals(fmu: FmuSource, stretches: Sequence[Stretch], step: float) -> list[Stretch]:
     """The stretches with the constant pedals at which the FMU has the measured speed half a second after the start.
 
     `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
     is not enough.
     """
-    pedals = in_own_process(_pedals_of, (path.absolute(), aliases, list(stretches), step), list[float | None], [path])
+    pedals = fmu.done_apart(_pedals_of, (list(stretches), step), list[float | None], {})
     return [s if pedal is None else _started(s, pedal) for s, pedal in zip(stretches, pedals, strict=True)]
 
 
-def _pedals_of(task: tuple[Path, Aliases, list[Stretch], float], tell: Callable[[float], None]) -> list[float | None]:
-    path, aliases, stretches, step = task
-    fmu = StretchFmu(path, aliases, step)
+def _pedals_of(
+    task: tuple[FmuSource, tuple[list[Stretch], float]], tell: Callable[[float], None]
+) -> list[float | None]:
+    source, (stretches, step) = task
+    fmu = StretchFmu(source, step)
     try:
         return [None if s.speed is None else _pedal(fmu, step, s, s.speed) for s in stretches]
     finally:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -16,9 +15,8 @@ from hosts.compare.stretches import Stretch
 from hosts.driving.co_simulation import run
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
-from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import StartRefusedError
-from hosts.fmu.loaded_fmu import LoadedFmu
+from hosts.fmu.fmu_source import FmuSource, LoadedFmu
 
 _GAINS = 4.0, 4.0  # pedal per m/s and per m: the speed is to be as measured, not comfortable
 _ACCELERATION_GAIN = 0.1  # pedal per m/s2
@@ -65,8 +63,8 @@ class StretchFmu(LoadedFmu):
     each drive. None: not known.
     """
 
-    def __init__(self, path: Path, aliases: Aliases, step: float) -> None:
-        super().__init__(path, aliases)
+    def __init__(self, source: FmuSource, step: float) -> None:
+        super().__init__(source)
         self._step = step
         self.can_reset: bool | None = None
 

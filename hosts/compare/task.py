@@ -30,9 +30,9 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_inputs import missed_inputs
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
@@ -47,7 +47,7 @@ _FREQUENCY = "vehicle.steering_frequency"
 class Task:
     """A comparison that can be done."""
 
-    aliases: Aliases
+    fmu: FmuSource
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
     """`inputs`, `outputs`: from time 0 on; outputs of windows one window after the other."""
@@ -82,16 +82,16 @@ def prepare(options: argparse.Namespace) -> Task:
         refuse_log_aliases(options.aliases)
     raw = read_log(options.log, log_aliases.dialect)
     with Fmu(options.fmu) as opened:
-        aliases = aliases_of(options.aliases, opened.table)
-        fmu = AliasedFmu(opened, aliases)
+        source = FmuSource(options.fmu.absolute(), aliases_of(options.aliases, opened.table))
+        fmu, names = AliasedFmu(opened, source.names), source.names
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
-        given = {aliases.names([n])[0]: v for n, v in set_values.items()}
-        sought = {aliases.names([t.partition("=")[0].strip()])[0] for t in options.fit}
+        given = {names.names([n])[0]: v for n, v in set_values.items()}
+        sought = {names.names([t.partition("=")[0].strip()])[0] for t in options.fit}
         used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
-        log = log_for(fmu, raw, log_aliases, aliases.why_missing, {*given, *sought}, used)
+        log = log_for(fmu, raw, log_aliases, names.why_missing, {*given, *sought}, used)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
-        followed = _add_steering(fmu, log, inputs, outputs, notes, aliases, given, sought)
+        followed = _add_steering(fmu, log, inputs, outputs, notes, given, sought)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
             raise HostError(
@@ -112,7 +112,7 @@ def prepare(options: argparse.Namespace) -> Task:
         whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
         everything = outputs | log_at(log, options)
-        point = reference_point(options.fmu, aliases, given)
+        point = reference_point(source, given)
         stretches: list[Stretch] = []
         missed: list[str] = []
         for begin, length in parts:
@@ -141,7 +141,7 @@ def prepare(options: argparse.Namespace) -> Task:
         turnable = [n for n in inputs if all(_can_turn(s.manoeuvre.inputs[n], fmu.table[n]) for s in stretches)]
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in held}
     if speed is not None:
-        stretches = starting_pedals(options.fmu, aliases, stretches, step)
+        stretches = starting_pedals(source, stretches, step)
         pedal = stretches[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
     scales = scales_of(everything)
@@ -155,7 +155,7 @@ def prepare(options: argparse.Namespace) -> Task:
     windowed = options.windows is not None
     echo = log_echo(options.log.name, everything)
     return Task(
-        aliases, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, echo, scales, turnable
+        source, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, echo, scales, turnable
     )
 
 
@@ -247,7 +247,6 @@ def _add_steering(
     inputs: dict[str, Signal],
     outputs: dict[str, Signal],
     notes: list[str],
-    aliases: Aliases,
     given: Mapping[str, Value],
     sought: Set[str],
 ) -> dict[str, float]:
@@ -276,7 +275,7 @@ def _add_steering(
     elif road is not None:
         for name in ANGLES:
             outputs.pop(name, None)
-        inputs[_STEERING] = steering_for(fmu.path, aliases, given, road)
+        inputs[_STEERING] = steering_for(FmuSource.of(fmu), given, road)
         notes.append(f"'{_STEERING}' is that at which the standing car turns its wheels as measured ({road.source}).")
     else:
         return {}

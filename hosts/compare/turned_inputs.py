@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from hosts.compare.comparison import ComparedSignal, Comparison
 from hosts.compare.curve import Curve
@@ -19,14 +18,14 @@ def turned_signals(compared: Comparison) -> dict[str, ComparedSignal]:
     return {n: s for n, s in compared.signals.items() if turned(s.measured, s.simulated, s.alignment.delay) is not None}
 
 
-def turned_input(fmu: Path, task: Task, compared: Comparison, odd: dict[str, ComparedSignal]) -> str:
+def turned_input(task: Task, compared: Comparison, odd: dict[str, ComparedSignal]) -> str:
     """A sentence on the input with which all these signals, turned, have the sign of the simulation; else empty.
 
     Each input that can be turned is tried in a run. `odd`: from `turned_signals`.
     """
     for name in task.turnable if odd else ():
         signal = task.inputs[name]
-        with Replay(fmu, task.aliases, [_turned(s, name) for s in task.stretches], task.step) as replay:
+        with Replay(task.fmu, [_turned(s, name) for s in task.stretches], task.step) as replay:
             result = replay.run()
         curves = {n: Curve(result, n) for n in compared.signals}
         left = [n for n, s in compared.signals.items() if turned(s.measured, curves[n], s.alignment.delay) is not None]

@@ -10,29 +10,33 @@ from hosts.compare.comparison import Comparison
 
 _APART = 0.1  # of a sample: delays that differ by less are one
 _HEADINGS = ("signal", "unit", "rms", "nrms", "largest", "at, s", "corr.", "rating", "", "delay, ms")
+_LONG = {"nrms": "normalised", "corr.": "correlation"}
+
+
+def signal_rows(comparison: Comparison, none: str) -> list[dict[str, str]]:
+    """Numbers of each signal in words, by the headings of tables; `none`: where there is none."""
+
+    def number(value: float, form: str) -> str:
+        return format(value, form) if math.isfinite(value) else none
+
+    rows = []
+    for name, s in comparison.signals.items():
+        d, r, a = s.deviations, s.rating, s.alignment
+        unit, factor = shown_in(s.measured.unit, name)
+        row = {"signal": name, "unit": unit_shown(unit), "at, s": f"{d.time_of_largest:.4g}", "": r.grade}
+        row |= {n: f"{factor * x:.4g}" for n, x in (("rms", d.rms), ("mean", d.mean), ("largest", d.largest))}
+        row |= {"normalised": number(d.normalised, ".3f"), "correlation": number(d.correlation, ".4f")}
+        scores = {"rating": r.overall, "corridor": r.corridor, "phase": r.phase, "magnitude": r.magnitude}
+        row |= {n: number(x, ".3f") for n, x in (scores | {"slope": r.slope}).items()}
+        late = f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else none
+        rows.append({**row, "delay, ms": late})
+    return rows
 
 
 def table(comparison: Comparison) -> str:
     """Errors of all signals as a table."""
-    rows = [list(_HEADINGS)]
-    for name, s in comparison.signals.items():
-        d, r, a = s.deviations, s.rating, s.alignment
-        unit, factor = shown_in(s.measured.unit, name)
-        rows.append(
-            [
-                name,
-                unit_shown(unit),
-                f"{factor * d.rms:.4g}",
-                _number(d.normalised, ".3f"),
-                f"{factor * d.largest:.4g}",
-                f"{d.time_of_largest:.4g}",
-                _number(d.correlation, ".4f"),
-                _number(r.overall, ".3f"),
-                r.grade,
-                f"{1e3 * a.delay:.3g} ± {1e3 * a.delay_error:.2g}" if math.isfinite(a.delay) else "-",
-            ]
-        )
-    return "\n".join(in_columns(rows))
+    rows = [[row[_LONG.get(n, n)] for n in _HEADINGS] for row in signal_rows(comparison, "-")]
+    return "\n".join(in_columns([_HEADINGS, *rows]))
 
 
 def common_words(comparison: Comparison) -> list[str]:
@@ -82,7 +86,3 @@ def unit_shown(unit: str) -> str:
 def with_unit(value: float, unit: str) -> str:
     """A number in a sentence."""
     return f"{value:.4g} {unit_shown(unit)}".rstrip()
-
-
-def _number(value: float, form: str) -> str:
-    return format(value, form) if math.isfinite(value) else "-"

@@ -6,7 +6,6 @@ import time as clock
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
@@ -23,9 +22,7 @@ from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.recorded_rows import kept_rows
 from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliased_fmu import seen_through
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.own_process import PATIENCE, files_of
 
 _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
@@ -33,15 +30,13 @@ _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
 
 @dataclass(frozen=True)
 class _Drive:
-    """A run as work for a process. `path`: absolute."""
+    """A run as work for a process."""
 
-    path: Path
-    aliases: Aliases | None
+    source: FmuSource
 
     def __call__(self, task: _Task, tell: Callable[[float], None]) -> Result:
         manoeuvre, step, driver, every = task
-        with Fmu(self.path) as opened:
-            fmu = opened if self.aliases is None else seen_through(opened, self.aliases)
+        with self.source.opened() as fmu:
             result = run(fmu, manoeuvre, step, driver, tell, every=every, last=True, kept=store())
         return replace(result, values=result.values[:0])  # the rows are in the store
 
@@ -56,7 +51,10 @@ def run_with_bar(
     """
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     begin = clock.perf_counter()
-    work, reads = _Drive(fmu.path.absolute(), fmu.aliases), (fmu.path, *files_of(manoeuvre.start))
+    work, reads = (
+        _Drive(FmuSource.of(fmu)),
+        (fmu.path, *files_of(manoeuvre.start)),
+    )
     process: Isolated[_Task, Result] = Isolated(work, Result, reads=reads)
     names = [name for part in columns_of(fmu, with_names_of(manoeuvre, fmu.variables)) for name in part]
     with closing(process), bar_of(total=steps, desc=what, unit="step") as bar:

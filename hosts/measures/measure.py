@@ -23,6 +23,15 @@ class Limit:
         """Whether a value keeps it; a NaN does not."""
         return self.lowest <= value <= self.highest
 
+    def words(self, unit: str = "") -> str:
+        """What it allows. `unit`: as it is printed, of its numbers."""
+        low, high = (f"{x:.5g}" for x in (self.lowest, self.highest))
+        if math.isinf(self.lowest):
+            text = "no limit" if math.isinf(self.highest) else f"at most {high}"
+        else:
+            text = f"at least {low}" if math.isinf(self.highest) else f"{low} to {high}"
+        return text if text == "no limit" else f"{text} {unit}".rstrip()
+
 
 @dataclass(frozen=True)
 class Measure:

@@ -40,11 +40,11 @@ def performed(
     job: Job,
     path: Path,
     name: str,
-    aliases: Aliases | None,
+    names: Aliases,
     values: Mapping[str, Value],
     progress: Callable[[float], None] = lambda done: None,
 ) -> TestRecord:
     """What the test of a job has yielded. `name`: of the FMU in messages; `progress`: see `StandardTest.perform`."""
     step = None if math.isnan(job.step) else job.step
-    car = TestedCar(name, path, aliases or Aliases(), {**job.start, **values}, step)
+    car = TestedCar(name, path, names, {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings, progress)

@@ -163,13 +163,8 @@ def share_rows(found: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[s
 
 def _allowed(s: Share) -> str:
     unit, factor = shown_in(s.unit, s.measure)
-    end = "" if unit == "1" else f" {unit}"
-    low, high = factor * s.limit.lowest, factor * s.limit.highest
-    if s.measure == ALL:
-        return ""
-    if math.isinf(low):
-        return f"at most {high:.5g}{end}"
-    return f"at least {low:.5g}{end}" if math.isinf(high) else f"{low:.5g} to {high:.5g}{end}"
+    shown = Limit("", factor * s.limit.lowest, factor * s.limit.highest)
+    return "" if s.measure == ALL else shown.words("" if unit == "1" else unit)
 
 
 def share_notes(found: Sequence[Share], about: Mapping[str, Any]) -> list[str]:

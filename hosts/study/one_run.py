@@ -18,7 +18,7 @@ from hosts.driving.co_simulation import run
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
-from hosts.fmu.loaded_fmu import LoadedFmu
+from hosts.fmu.fmu_source import FmuSource, LoadedFmu
 from hosts.measures.measure import Measure
 from hosts.study.catalogue_tests import performed
 from hosts.study.job import Job
@@ -41,7 +41,7 @@ class Bench:
 
     def __init__(self, work: Work, path: Path) -> None:
         self._work, self._path = work, path
-        self._fmu = LoadedFmu(path, work.aliases)
+        self._fmu = LoadedFmu(FmuSource(path, work.names))
         self._progress: Callable[[float], None] = _quiet
 
     def close(self) -> None:
@@ -89,7 +89,7 @@ class Bench:
         return outcome
 
     def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
-        record = performed(job, self._path, self._work.fmu, self._work.aliases, values, self._progress)
+        record = performed(job, self._path, self._work.fmu, self._work.names, values, self._progress)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
         named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]

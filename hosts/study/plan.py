@@ -101,7 +101,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         tuple(columns),
         tuple(signals),
         study.sampling.seed,
-        runs.aliases,
+        runs.names,
         time_limit=study.time_limit,
     )
     known = {name: units[name] for name in (*parameters, *signals)}
@@ -122,7 +122,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "measures": dict(columns),
         "measured": {m.name: m.digest for m in measures},
         "signals": study.signals.model_dump() if study.signals else None,
-        "aliases": hashlib.sha256(repr(runs.aliases).encode()).hexdigest() if study.aliases else None,
+        "aliases": hashlib.sha256(repr(runs.names).encode()).hexdigest() if study.aliases else None,
         "points": points.count,
         "runs": points.count * len(jobs),
         "points_sha256": digest(points),

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import seen_through
+from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.variables import Variable
 from hosts.study.folder import fmu_of_folder
@@ -20,9 +21,6 @@ from hosts.study.points import Points, sampled_points
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.table_points import table_points
 
-if TYPE_CHECKING:
-    from hosts.fmu.aliases.alias import Aliases
-
 
 @dataclass(frozen=True)
 class PlannedRuns:
@@ -30,7 +28,8 @@ class PlannedRuns:
 
     fmu: SimulatedFmu
     """Under our names, where there is an alias file."""
-    aliases: Aliases | None
+    names: Aliases
+    """Ours for its variables."""
     points: Points
     parameters: dict[str, Any]
     """A record of each parameter by its name."""
@@ -44,13 +43,10 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     Raises `HostError`: an unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that
     overwrites a parameter.
     """
-    fmu: SimulatedFmu = opened
-    aliases: Aliases | None = None
-    if study.aliases is not None:
-        aliases = aliases_beside(study.aliases, file, opened)
-        fmu = seen_through(opened, aliases)
+    names = Aliases() if study.aliases is None else aliases_beside(study.aliases, file, opened)
+    fmu: SimulatedFmu = seen_through(opened, names)
     points, parameters = _points(study, file, opened, fmu)
-    return PlannedRuns(fmu, aliases, points, parameters, jobs_of(study, file, fmu, list(parameters)))
+    return PlannedRuns(fmu, names, points, parameters, jobs_of(study, file, fmu, list(parameters)))
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
@@ -64,11 +60,7 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
     """Points, and a record of each parameter."""
 
     def variable_of(name: str, where: str) -> Variable:
-        if study.aliases is not None:
-            found = renamed_variable(fmu, name, where)
-            if found is not None:
-                return found
-        return opened.table.settable(name, where)
+        return renamed_variable(fmu, name, where) or opened.table.settable(name, where)
 
     for name, value in study.start.items():
         variable_of(name, f"{file}: start").check(value, f"{file}: start")

@@ -334,8 +334,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     Without entries there is no file. Returned is what is no parameter.
     """
     values: dict[str, Any] = {**study.start, by: value}
-    if plan.work.aliases is not None:
-        values = plan.work.aliases.values(values)
+    values = plan.work.names.values(values)
     description = described(plan.fmu)
     whole = parameter_set_of(Variables(description), description.modelName, values)
     entries = [entry for entry in whole.entries if entry.name in values]

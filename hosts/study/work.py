@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
+from hosts.fmu.aliases.alias import Aliases
 from hosts.study.job import Job
 
 if TYPE_CHECKING:
-    from hosts.fmu.aliases.alias import Aliases
     from hosts.study.measures.study_measure import StudyMeasure
 
 DONE, INCOMPLETE, FAILED = "done", "incomplete", "failed"
@@ -42,8 +42,8 @@ class Work:
     signals: tuple[str, ...]
     seed: int = 0
     """Of the study."""
-    aliases: Aliases | None = None
-    """Of an alias file."""
+    names: Aliases = field(default_factory=Aliases)
+    """Ours for the variables of the FMU."""
     reuse: bool = False
     """Whether an instance of the FMU is used again after a reset."""
     time_limit: float | None = None

@@ -58,16 +58,3 @@ def difference(value: float, first: float) -> str:
     if first != 0.0 and abs(change / first) < 10.0:
         text += f" ({sign}{100.0 * abs(change / first):.3g} %)"
     return text
-
-
-def bounds(lowest: float, highest: float, unit: str) -> str:
-    """What a limit allows, in words."""
-    tail = unit_shown(unit)
-    end = f" {tail}" if tail else ""
-    if math.isinf(lowest) and math.isinf(highest):
-        return "no limit"
-    if math.isinf(lowest):
-        return f"at most {shown(highest)}{end}"
-    if math.isinf(highest):
-        return f"at least {shown(lowest)}{end}"
-    return f"{shown(lowest)} to {shown(highest)}{end}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, bounds, kept_shown, unit_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, kept_shown, unit_shown, with_unit
 from hosts.catalogue.report.pictures import Picture
 from hosts.measures.measure import Measure
 
@@ -127,7 +127,7 @@ def _measures(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement
             state = element(
                 "td",
                 kept_shown(m.is_kept),
-                element("small", f"{bounds(m.limit.lowest, m.limit.highest, m.unit)}; {m.limit.source}"),
+                element("small", f"{m.limit.words(unit_shown(m.unit))}; {m.limit.source}"),
             )
         value = NONE if m.value != m.value else f"{m.value:.7g}"
         rows.append(

@@ -19,7 +19,7 @@ from ali3.errors import FileError
 from hosts.catalogue.output import print_measures
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
-from hosts.catalogue.report.numbers import bounds, difference, shown, unit_shown
+from hosts.catalogue.report.numbers import difference, shown, unit_shown
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
 from hosts.catalogue.report.thinning import MOST, thinned
@@ -123,7 +123,7 @@ def test_limits_of_their_own_units_and_notes(fmu, tmp_path):
     row = next(r for r in document.xpath("//tr") if texts(r)[0] == "a a, m")
     assert texts(row)[1:] == [
         "1 m keptone",
-        "22.92 deg kepthere at least 17.19 degin deg, the first in mtwo",
+        "22.92 deg kepthere at least 17.189 degin deg, the first in mtwo",
         "–",
         "at least 0.5 mx",
     ]
@@ -240,8 +240,8 @@ def test_numbers_for_people():
     assert difference(0.9, 1.0) == "−0.1 (−10 %)"
     assert difference(1.0, 0.0) == "+1"
     assert difference(1.0, float("nan")) == ""
-    assert bounds(-np.inf, 0.35, "1") == "at most 0.35"
-    assert bounds(1.0, 2.0, "m") == "1 to 2 m"
+    assert Limit("", highest=0.35).words() == "at most 0.35"
+    assert Limit("", 1.0, 2.0).words("m") == "1 to 2 m"
 
 
 def test_the_command_of_one_test():
@@ -296,7 +296,7 @@ def test_measures_plots_and_limits_are_in_the_units_of_the_field(fmu, tmp_path, 
     records = {"test_0": {cars[0].label: TestRecord(measures, [plot], {})}}
     write_report(tmp_path / "r.html", tests, cars, records)
     text = (tmp_path / "r.html").read_text("utf-8")
-    for words in ("1.124 deg/g", "0.5619 to 1.686 deg/g", "90 km/h", "1 Hz", "Left 5.73, right 11.46 deg/s."):
+    for words in ("1.124 deg/g", "0.56188 to 1.6856 deg/g", "90 km/h", "1 Hz", "Left 5.73, right 11.46 deg/s."):
         assert words in text
     assert "largest 180 at 1" in text  # the words of the plot
     assert not re.search(r"\brad\b", re.sub(r"base64,[^\"]*", "", text.partition("<body>")[2]))

@@ -14,7 +14,7 @@ from hosts.compare.replay import Replay, inputs_of
 from hosts.compare.stretches import Stretch
 from hosts.compare.unknown import Unknown, nuisances
 from hosts.driving.result import Result
-from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu_source import FmuSource
 
 STEP = 0.01
 STIFFNESS, DAMPING, DELAY = 123.0, 1.7, 0.043
@@ -27,7 +27,7 @@ UNKNOWNS = [
 @pytest.fixture(scope="module")
 def replay(tuned: Path) -> Iterator[Replay]:
     manoeuvre = inputs_of("log", {"pull": measured_pull()}, {}, END, STEP)
-    with Replay(tuned, Aliases(), [Stretch(manoeuvre)], STEP) as made:
+    with Replay(FmuSource(tuned.absolute()), [Stretch(manoeuvre)], STEP) as made:
         assert made.check_reset()
         yield made
 
