@@ -23,10 +23,9 @@ WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-SURE_BALANCE = 0.2  # above, no repeat is needed to know; a drift above it leaves none alone: two may be off alike
+SURE_BALANCE = 0.2  # above, no repeat is needed to know
 ENERGY_KEPT = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
 SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
-NEAR_LIMIT = (0.01, 0.15)  # estimates between which a third run decides: half the step may be off alike
 MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -21,10 +20,10 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.input_signals import Signal
-from mbs.simulation import repeat
+from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import Coarser, has_whole, rest_of
+from mbs.simulation.coarser_run import Coarser, rest_of
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
@@ -83,13 +82,13 @@ def judged_run(
         progress: Callable[[float], None],
         look: bool,
         iterations: int = 0,
-        watch: repeat.Watch | None = None,
-    ) -> repeat.Run:
+        watch: refined_run.Watch | None = None,
+    ) -> refined_run.Run:
         simulation = start(step)
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
-        if len(made) == 1 and checked and before is None and has_whole(system, simulation.settings):
+        if len(made) == 1 and checked and before is None:
             watch = note
         return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 
@@ -103,7 +102,7 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error is True else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            repeats = repeat.Repeats(
+            repeats = refined_run.Repeats(
                 system, run, march_from_start, h, often, bar.update, before, twin, inputs, most, path
             )
             if checked:
@@ -125,15 +124,13 @@ def judged_run(
     return trajectory
 
 
-def check(repeats: repeat.Repeats, always: bool) -> Accuracy | None:
+def check(repeats: refined_run.Repeats, always: bool) -> Accuracy | None:
     """What is known of the error of a run, after the repeats that it needs.
 
     Where the next repeat costs more than is left, that is said in place of a verdict.
 
     Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
-    the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
-    with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
-    steps were halved. The first of these is `Repeats.first`; with `Repeats.twin` no other is made.
+    the step. Where they differ it is repeated with shorter ones, see `Repeats.verdict`.
 
     `always`: whether a run that is plainly smooth is repeated too.
     """
@@ -152,12 +149,8 @@ def check(repeats: repeat.Repeats, always: bool) -> Accuracy | None:
         if screened is not None:
             return screened
     try:
-        known = repeats.finer(repeats.first)
-        least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
-        least = 0.0 if accuracy.drift(report) > accuracy.SURE_BALANCE else least
-        if not repeats.twin and least < (known.error or 0.0) < most:
-            known = repeats.decided(known)
-    except repeat.TooDearError:
+        known = repeats.verdict()
+    except refined_run.TooDearError:
         ahead = [repeats.h / repeats.tried * times for times in (1, 2, 4, 8)]
         needed = repeats.cost + sum(cost for cost in ahead if cost < 8.5 * repeats.parts)
         known = repeats.known or known

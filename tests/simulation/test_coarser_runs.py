@@ -19,7 +19,7 @@ from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.judged import Judged
 from mbs.results.smooth_laws import LOOPS, OPEN, UNRESOLVED, unresolved_share
-from mbs.simulation.coarser_run import FORCES, QUICK, TWICE, difference_from, glances
+from mbs.simulation.coarser_run import coarser_steps, difference_from
 from tests.simulation.drawn import drawn
 
 SPAN = (0.0, 1.0)  # s
@@ -174,12 +174,12 @@ def test_which_coarser_runs_are_made() -> None:
     still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Judged("m", place=True)}, mbs.Settings()
     abrupt = replace(run.report, predictor_path=run.report.velocity_path)
     energy_momentum = mbs.Settings(method="energy_momentum")
-    assert glances(settings, moves, False, UNRESOLVED, still) == QUICK
-    assert glances(settings, moves, True, UNRESOLVED, still) == TWICE
-    assert glances(settings, {**moves, "force": Judged("N", load=True)}, False, UNRESOLVED, still) == FORCES
-    assert glances(settings, moves, False, UNRESOLVED, run.report) == QUICK[1:]
-    assert glances(settings, moves, False, UNRESOLVED, abrupt) == ()
-    assert glances(energy_momentum, moves, False, UNRESOLVED, abrupt) == ()
+    assert coarser_steps(settings, moves, False, UNRESOLVED, still) == [8, 4, 2]
+    assert coarser_steps(settings, moves, True, UNRESOLVED, still) == [2]
+    assert coarser_steps(settings, {**moves, "force": Judged("N", load=True)}, False, UNRESOLVED, still) == [2]
+    assert coarser_steps(settings, moves, False, UNRESOLVED, run.report) == [4, 2]
+    assert coarser_steps(settings, moves, False, UNRESOLVED, abrupt) == []
+    assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, abrupt) == []
 
 
 @pytest.mark.parametrize(

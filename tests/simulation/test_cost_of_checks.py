@@ -12,8 +12,8 @@ import mbs
 from benchmarks.methods import random_machines
 from mbs.results.judged import COORDINATES, Judged
 from mbs.results.smooth_laws import LOOPS, OPEN
-from mbs.simulation.coarser_run import HIGH, Coarser, TooFarError, glances, rest_missed
-from mbs.simulation.repeat import Repeats
+from mbs.simulation.coarser_run import Coarser, TooFarError, coarser_steps, rest_missed
+from mbs.simulation.refined_run import Repeats
 from tests.simulation.drawn import drawn
 from tests.simulation.test_coarser_runs import ball, place
 
@@ -69,9 +69,9 @@ def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
     assert fine.settings is not None
     assert fine.report is not None
     assert coarse.report is not None
-    assert glances(fine.settings, moves, False, OPEN, fine.report) == HIGH
-    assert glances(fine.settings, moves, False, OPEN, coarse.report) == HIGH[1:]
-    assert glances(fine.settings, moves, False, LOOPS, coarse.report) == HIGH
+    assert coarser_steps(fine.settings, moves, False, OPEN, fine.report) == [4, 2]
+    assert coarser_steps(fine.settings, moves, False, OPEN, coarse.report) == [2]
+    assert coarser_steps(fine.settings, moves, False, LOOPS, coarse.report) == [4, 2]
 
 
 def test_a_half_that_surely_is_coarse_is_not_made() -> None:

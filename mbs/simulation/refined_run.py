@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.accuracy import FAR, MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.comparison import by_limit, differences, unsure
 from mbs.results.judged import (
     COORDINATES,
@@ -154,69 +154,71 @@ class Repeats:
         """By what the step is divided first: no run is made that surely is `coarse`, down to an eighth of the step, as
         far as it costs no more than is left.
         """
-        left = self.most - self.cost
         if self.twin:
             return max(self.twin, self.parts)
-        most = 2 if self.has_order else 4
-        share = self._missed(self.run) / self.unresolved
-        most = max(times for times in (1, 2, 4) if times == 1 or (times <= most and times * self.parts <= left))
-        return self.parts * next((times for times in (1, 2) if times >= most or share <= times), most)
+        share, times = self._missed(self.run) / self.unresolved, 1
+        while (
+            share > times and times < (2 if self.has_order else 4) and 2 * times * self.parts <= self.most - self.cost
+        ):
+            times *= 2
+        return self.parts * times
 
-    def decided(self, known: Accuracy) -> Accuracy:
-        """After a finer run: by one of twice its step where none was made, then, where the last one is coarse, or what
-        the last two differ by may change the verdict, by the next ones, down to a 16th of the step.
+    def verdict(self) -> Accuracy:
+        """By a finer run, and where that one is coarse, or may itself be off by so much that the verdict changes, by
+        those of half its step, down to a 16th of the step. With a twin there is one.
 
-        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. With an order
-        the last one counts, and two that agree are enough. One of twice its step that does not end is passed over.
-        Raises `SimulationError`: one finer than all others does not end.
+        Of the last two the one that says more counts: behind abrupt forces they are off to both sides.
+        Raises `SimulationError`: one does not end; `TooDearError`: one would cost more than is left.
         """
-        parts, last = max(self._finer), known
-        if parts == self.parts:
-            parts, known = 2 * parts, self.finer(2 * parts)
-        else:
-            try:
-                self._finer[parts // 2] = self.again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
-            except SimulationError:  # says nothing against the finer one that ended
-                parts, last, known = 2 * parts, known, self.finer(2 * parts)
-        while True:
-            first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
-            if parts > 2 * self.parts:
-                known = by_limit(known, [self._table(self.run), first, second], self.judged, self.before, self.length)
-                self.known = known
-            if parts == 8 * self.parts or (parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR):
-                break  # of this one and the last the larger error counts
-            apart = differences(first, second, self.judged, self.before, self.length)[0]
-            if not (unsure(known, apart) or self.coarse):
-                break
+        parts = self.first
+        last = known = self.finer(parts)
+        while not self.twin and parts < 8 * self.parts and (self.coarse or self._unsure(known, parts)):
             parts, last, known = 2 * parts, known, self.finer(2 * parts)
+            if parts > 2 * self.parts:
+                runs = (self.run, self._finer[parts // 2], self._finer[parts])
+                known = self.known = by_limit(
+                    known, [self._table(r) for r in runs], self.judged, self.before, self.length
+                )
+            if parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR:
+                break
         if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
             known = replace(known, units=last.units, sensors=last.sensors)
         return replace(known, repeat_cost=self.cost)
+
+    def _unsure(self, known: Accuracy, parts: int) -> bool:
+        """Whether the last finer run may itself be off by so much that the verdict changes.
+
+        By order one where two finer runs have shown what they differ by, by the least order where a single one has.
+        """
+        pair = parts // 2 in self._finer
+        if not pair and (known.error or 0.0) > FAR:
+            return False
+        before = self._finer[parts // 2] if pair else self.run
+        apart = differences(
+            self._table(before), self._table(self._finer[parts]), self.judged, self.before, self.length
+        )[0]
+        more = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
+        return unsure(known, {unit: more * gap for unit, gap in apart.items()})
 
     def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
         """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
         do by the order of the errors where no run is that fine and it costs no more than is left.
         """
-        step, tried = accuracy.needed_step(self.h, known), self._offs(known)
+        step, tried = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
         if parts > max(self._finer) and tried[-1][1] > accuracy.MET:
             try:
                 self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):
                 return tried
-            return self._offs(known)
+            return self._offs()
         return tried
 
-    def _offs(self, known: Accuracy) -> list[tuple[float, float]]:
+    def _offs(self) -> list[tuple[float, float]]:
         """Of each finer run by the finest; of that one by the order with which the last two come nearer to it."""
         *others, finest = [1, *sorted(self._finer)]
-        tables = {n: self._table(self.run if n == 1 else self._finer[n]) for n in (*others, finest)}
-        apart = {
-            n: max(
-                differences(tables[n], tables[finest], self.judged, self.before, self.length)[0].values(), default=0.0
-            )
-            for n in others
-        }
+        runs = {1: self.run, **self._finer}
+        apart = {n: max(self._apart(runs[n], runs[finest]).values(), default=0.0) for n in others}
         near, order = others[-1], float(METHOD_TABLE[self.method].order)
         if near > 1 and min(apart[1], apart[near]) > 0.0:
             order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))
