@@ -193,12 +193,13 @@ class Repeats:
         pair = parts // 2 in self._finer
         if not pair and (known.error or 0.0) > FAR:
             return False
-        before = self._finer[parts // 2] if pair else self.run
-        apart = differences(
-            self._table(before), self._table(self._finer[parts]), self.judged, self.before, self.length
-        )[0]
+        apart = self._apart(self._finer[parts // 2] if pair else self.run, self._finer[parts])
         more = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
         return unsure(known, {unit: more * gap for unit, gap in apart.items()})
+
+    def _apart(self, one: Run, other: Run) -> dict[str, float]:
+        """What two runs differ by, over the range in the other, per unit."""
+        return differences(self._table(one), self._table(other), self.judged, self.before, self.length)[0]
 
     def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
         """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
