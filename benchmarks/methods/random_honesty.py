@@ -15,7 +15,7 @@ from benchmarks.methods.families import FAMILIES, Case, Found
 from benchmarks.references.newton_euler import NoReferenceError
 from benchmarks.shared.pages import Row, table
 from mbs.results.accuracy import WRONG_ERROR
-from mbs.results.judged import judged_sensors, sizes_of
+from mbs.results.comparison import compared_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 Array = NDArray[np.float64]
@@ -77,7 +77,7 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     h = float(rng.choice(case.steps))
     every = max(1, round(case.span / intervals / h))
     fixed = case.span / intervals / every  # the nearest step that ends at the instants
-    sensors = {name: what for name, what in judged_sensors(case.system).items() if name in case.truth}
+    sensors = {name: what for name, what in compared_sensors(case.system).items() if name in case.truth}
     size = sizes_of(case.truth, sensors, length_of(case.system))
 
     def of_range(values: Mapping[str, Array]) -> float:

@@ -14,7 +14,7 @@ from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.results.accuracy import WRONG_ERROR, AccuracyWarning
-from mbs.results.judged import STILL, Judged, judged_sensors
+from mbs.results.comparison import STILL, Compared, compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -190,11 +190,11 @@ def _by(
 def _gaps(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
     """Largest differences of the sensors that have a tolerance of their own."""
     system = run.simulation.system
-    known, names = judged_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
+    known, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
     found = dict[str, float]()
     for name in tolerance.sensors:
         one, other = (made.values[:, names.index(name)] for made in (run, before))
-        found[name] = float(known.get(name, Judged("")).apart(one, other).max())
+        found[name] = float(known.get(name, Compared("")).apart(one, other).max())
     return found
 
 

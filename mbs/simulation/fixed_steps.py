@@ -1,4 +1,4 @@
-"""A run in equal steps, with a repeat where its accuracy asks for one."""
+"""A run in equal steps, with a refined run where its accuracy asks for one."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import Coarser, rest_of
+from mbs.simulation.coarser_run import CoarserRuns, rest_of
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
-Told: TypeAlias = "list[tuple[type[Warning], str]]"
+Warned: TypeAlias = "list[tuple[type[Warning], str]]"
 
 
 def fixed_step_run(
@@ -43,18 +43,20 @@ def fixed_step_run(
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | float | None,
     before: dict[str, NDArray[np.float64]] | None = None,
-    twin: int = 0,
+    divisor: int = 0,
 ) -> Trajectory:
-    """A run in steps of h, with repeats where its accuracy asks for them, see `check`."""
-    told: Told = []
+    """A run in steps of h, with refined runs where its accuracy asks for them, see `check`."""
+    warned: Warned = []
     try:
-        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, before, twin)
+        return checked_run(
+            system, start, t0, t_end, h, inputs, every, progress, estimate_error, warned, before, divisor
+        )
     finally:
-        for category, text in told:
+        for category, text in warned:
             warnings.warn(text, category, stacklevel=4)
 
 
-def judged_run(
+def checked_run(
     system: System,
     start: Callable[[float], SteppedSystem],
     t0: float,
@@ -64,11 +66,11 @@ def judged_run(
     every: int,
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | float | None,
-    told: Told,
+    warned: Warned,
     before: dict[str, NDArray[np.float64]] | None = None,
-    twin: int = 0,
+    divisor: int = 0,
 ) -> Trajectory:
-    """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
+    """The same; what it warns of beside `Accuracy.message` is added to `warned`, also where the run fails."""
     made, path = list[SteppedSystem](), list[tuple[int, Report]]()
     found: Accuracy | None = None
 
@@ -102,12 +104,12 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error is True else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            repeats = refined_run.Repeats(
-                system, run, march_from_start, h, often, bar.update, before, twin, inputs, most, path
+            refined = refined_run.RefinedRuns(
+                system, run, march_from_start, h, often, bar.update, before, divisor, inputs, most, path
             )
             if checked:
-                found = check(repeats, always=estimate_error is True)
-            repeats.add_ends()
+                found = check(refined, always=estimate_error is True)
+            refined.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
             error.trajectory = error.trajectory.thinned(every // often)
@@ -118,55 +120,55 @@ def judged_run(
         bent = made[0].bending.once() if made else ""
         rim = made[0].rim_text if made and found is not None else ""  # else the refusal says it
         said = ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim))
-        told += [(category, text) for category, text in said if text]
+        warned += [(category, text) for category, text in said if text]
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory
 
 
-def check(repeats: refined_run.Repeats, always: bool) -> Accuracy | None:
-    """What is known of the error of a run, after the repeats that it needs.
+def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
+    """What is known of the error of a run, after the further runs that it needs.
 
-    Where the next repeat costs more than is left, that is said in place of a verdict.
+    Without `RefinedRuns.before` a run that is not plainly smooth is compared with `CoarserRuns`, and refined where they
+    differ. Where the next refined run costs more than is left, that is said in place of a verdict.
 
-    Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
-    the step. Where they differ it is repeated with shorter ones, see `Repeats.verdict`.
-
-    `always`: whether a run that is plainly smooth is repeated too.
+    `always`: whether a run that is plainly smooth is refined too.
     """
-    system, run = repeats.system, repeats.run
+    system, run = refined.system, refined.run
     report, known = run[0].report, run[0].accuracy
     if report is None or known is None or run[0].settings is None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
-    if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, refined.unresolved))
+    if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
-    if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        screened = Coarser(repeats).verdict()
+    if not always and refined.before is None and doubt == accuracy.COARSER:
+        screened = CoarserRuns(refined).verdict()
         if screened is not None:
             return screened
     try:
-        known = repeats.verdict()
+        known = refined.verdict()
     except refined_run.TooDearError:
-        ahead = [repeats.h / repeats.tried * times for times in (1, 2, 4, 8)]
-        needed = repeats.cost + sum(cost for cost in ahead if cost < 8.5 * repeats.parts)
-        known = repeats.known or known
-        text = accuracy.open_text(known, repeats.tried, repeats.most, needed)
-        return replace(known, repeat_cost=repeats.cost, message=text)
+        ahead = [refined.h / refined.tried * times for times in (1, 2, 4, 8)]
+        needed = refined.cost + sum(cost for cost in ahead if cost < 8.5 * refined.parts)
+        known = refined.known or known
+        text = accuracy.open_text(known, refined.tried, refined.most, needed)
+        return replace(known, check_cost=refined.cost, message=text)
     except SimulationError as error:
-        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
+        text = (
+            f"A refined run with steps of {refined.tried:g} s was refused, so the result is not to be trusted: {error}"
+        )
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
-            text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
-        return replace(known, repeat_cost=repeats.cost, message=text)
-    branch = run[0].branch_change if repeats.left_alone else ""
+            text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
+        return replace(known, check_cost=refined.cost, message=text)
+    branch = run[0].branch_change if refined.left_alone else ""
     if known.error is None or known.error <= accuracy.WARNED_ERROR:
         return replace(known, branch=branch)
-    said = [repeats.text(known)]
+    said = [refined.text(known)]
     if accuracy.balance_says(report, method, driven):
         said.append(accuracy.balance_text(report))
-    tried = repeats.tried_steps(known)
+    tried = refined.tried_steps(known)
     message = " ".join([*said, accuracy.remedy(system, method, tried)])
-    return replace(known, repeat_cost=repeats.cost, branch=branch, message=message)
+    return replace(known, check_cost=refined.cost, branch=branch, message=message)
