@@ -44,33 +44,12 @@ def fixed_step_run(
     estimate_error: bool | float | None,
     before: dict[str, NDArray[np.float64]] | None = None,
     divisor: int = 0,
+    warned: Warned | None = None,
 ) -> Trajectory:
-    """A run in steps of h, with refined runs where its accuracy asks for them, see `check`."""
-    warned: Warned = []
-    try:
-        return checked_run(
-            system, start, t0, t_end, h, inputs, every, progress, estimate_error, warned, before, divisor
-        )
-    finally:
-        for category, text in warned:
-            warnings.warn(text, category, stacklevel=4)
+    """A run in steps of h, with further ones where its accuracy asks for them, see `check`.
 
-
-def checked_run(
-    system: System,
-    start: Callable[[float], SteppedSystem],
-    t0: float,
-    t_end: float,
-    h: float,
-    inputs: Mapping[str, Signal] | None,
-    every: int,
-    progress: bool | Callable[[float], None] | None,
-    estimate_error: bool | float | None,
-    warned: Warned,
-    before: dict[str, NDArray[np.float64]] | None = None,
-    divisor: int = 0,
-) -> Trajectory:
-    """The same; what it warns of beside `Accuracy.message` is added to `warned`, also where the run fails."""
+    What it warns of beside `Accuracy.message` is added to `warned` where that is given, also where the run fails.
+    """
     made, path = list[SteppedSystem](), list[tuple[int, Report]]()
     found: Accuracy | None = None
 
@@ -119,8 +98,11 @@ def checked_run(
         branch = made[0].branch_change if jump else found.branch if found is not None else ""
         bent = made[0].bending.once() if made else ""
         rim = made[0].rim_text if made and found is not None else ""  # else the refusal says it
-        said = ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim))
-        warned += [(category, text) for category, text in said if text]
+        for category, text in ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim)):
+            if text and warned is not None:
+                warned.append((category, text))
+            elif text:
+                warnings.warn(text, category, stacklevel=4)
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory

@@ -40,7 +40,7 @@ from mbs.simulation.arguments import (
     warn_of_end,
 )
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.fixed_steps import Warned, checked_run
+from mbs.simulation.fixed_steps import Warned, fixed_step_run
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
@@ -158,10 +158,10 @@ class _Run:
         end = self.t0 + self.steps * self.h
         doubt = accuracy.doubt(report, report.steps, report.halvings, method)
         if doubt or accuracy.balance_decides(report, method, driven):
-            judged = checked_run(
-                self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None, told
-            )
-            run.accuracy = judged.accuracy
+            run.accuracy = fixed_step_run(
+                self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
+                warned=told,
+            ).accuracy  # fmt: skip
             if run.accuracy is not None and run.accuracy.message:
                 told.append((AccuracyWarning, run.accuracy.message))
             return told
