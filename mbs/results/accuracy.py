@@ -24,8 +24,7 @@ WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off b
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 SURE_BALANCE = 0.2  # above, no refined run is needed to know
-ENERGY_KEPT = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
-SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
+ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 MOST_COST = (
     48.0  # of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
 )
@@ -98,7 +97,7 @@ def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | 
         return FINER
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
     miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
-    kept = drift(report) <= SMOOTH_DRIFT and abs(report.energy_change) <= ENERGY_KEPT
+    kept = max(drift(report), abs(report.energy_change)) <= ENERGY_KEPT
     return "" if miss <= 1.0 and kept and whole else COARSER
 
 
