@@ -67,7 +67,7 @@ def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory
         if made.control is not None:
             return Found(made, made.control.error, None, made.control.method)
         known = made.accuracy
-        return Found(made, known.error if known else None, 1.0 + known.repeat_cost if known else None)
+        return Found(made, known.error if known else None, 1.0 + known.check_cost if known else None)
 
     return {"system": system, "span": span, "run": found}
 

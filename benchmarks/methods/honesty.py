@@ -58,7 +58,7 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
         "estimate": estimate if np.isfinite(estimate) else None,
         "balance": accuracy.energy_balance,
         "halvings_per_step": accuracy.halvings_per_step,
-        "repeated": "yes" if accuracy.repeated_with is not None else "no",
+        "repeated": "yes" if accuracy.compared_step is not None else "no",
         "verdict": VERDICTS[2 * wrong + (warned != wrong if wrong else warned)],
         "warning": accuracy.message,
     }

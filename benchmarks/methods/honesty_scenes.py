@@ -16,7 +16,7 @@ import mbs
 from benchmarks.car import manoeuvres
 from benchmarks.methods.kernel_methods import KERNEL, suits
 from benchmarks.references.cases import CASES, SAMPLES, Array, exact_of, system_of
-from mbs.results.judged import judged_sensors, sizes_of
+from mbs.results.comparison import compared_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "modelling.md"
@@ -62,7 +62,7 @@ class Scene:
         """Largest error of a sensor over what it is held against, and its estimated error over that (nan: none)."""
         worst, estimated = 0.0, float("nan")
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
-        true, judged = self.truth(), judged_sensors(self.system())
+        true, judged = self.truth(), compared_sensors(self.system())
         judged = {name: what for name, what in judged.items() if what.always and name in true}
         for name, size in sizes_of(true, judged, length_of(self.system())).items():
             error = float(np.abs(found[name] - true[name]).max()) / size
@@ -91,7 +91,7 @@ def _case_truth(name: str) -> dict[str, Array]:
     best = _case_run(name, method, case.end / (SAMPLES * division), estimate_error=False)
     for sensor, values in known.items():
         assert np.abs(best[sensor] - values).max() < CLOSE * np.ptp(exact), f"{name}: {sensor}"
-    return {n: best[n] for n, what in judged_sensors(system_of(name)).items() if what.always} | known
+    return {n: best[n] for n, what in compared_sensors(system_of(name)).items() if what.always} | known
 
 
 def _case(name: str) -> Scene:
@@ -169,7 +169,7 @@ def _car_truth(name: str) -> dict[str, Array]:
     """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
-    return {n: fine[n] for n, what in judged_sensors(manoeuvres.system_of(name)).items() if what.always}
+    return {n: fine[n] for n, what in compared_sensors(manoeuvres.system_of(name)).items() if what.always}
 
 
 def _car(name: str) -> Scene:

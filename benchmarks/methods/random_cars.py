@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 import mbs
 from benchmarks.references.newton_euler import NoReferenceError
 from mbs.elements.road import KerbRoad
-from mbs.results.comparison import differences
-from mbs.results.judged import judged_sensors
+from mbs.results.comparison import compared_sensors, differences
 from mbs.simulation.prepared_system import length_of
 from mbs.vehicle import load as load_car
 
@@ -60,7 +59,7 @@ class Drive:
         return system_of(self.car, self.step)
 
     def truth(self) -> dict[str, Array]:
-        """Judged sensors at the instants of the record, see `agreed`."""
+        """Compared sensors at the instants of the record, see `agreed`."""
         return agreed(self.system, lambda method, h: self.run(method, h, estimate_error=False))
 
 
@@ -82,7 +81,7 @@ def drive(rng: np.random.Generator) -> Drive:
 
 
 def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory]) -> dict[str, Array]:
-    """Judged sensors at the instants of the record, as two methods show them; `simulate`: by a method in steps, s.
+    """Compared sensors at the instants of the record, as two methods show them; `simulate`: by a method in steps, s.
 
     Raises `NoReferenceError`: they do not agree, or one refuses.
     """
@@ -90,7 +89,7 @@ def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory])
         fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)
     except mbs.SimulationError as refused:
         raise NoReferenceError(str(refused)) from refused
-    judged = {name: what for name, what in judged_sensors(system).items() if what.always}
+    judged = {name: what for name, what in compared_sensors(system).items() if what.always}
     apart = max(differences(other, fine, judged, None, length_of(system))[0].values())
     if not apart <= AGREE:
         raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")

@@ -1,5 +1,5 @@
 """What a run with fixed steps finds about its own error: from the energy balance at no cost, and for suspect runs from
-a repeated run with shorter steps.
+a refined run with shorter steps.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 from mbs.kernel.header.enumerations import GuideType
 from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
-from mbs.results.judged import COORDINATES, INSTANTS, Judged
+from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import is_open_tree
 from mbs.settings.input_signals import unit_text
@@ -23,20 +23,20 @@ WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-SURE_BALANCE = 0.2  # above, no repeat is needed to know; a drift above it leaves none alone: two may be off alike
-ENERGY_KEPT = 1e-3  # of the largest kinetic energy: what a free System may gain or lose without a word
-SMOOTH_DRIFT = 1e-3  # energy balance times (1 + radians turned); with `Method.smooth_miss`: plainly smooth
-NEAR_LIMIT = (0.01, 0.15)  # estimates between which a third run decides: half the step may be off alike
-MOST_COST = 48.0  # of repeats, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
+SURE_BALANCE = 0.2  # above, no refined run is needed to know
+ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
+MOST_COST = (
+    48.0  # of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
+)
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
-SCREEN, REPEAT = "screen", "repeat"
+COARSER, FINER = "coarser", "finer"
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 
 
 class AccuracyWarning(UserWarning):
-    """The result of a run is not what was asked for: its energy balance or a repeat with shorter steps say so."""
+    """The result of a run is not what was asked for: its energy balance or a refined run say so."""
 
 
 @dataclass(frozen=True)
@@ -50,25 +50,25 @@ class Accuracy:
     """That work, J."""
     halvings_per_step: float
     """How often steps were halved."""
-    repeated_with: float | None = None
-    """Step of the last repeat, s; None where there was none. Above that of the run it was a coarser one."""
-    repeat_cost: float = 0.0
-    """Steps of all repeats over those of the run: what the check cost."""
+    compared_step: float | None = None
+    """Step of the last refined run, s; None where there was none. Above that of the run it was a coarser one."""
+    check_cost: float = 0.0
+    """Steps of all refined runs over those of the run: what the check cost."""
     order: float | None = None
     """With which errors fall, as the energy of the two runs shows, else that of the method."""
     units: dict[str, float] = field(default_factory=dict)
     """Estimated largest error over the largest range, per unit that was judged ("1": coordinates of the System)."""
     sensors: dict[str, float] = field(default_factory=dict)
-    """Estimated largest error of the sensors that were judged, in their units."""
+    """Estimated largest error of the sensors that were compared, in their units."""
     message: str = ""
     """Evidence against the result, with a remedy; empty where there is none."""
     branch: str = ""
-    """A sentence about a change of the assembly mode that the repeat does not make; empty where there is none."""
+    """A sentence about a change of the assembly mode that the refined run does not make; empty where there is none."""
 
     @property
     def error(self) -> float | None:
-        """Largest of `units`; None where no repeat estimated one."""
-        return max(self.units.values(), default=0.0) if self.repeated_with is not None and self.units else None
+        """Largest of `units`; None where no refined run estimated one."""
+        return max(self.units.values(), default=0.0) if self.compared_step is not None and self.units else None
 
     def __str__(self) -> str:
         said = []
@@ -79,26 +79,26 @@ class Accuracy:
         if self.units:
             parts = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
             said.append(f"estimated error {', '.join(parts)}")
-        if self.repeat_cost > 0.0:
+        if self.check_cost > 0.0:
             said.append(
-                f"repeats of {self.repeat_cost:.2g} times its steps (at most {MOST_COST:g} unless estimate_error=N; "
-                "none with estimate_error=False)"
+                f"checked by runs of {self.check_cost:.2g} times its steps (at most {MOST_COST:g} unless "
+                "estimate_error=N; none with estimate_error=False)"
             )
         return "; ".join(said)
 
 
 def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | None = None) -> str:
-    """How a run is to be checked: empty, not at all; `SCREEN` by one of twice the step, `REPEAT` by one of half.
+    """How a run is to be checked: empty, not at all; `COARSER` by one of twice the step, `FINER` by one of half.
 
     Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
     its mode, are signs of coarse steps already. `rest`: what decides in place of predictions, at most 1 if smooth.
     """
     if halvings > SUSPECT_HALVINGS * steps or report.balance_wrong or report.branch_changes > 0:
-        return REPEAT
+        return FINER
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
     miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
-    kept = drift(report) <= SMOOTH_DRIFT and abs(report.energy_change) <= ENERGY_KEPT
-    return "" if miss <= 1.0 and kept and whole else SCREEN
+    kept = max(drift(report), abs(report.energy_change)) <= ENERGY_KEPT
+    return "" if miss <= 1.0 and kept and whole else COARSER
 
 
 def summed_miss(report: Report) -> float:
@@ -128,7 +128,7 @@ def missed_share(report: Report, method: str) -> float:
 
 
 def divisor(steps: int, halvings: int) -> int:
-    """By what the step is divided for the repeat: twice as fine as the steps that were really made."""
+    """By what the step is divided for the refined run: twice as fine as the steps that were really made."""
     return max(2, math.ceil(2.0 * (1.0 + halvings / max(steps, 1)) - 1e-9))
 
 
@@ -201,7 +201,7 @@ def needed_step(h: float, accuracy: Accuracy) -> float | None:
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
     """What would bring the result near, in a sentence.
 
-    `tried`: steps of repeats, s, the finest last, and about by how much their runs are off, of the range.
+    `tried`: steps of refined runs, s, the finest last, and about by how much their runs are off, of the range.
     """
     found = next(((step, off) for step, off in tried if off <= MET), None)
     if found is None:
@@ -215,31 +215,34 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
     return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])}{others}."
 
 
-def error_text(accuracy: Accuracy, sizes: Mapping[str, float], judged: Mapping[str, Judged]) -> str:
+def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping[str, Compared]) -> str:
     """The estimated error in a sentence, with the worst sensor."""
     name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
-    unit, share = judged[name].unit, accuracy.sensors[name] / sizes[name]
+    unit, share = compared[name].unit, accuracy.sensors[name] / sizes[name]
     least = "at least" if share > FAR else "about"
     what, of = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
     gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{sizes[name]:.3g}{of}"
     return (
-        f"The result is off by {least} {_percent(share)} of the largest range, as a repeat with steps of "
-        f"{accuracy.repeated_with:g} s shows: {what} '{name}' by {gap} of {size}."
+        f"The result is off by {least} {_percent(share)} of the largest range, as a refined run with steps of "
+        f"{accuracy.compared_step:g} s shows: {what} '{name}' by {gap} of {size}."
     )
 
 
 def open_text(accuracy: Accuracy, step: float, most: float, needed: float) -> str:
-    """That repeats have cost the `most` that they may, with a remedy.
+    """That refined runs have cost the `most` that they may, with a remedy.
 
     `accuracy`: by the last one; `step`: of the next one, s; `needed`: what all that may follow would cost.
     """
-    said = "none has shorter steps"
+    said = "there is no estimate"
     if accuracy.error is not None:
-        said = f"the last one, with {accuracy.repeated_with:g} s, tells {_percent(accuracy.error)} of the largest range"
+        said = (
+            f"the last estimate, with steps of {accuracy.compared_step:g} s, is {_percent(accuracy.error)} of the "
+            "largest range"
+        )
     return (
-        f"Whether the result is off is not judged: a repeat with steps of {step:g} s would cost more than {most:g} "
-        f"runs, which is what all may cost ({said}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give "
-        "it tolerance=1e-3 in place of a step."
+        f"Whether the result is off was not checked: a refined run with steps of {step:g} s would cost more than the "
+        f"budget of {most:g} runs ({said}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
+        "tolerance=1e-3 in place of a step."
     )
 
 

@@ -51,7 +51,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     settings : Settings, optional
         How the steps were solved.
     wall_s : float
-        Time spent stepping, s; preparing inputs, reporting progress and a repeat are not counted. All runs that a
+        Time spent stepping, s; preparing inputs, reporting progress and a refined run are not counted. All runs that a
         tolerance needed are.
     accuracy : Accuracy, optional
         What is known of the error.

@@ -14,7 +14,7 @@ from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.results.accuracy import WRONG_ERROR, AccuracyWarning
-from mbs.results.judged import STILL, Judged, judged_sensors
+from mbs.results.comparison import STILL, Compared, compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -44,12 +44,11 @@ FINER = 4.0
 """How much finer the second run is at least: two of the same tolerance show no error."""
 AGAIN, MOST_AT_ONCE = 0.5, 1e-3
 """What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
-FAR, ONCE = 0.1, 0.1
-"""Distance of two runs beyond which it says nothing of the finer one; largest guess by a single pair of runs that is
-accepted where errors grow, in parts of the tolerance: two coarse runs may be off alike."""
+FAR, LEAST_GUESS = 0.1, 0.1
+"""Distance of two runs beyond which it says nothing of the finer one; in parts of the tolerance the smallest guess that
+is reported, as smaller ones are too small more often than not, and the largest one by a single pair of runs that is
+accepted where errors grow: two coarse runs may be off alike."""
 MOST_RUNS, LEAST = 5, 1e-13
-LEAST_TOLD = 0.2
-"""Of the tolerance: the smallest guess that is told, as smaller ones are too small more often than not."""
 HANDED_ON = (
     Status.NOT_CONVERGED,
     Status.TOO_DEAR,
@@ -159,7 +158,7 @@ def _by(
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
         grows = number == 1 and far > before.fields.error_sum
-        if (error <= (ONCE if grows else 1.0) * wanted and not unsure) or aim <= LEAST:
+        if (error <= (LEAST_GUESS if grows else 1.0) * wanted and not unsure) or aim <= LEAST:
             break
         before = run
         finer = min(0.1 if unsure else 1.0 / FINER, AGAIN * wanted / max(guess, wanted))
@@ -167,7 +166,7 @@ def _by(
     assert run is not None
     c, told = run.fields, 0.0
     if error > 0.0:  # what stands still errs by no more than it moves
-        told = max(error, min(LEAST_TOLD * wanted, run.moved / run.length))
+        told = max(error, min(LEAST_GUESS * wanted, run.moved / run.length))
     control = Control(
         wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,
         c.smallest, c.largest, c.side_steps, runs, run.moved, _errors(run, before, tolerance),
@@ -190,11 +189,11 @@ def _by(
 def _gaps(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
     """Largest differences of the sensors that have a tolerance of their own."""
     system = run.simulation.system
-    known, names = judged_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
+    known, names = compared_sensors(system), [s["name"] for s in prepared(system)[1]["sensors"]]
     found = dict[str, float]()
     for name in tolerance.sensors:
         one, other = (made.values[:, names.index(name)] for made in (run, before))
-        found[name] = float(known.get(name, Judged("")).apart(one, other).max())
+        found[name] = float(known.get(name, Compared("")).apart(one, other).max())
     return found
 
 
@@ -209,7 +208,7 @@ def _apart(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> f
 def _errors(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
     """The guessed errors of the sensors that have a tolerance of their own."""
     fall, gaps = _fall(run, before), _gaps(run, before, tolerance)
-    return {name: max(fall * gap, LEAST_TOLD * tolerance.sensors[name]) for name, gap in gaps.items()}
+    return {name: max(fall * gap, LEAST_GUESS * tolerance.sensors[name]) for name, gap in gaps.items()}
 
 
 def asked_tolerance(system: System, tolerance: object) -> Tolerance:

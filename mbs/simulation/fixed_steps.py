@@ -1,8 +1,7 @@
-"""A run in equal steps, with a repeat where its accuracy asks for one."""
+"""A run in equal steps, with a refined run where its accuracy asks for one."""
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -21,16 +20,16 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.input_signals import Signal
-from mbs.simulation import repeat
+from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import Coarser, has_whole, rest_of
+from mbs.simulation.coarser_run import CoarserRuns, rest_of
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
-Told: TypeAlias = "list[tuple[type[Warning], str]]"
+Warned: TypeAlias = "list[tuple[type[Warning], str]]"
 
 
 def fixed_step_run(
@@ -44,32 +43,13 @@ def fixed_step_run(
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | float | None,
     before: dict[str, NDArray[np.float64]] | None = None,
-    twin: int = 0,
+    divisor: int = 0,
+    warned: Warned | None = None,
 ) -> Trajectory:
-    """A run in steps of h, with repeats where its accuracy asks for them, see `check`."""
-    told: Told = []
-    try:
-        return judged_run(system, start, t0, t_end, h, inputs, every, progress, estimate_error, told, before, twin)
-    finally:
-        for category, text in told:
-            warnings.warn(text, category, stacklevel=4)
+    """A run in steps of h, with further ones where its accuracy asks for them, see `check`.
 
-
-def judged_run(
-    system: System,
-    start: Callable[[float], SteppedSystem],
-    t0: float,
-    t_end: float,
-    h: float,
-    inputs: Mapping[str, Signal] | None,
-    every: int,
-    progress: bool | Callable[[float], None] | None,
-    estimate_error: bool | float | None,
-    told: Told,
-    before: dict[str, NDArray[np.float64]] | None = None,
-    twin: int = 0,
-) -> Trajectory:
-    """The same; what it warns of beside `Accuracy.message` is added to `told`, also where the run fails."""
+    What it warns of beside `Accuracy.message` is added to `warned` where that is given, also where the run fails.
+    """
     made, path = list[SteppedSystem](), list[tuple[int, Report]]()
     found: Accuracy | None = None
 
@@ -83,13 +63,13 @@ def judged_run(
         progress: Callable[[float], None],
         look: bool,
         iterations: int = 0,
-        watch: repeat.Watch | None = None,
-    ) -> repeat.Run:
+        watch: refined_run.Watch | None = None,
+    ) -> refined_run.Run:
         simulation = start(step)
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
-        if len(made) == 1 and checked and before is None and has_whole(system, simulation.settings):
+        if len(made) == 1 and checked and before is None:
             watch = note
         return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 
@@ -103,12 +83,12 @@ def judged_run(
             first = 1.0 / 3.0 if estimate_error is True else 1.0
             run = march_from_start(h, often, lambda share: bar.update(first * share), look)
             found = run[0].accuracy
-            repeats = repeat.Repeats(
-                system, run, march_from_start, h, often, bar.update, before, twin, inputs, most, path
+            refined = refined_run.RefinedRuns(
+                system, run, march_from_start, h, often, bar.update, before, divisor, inputs, most, path
             )
             if checked:
-                found = check(repeats, always=estimate_error is True)
-            repeats.add_ends()
+                found = check(refined, always=estimate_error is True)
+            refined.add_ends()
     except SimulationError as error:
         if error.trajectory is not None:
             error.trajectory = error.trajectory.thinned(every // often)
@@ -118,62 +98,59 @@ def judged_run(
         branch = made[0].branch_change if jump else found.branch if found is not None else ""
         bent = made[0].bending.once() if made else ""
         rim = made[0].road_text if made and found is not None else ""  # else the refusal says it
-        said = ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim))
-        told += [(category, text) for category, text in said if text]
+        for category, text in ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim)):
+            if text and warned is not None:
+                warned.append((category, text))
+            elif text:
+                warnings.warn(text, category, stacklevel=4)
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
     return trajectory
 
 
-def check(repeats: repeat.Repeats, always: bool) -> Accuracy | None:
-    """What is known of the error of a run, after the repeats that it needs.
+def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
+    """What is known of the error of a run, after the further runs that it needs.
 
-    Where the next repeat costs more than is left, that is said in place of a verdict.
+    Without `RefinedRuns.before` a run that is not plainly smooth is compared with `CoarserRuns`, and refined where they
+    differ. Where the next refined run costs more than is left, that is said in place of a verdict.
 
-    Without `Repeats.before` a run that is not plainly smooth is compared with ones of eight and four times and twice
-    the step. Where they differ it is repeated with half the step; near the limit, or where that is `Repeats.coarse`,
-    with a quarter, and if these differ, or as long as the last is coarse, with an eighth, then a 16th; with less where
-    steps were halved. The first of these is `Repeats.first`; with `Repeats.twin` no other is made.
-
-    `always`: whether a run that is plainly smooth is repeated too.
+    `always`: whether a run that is plainly smooth is refined too.
     """
-    system, run = repeats.system, repeats.run
+    system, run = refined.system, refined.run
     report, known = run[0].report, run[0].accuracy
     if report is None or known is None or run[0].settings is None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     if accuracy.balance_decides(report, method, driven) and not always:
         return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, repeats.unresolved))
-    if len(run[0].t) < 2 or not (always or repeats.twin or doubt):
+    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, refined.unresolved))
+    if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
-    if not always and repeats.before is None and doubt == accuracy.SCREEN:
-        screened = Coarser(repeats).verdict()
+    if not always and refined.before is None and doubt == accuracy.COARSER:
+        screened = CoarserRuns(refined).verdict()
         if screened is not None:
             return screened
     try:
-        known = repeats.finer(repeats.first)
-        least, most = (0.0, math.inf) if repeats.coarse else accuracy.NEAR_LIMIT
-        least = 0.0 if accuracy.drift(report) > accuracy.SURE_BALANCE else least
-        if not repeats.twin and least < (known.error or 0.0) < most:
-            known = repeats.decided(known)
-    except repeat.TooDearError:
-        ahead = [repeats.h / repeats.tried * times for times in (1, 2, 4, 8)]
-        needed = repeats.cost + sum(cost for cost in ahead if cost < 8.5 * repeats.parts)
-        known = repeats.known or known
-        text = accuracy.open_text(known, repeats.tried, repeats.most, needed)
-        return replace(known, repeat_cost=repeats.cost, message=text)
+        known = refined.verdict()
+    except refined_run.TooDearError:
+        ahead = [refined.h / refined.tried * times for times in (1, 2, 4, 8)]
+        needed = refined.cost + sum(cost for cost in ahead if cost < 8.5 * refined.parts)
+        known = refined.known or known
+        text = accuracy.open_text(known, refined.tried, refined.most, needed)
+        return replace(known, check_cost=refined.cost, message=text)
     except SimulationError as error:
-        text = f"A repeat with steps of {repeats.tried:g} s was refused, so the result is not to be trusted: {error}"
+        text = (
+            f"A refined run with steps of {refined.tried:g} s was refused, so the result is not to be trusted: {error}"
+        )
         if error.status == Status.ROAD_LOST:  # which says nothing about the steps
-            text = f"The error of the run is not known: in a repeat with steps of {repeats.tried:g} s {error}"
-        return replace(known, repeat_cost=repeats.cost, message=text)
-    branch = run[0].branch_change if repeats.left_alone else ""
+            text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
+        return replace(known, check_cost=refined.cost, message=text)
+    branch = run[0].branch_change if refined.left_alone else ""
     if known.error is None or known.error <= accuracy.WARNED_ERROR:
         return replace(known, branch=branch)
-    said = [repeats.text(known)]
+    said = [refined.text(known)]
     if accuracy.balance_says(report, method, driven):
         said.append(accuracy.balance_text(report))
-    tried = repeats.tried_steps(known)
+    tried = refined.tried_steps(known)
     message = " ".join([*said, accuracy.remedy(system, method, tried)])
-    return replace(known, repeat_cost=repeats.cost, branch=branch, message=message)
+    return replace(known, check_cost=refined.cost, branch=branch, message=message)

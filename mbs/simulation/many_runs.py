@@ -40,7 +40,7 @@ from mbs.simulation.arguments import (
     warn_of_end,
 )
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.fixed_steps import Told, judged_run
+from mbs.simulation.fixed_steps import Warned, fixed_step_run
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
@@ -90,7 +90,7 @@ class _Found(NamedTuple):
     trajectory: Trajectory | None
     failure: SimulationError | None
     alone: int
-    told: Told
+    told: Warned
 
 
 class _Run:
@@ -103,7 +103,7 @@ class _Run:
         signals = InputSignals(variant.inputs, meta["inputs"])
         self.system, self.variant, self.settings = system, variant, settings
         self.signals, self.h, self.t0, self.steps, self.every = signals, h, t0, steps, every
-        self.told_at_start: Told = []
+        self.told_at_start: Warned = []
         self.simulation = self._start(h)
         self.simulation.step_tried = h
         self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
@@ -151,24 +151,24 @@ class _Run:
         told = self._checked(recorded) if checked and failure is None else self._told(recorded)
         return _Found(recorded, failure, self.alone, told)
 
-    def _checked(self, run: Trajectory) -> Told:
-        """By the repeats of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
+    def _checked(self, run: Trajectory) -> Warned:
+        """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
         told = list(self.told_at_start)
         report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
         end = self.t0 + self.steps * self.h
         doubt = accuracy.doubt(report, report.steps, report.halvings, method)
         if doubt or accuracy.balance_decides(report, method, driven):
-            judged = judged_run(
-                self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None, told
-            )
-            run.accuracy = judged.accuracy
+            run.accuracy = fixed_step_run(
+                self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
+                warned=told,
+            ).accuracy  # fmt: skip
             if run.accuracy is not None and run.accuracy.message:
                 told.append((AccuracyWarning, run.accuracy.message))
             return told
         bent, rim = self.simulation.bending.message, self.simulation.road_text
         return told + [(kind, text) for kind, text in ((BendingWarning, bent), (RoadWarning, rim)) if text]
 
-    def _told(self, run: Trajectory) -> Told:
+    def _told(self, run: Trajectory) -> Warned:
         system, report = self.simulation.system, run.report
         driven, told = len(system.arrays["gterm_row"]) > 0, list(self.told_at_start)
         if report is not None and accuracy.balance_says(report, METHOD, driven):
@@ -214,10 +214,10 @@ def simulate_many(
     threads : int, optional
         Groups at once; by default one for each core.
     progress : bool or callable, optional
-        As of `simulate`; repeats are not in it.
+        As of `simulate`; refined runs are not in it.
     estimate_error : {None, False}, optional
         None checks each run as `simulate` does: one that is not plainly smooth is made again alone and with other
-        steps, which costs two runs of its own or more. False repeats none.
+        steps, which costs two runs of its own or more. False checks none.
 
     Returns
     -------

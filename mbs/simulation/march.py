@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
 from mbs.results import accuracy
-from mbs.results.judged import instants
+from mbs.results.comparison import instants
 from mbs.results.left_out import LeftOut
 from mbs.results.run_report import Report
 from mbs.results.trajectory import Trajectory

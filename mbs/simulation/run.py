@@ -75,7 +75,7 @@ def simulate(
         Record the state after every that many steps, or intervals of the record.
     progress : bool or callable, optional
         None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives the
-        share that is done. A repeat belongs to the run: where it becomes necessary the share goes back once.
+        share that is done. A refined run belongs to the run: where it becomes necessary the share goes back once.
     t0 : float
         First time, s.
     pose : Pose, optional
@@ -84,8 +84,8 @@ def simulate(
         Name of the method, see `Settings`; in place of the one that `settings` names. "auto" takes the one that suits
         System and tolerance best; so does a tolerance without a method.
     estimate_error : bool or float, optional
-        Whether to repeat the run with half the step, near the limit with less, which gives `Trajectory.accuracy` the
-        error of the sensors. None repeats suspect runs, by energy balance, halvings, predictors or peaks of tables
+        Whether to refine the run with half the step, near the limit with less, which gives `Trajectory.accuracy` the
+        error of the sensors. None refines suspect runs, by energy balance, halvings, predictors or peaks of tables
         between steps, which costs at most 48 times the run; a number is another multiple. False checks nothing.
         Functions among `inputs` are called again, so they must depend on time.
     tolerance : float or mapping of str to float, optional
@@ -112,7 +112,7 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 3.6 % of the work in the motion, or the repeat says that positions,
+        When constraint forces did more than 3.6 % of the work in the motion, or the refined run says that positions,
         lengths, angles or forces of elements are off by more than 4.9 % of the largest range in their unit; with a
         tolerance, when the error is guessed to be more than three times that. When equal steps leave
         out more than a hundredth of the run at its end.

@@ -92,7 +92,7 @@ class Simulation(SteppedSystem):
         start = check_time(t0, "The start t0")
         super().__init__(system, settings)
         self._warned = self._rim_told = False
-        self._twin: SteppedSystem | None = None
+        self._refined: SteppedSystem | None = None
         self._parts = 0  # of a step, that it makes
         self._ends: dict[str, NDArray[np.float64]] = {}  # of what moved in runs so far
         self._limits = InputSignals({}, self._meta["inputs"])
@@ -134,7 +134,7 @@ class Simulation(SteppedSystem):
         x = number(value, f"The value of input {name!r}", ValueError)
         self._limits.check(index, self.time, x)
         self.instance.set_input(index, x)
-        self._also(lambda twin: twin.set_input(index, x))
+        self._also(lambda run: run.set_input(index, x))
 
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
@@ -177,15 +177,15 @@ class Simulation(SteppedSystem):
                 "beside its other values."
             ) from None
         tell_unworkable(entry, x, stacklevel=2 if self._started else 3)
-        self._also(lambda twin: twin.set_parameter(index, x))
+        self._also(lambda run: run.set_parameter(index, x))
 
     def _also(self, act: Callable[[Instance], object]) -> None:
-        """The same with the twin of checked runs, which is given up where it does not follow."""
+        """The same with the refined run of checked runs, which is given up where it does not follow."""
         try:
-            if self._twin is not None:
-                act(self._twin.instance)
+            if self._refined is not None:
+                act(self._refined.instance)
         except KernelError:
-            self._twin = None
+            self._refined = None
 
     def _warn_of_other_road(self, parameters: Mapping[str, Any]) -> None:
         """A word about parameters of roads that files replace."""
@@ -241,7 +241,7 @@ class Simulation(SteppedSystem):
             f"Switch {name!r} could not be turned {'on' if on else 'off'} at t = {self.time:g} s",
             lambda: self.instance.set_switch(index, on),
         )
-        self._also(lambda twin: twin.set_switch(index, on))
+        self._also(lambda run: run.set_switch(index, on))
         return self.report.energy_jump if before != bool(on) else 0.0
 
     def switch(self, name: str) -> bool:
@@ -278,7 +278,7 @@ class Simulation(SteppedSystem):
         """
         force = positive(tolerance, "The tolerance of the static equilibrium", ValueError)
         most = whole(max_iterations, "max_iterations", 1, MOST_ITERATIONS, ValueError)
-        self._twin = None
+        self._refined = None
         self._call(
             "No static equilibrium was found near the present position",
             lambda: self.instance.static_equilibrium(self.time, force, most),
@@ -319,7 +319,7 @@ class Simulation(SteppedSystem):
         if not self._meta.get("floating", True):
             name = self._meta["name"]
             raise ValueError(f"The System {name!r} cannot settle in motion: its joints tie it to the ground.")
-        self._twin, self.step_tried, state = None, length, self.instance.save()
+        self._refined, self.step_tried, state = None, length, self.instance.save()
         try:
             return self.instance.settle(lasting, length)
         except KernelError as error:
@@ -354,7 +354,7 @@ class Simulation(SteppedSystem):
             raise ValueError(f"n = {shown(n)}; it must be a whole number of steps.")
         check_time(self.time + n * h, f"The end of n = {shown(n)} steps of {h:g} s")
         check_resolution(self.time, h)
-        self.step_tried, self._twin = h, None
+        self.step_tried, self._refined = h, None
         for _ in range(int(n)):
             self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
         self._warn_once()
@@ -388,7 +388,7 @@ class Simulation(SteppedSystem):
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
         estimate_error : bool or float, optional
-            As of `simulate`, in the first run in doubt, of ten steps or more; its last repeat is a twin that goes on
+            As of `simulate`, in the first run in doubt, of ten steps or more; its last refined run goes on
             from run to run with its part of the step and is given the same inputs, parameters and switches, until a
             step by hand.
         tolerance : float or mapping of str to float, optional
@@ -409,8 +409,8 @@ class Simulation(SteppedSystem):
         Warns
         -----
         AccuracyWarning
-            Once, when a repeat or the energy balance since the start says that the result is wrong; each time, when a
-            tolerance is not kept.
+            Once, when a refined run or the energy balance since the start says that the result is wrong; each time,
+            when a tolerance is not kept.
         BranchWarning
             When a step jumped to another branch.
         BendingWarning
@@ -425,27 +425,27 @@ class Simulation(SteppedSystem):
         every = check_every(every)
         check_progress(progress)
         checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= FEWEST_CHECKED
-        given, made, state = self._twin if checked else None, False, self.instance.save() if checked else b""
-        self._twin = None
+        given, made, state = self._refined if checked else None, False, self.instance.save() if checked else b""
+        self._refined = None
 
         def start(_: float) -> SteppedSystem:
             nonlocal made
             if not made:
                 made = True
                 return self
-            self._twin = given if given is not None else self._at(state)
-            return self._twin
+            self._refined = given if given is not None else self._at(state)
+            return self._refined
 
         def equal_steps() -> Trajectory:
-            asked, twin = estimate_error if checked else False, self._parts if given is not None else 0
+            asked, divisor = estimate_error if checked else False, self._parts if given is not None else 0
             return fixed_step_run(
-                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._ends, twin
+                self.system, start, self.time, t_end, h, inputs, every, progress, asked, self._ends, divisor
             )
 
         trajectory = equal_steps()
         found = trajectory.accuracy
-        if found is not None and found.repeated_with is not None:
-            self._parts = max(1, round(h / found.repeated_with))
+        if found is not None and found.compared_step is not None:
+            self._parts = max(1, round(h / found.compared_step))
         if found is not None and found.message and not self._warned:
             self._warned = True
             warnings.warn(found.message, AccuracyWarning, stacklevel=2)
@@ -465,7 +465,7 @@ class Simulation(SteppedSystem):
         check_tolerance_settings(self.settings)
         times = record_times(self.time, check_end(self.time, t_end), h, check_every(every), None)
         state, given = self.instance.save(), check_values(inputs, "The inputs")
-        self._twin = None
+        self._refined = None
         with progress_for(progress) as bar:
             trajectory, ended = to_tolerance(
                 lambda: self._at(state), tolerance, times, given, self.settings, self.settings.method, bar
@@ -509,7 +509,7 @@ class Simulation(SteppedSystem):
             It is damaged or of another System; the state is the one before.
         """
         instance_of((bytes, bytearray), state, "The saved state", "the bytes that save() gave")
-        self._twin = None
+        self._refined = None
         self._call("The saved state was refused", lambda: self.instance.restore(bytes(state)))
 
     def _index(self, kind: str, name: str) -> int:

@@ -22,8 +22,7 @@ from benchmarks.references.newton_euler import (
     NoReferenceError,
     motion,
 )
-from mbs.results.comparison import differences
-from mbs.results.judged import judged_sensors, sizes_of
+from mbs.results.comparison import compared_sensors, differences, sizes_of
 from mbs.simulation.prepared_system import length_of
 
 TUMBLES = 3  # a body that turns over, 95 % off
@@ -113,7 +112,7 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
             continue
     n = round(case.span / INSTANTS / 1e-4)
     found = case.run(h=case.span / INSTANTS / n, every=n)
-    sensors = {name: what for name, what in judged_sensors(case.system).items() if name in case.truth}
+    sensors = {name: what for name, what in compared_sensors(case.system).items() if name in case.truth}
     for name, size in sizes_of(case.truth, sensors, length_of(case.system)).items():
         assert np.abs(found.values[name] - case.truth[name]).max() < 2e-3 * size
 
@@ -126,7 +125,7 @@ def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, nu
     16th, of which the larger counts, would have told 4.8 %.
     """
     run, error = told_and_true(seed, number, h)
-    assert run.accuracy.repeated_with == pytest.approx(h / 8.0)
+    assert run.accuracy.compared_step == pytest.approx(h / 8.0)
     assert run.accuracy.error == pytest.approx(error, rel=0.15)
 
 
@@ -145,7 +144,7 @@ def told_and_true(seed, number, h):
     with pytest.warns(mbs.AccuracyWarning):
         run = drive.run(h=h)
     fine, length = drive.run(h=1e-4, estimate_error=False), length_of(drive.system)
-    judged = {name: what for name, what in judged_sensors(drive.system).items() if what.always}
+    judged = {name: what for name, what in compared_sensors(drive.system).items() if what.always}
     error = max(differences(run, fine, judged, None, length)[0].values())
     assert error > 0.05
     return run, error

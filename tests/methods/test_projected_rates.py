@@ -67,4 +67,4 @@ def test_a_car_at_rest_is_not_repeated() -> None:
     run = simulate(compile(kerb_test.build(0)), 4.5, 0.002)
     assert abs(run.report.energy_error) < run.report.energy_floor
     assert run.report.energy_balance < 1e-5  # 3e-4 of what moves there, 1.7e-9 J
-    assert run.accuracy.repeat_cost == 0.0
+    assert run.accuracy.check_cost == 0.0

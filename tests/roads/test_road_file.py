@@ -208,7 +208,7 @@ def test_a_file_that_is_cut_while_a_run_is_checked_leaves_its_error_unknown(tmp_
         times.append(t)
         return 0.3
 
-    words = r"The error of the run is not known: in a repeat with steps of 0\.00\d+ s .* Of the road its part from"
+    words = r"The error of the run is not known: in a refined run with steps of 0\.00\d+ s .* Of the road its part from"
     road, start = {"road.file": path}, mbs.Pose(speed=20.0)
     with pytest.warns(mbs.AccuracyWarning, match=words) as told:
         run = mbs.simulate(car, 3.0, H, {"throttle": throttle}, None, road, pose=start, estimate_error=True)
@@ -238,7 +238,7 @@ def test_a_file_that_was_taken_away_is_read_on(tmp_path, car):
     simulation = mbs.Simulation(car, pose=mbs.Pose(speed=12.0), parameters={"road.file": path})
     path.unlink()
     with pytest.warns(
-        AccuracyWarning, match=r"repeat .* was refused, .* road '.*a\.road' was refused: there is no such"
+        AccuracyWarning, match=r"refined run .* was refused, .* road '.*a\.road' was refused: there is no such"
     ):
         simulation.run(1.0, H)
     assert simulation.sensors["chassis.z"] == kept["chassis.z"][-1]

@@ -13,7 +13,7 @@ from benchmarks.methods.honesty_scenes import CRANK_ANGLE, SCENES, printed_model
 from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs import AccuracyWarning, Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.results.accuracy import Accuracy, divisor
-from mbs.results.judged import judged_sensors
+from mbs.results.comparison import compared_sensors
 from mbs.scenes import prototype_car
 from mbs.simulation import fixed_steps
 
@@ -77,7 +77,7 @@ class TestThePrintedModel:
         with pytest.warns(AccuracyWarning, match=r"'piston.x' by 0\.\d+ m of 0.2 m"):
             run = simulate(printed_model(), 2.0, 6.25e-5, TORQUE, estimate_error=True, **QUIET)
         assert run.accuracy.sensors["crank.angle"] == pytest.approx(CRANK_ANGLE - run["crank.angle"][-1], rel=0.3)
-        assert run.accuracy.repeated_with == pytest.approx(3.125e-5)
+        assert run.accuracy.compared_step == pytest.approx(3.125e-5)
         assert 1.5 < run.accuracy.order <= 2.0
         assert "% of the range in rad" in repr(run)
 
@@ -103,7 +103,7 @@ class TestRepeats:
     def test_a_smooth_run_is_made_once(self, starts):
         run = simulate(system_of("pendulum"), 1.0, 0.001, **QUIET)
         assert len(starts) == 1
-        assert run.accuracy.repeated_with is None
+        assert run.accuracy.compared_step is None
         assert run.accuracy.error is None
         assert run.accuracy.message == ""
 
@@ -111,9 +111,9 @@ class TestRepeats:
     def test_a_right_run_is_compared_with_one_of_about_eight_times_the_step(self, starts, every, longer):
         run = simulate(system_of("pendulum"), 10.0, 0.005, every=every, **QUIET)
         assert len(starts) == 2
-        assert run.accuracy.repeated_with == pytest.approx(0.005 * longer, rel=1e-12)
-        assert run.accuracy.repeat_cost == pytest.approx(1.0 / longer, rel=1e-12)
-        assert "repeats of 0.1" in repr(run)
+        assert run.accuracy.compared_step == pytest.approx(0.005 * longer, rel=1e-12)
+        assert run.accuracy.check_cost == pytest.approx(1.0 / longer, rel=1e-12)
+        assert "checked by runs of 0.1" in repr(run)
         whole = simulate(system_of("pendulum"), 10.0, 0.005, estimate_error=True, **QUIET)
         # So long steps err by less than order two says: the estimate is 0.69 of that by half the step.
         assert run.accuracy.error == pytest.approx(whole.accuracy.error, rel=0.5)
@@ -122,7 +122,7 @@ class TestRepeats:
         case = CASES["pendulum"]
         run = simulate(system_of("pendulum"), case.end, 0.2 / 6, every=6, **QUIET)
         assert len(starts) == 5
-        assert run.accuracy.repeated_with == 0.05 / 6
+        assert run.accuracy.compared_step == 0.05 / 6
         error = max(np.abs(run[s] - x).max() for s, x in zip(case.sensors, exact_of("pendulum").T, strict=True))
         assert max(run.accuracy.sensors[s] for s in case.sensors) == pytest.approx(error, rel=0.1)
 
@@ -145,7 +145,7 @@ class TestRepeats:
         with pytest.warns(AccuracyWarning) as caught:
             run = simulate(system_of("flyball"), 10.0, 0.2, estimate_error=True, **QUIET)
         assert run.accuracy.halvings_per_step > 0.1
-        assert run.accuracy.repeated_with < 0.1
+        assert run.accuracy.compared_step < 0.1
         assert run.accuracy.error > 0.05
         assert len(caught) == 1
 
@@ -227,7 +227,7 @@ class TestRepeats:
             return march(simulation, t_end, h, *more)
 
         monkeypatch.setattr(fixed_steps, "march", refuse)
-        with pytest.warns(AccuracyWarning, match="repeat with steps of 0.005 s was refused.*fell apart"):
+        with pytest.warns(AccuracyWarning, match="refined run with steps of 0.005 s was refused.*fell apart"):
             simulate(system_of("pendulum"), 1.0, 0.01, estimate_error=True, **QUIET)
 
     def test_the_bar_covers_the_repeat(self):
@@ -273,7 +273,7 @@ def test_a_run_of_one_step_is_not_refused_by_its_own_twin():
     car = compile(prototype_car.build())
     one = simulate(car, 0.01, 0.01, **QUIET)
     assert len(one.t) == 2
-    assert one.accuracy.repeated_with == 0.0025
+    assert one.accuracy.compared_step == 0.0025
     with pytest.warns(AccuracyWarning, match="ends at 0.01 s"):
         assert simulate(car, 0.015, 0.01, **QUIET).t[-1] == 0.01
     with pytest.raises(ValueError, match=r"The step h is 0\.01 s, longer than the run of 0\.005 s"):
@@ -281,7 +281,7 @@ def test_a_run_of_one_step_is_not_refused_by_its_own_twin():
 
 
 def test_what_jumps_is_not_judged():
-    names = judged_sensors(compile(prototype_car.build()))
+    names = compared_sensors(compile(prototype_car.build()))
     judged = {name for name, what in names.items() if what.always}
     assert {names[n].unit for n in judged} == {"m", "rad", "N"}
     assert {"chassis.x", "chassis.yaw", "chassis.pitch", "wheel_FL.Fz", "wheel_FL.travel"} <= judged
@@ -305,7 +305,7 @@ class TestByHand:
         assert len(caught) == 1
         simulation.run(2.0, 5e-4, progress=False)  # warnings are errors here
         assert first.accuracy.energy_balance == first.report.energy_balance
-        assert first.accuracy.repeated_with is None
+        assert first.accuracy.compared_step is None
 
     def test_a_right_motion_is_quiet(self):
         simulation = Simulation(system_of("double_four_bar"))
@@ -368,4 +368,4 @@ def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_told():
     assert told.accuracy.error == pytest.approx(0.055, rel=0.15)
     assert run(0.002, 1.3).accuracy.message == ""
     level = simulate(system, 1.3, 0.01, pose=Pose(speed=20.0), parameters={"road.kerb_x": 200.0})
-    assert level.accuracy.repeat_cost == 0.0
+    assert level.accuracy.check_cost == 0.0

@@ -17,9 +17,9 @@ from benchmarks.methods import random_machines, random_mechanisms
 from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.results.accuracy import Accuracy, missed_share
-from mbs.results.judged import Judged
+from mbs.results.comparison import Compared
 from mbs.results.smooth_laws import LOOPS, OPEN, UNRESOLVED, unresolved_share
-from mbs.simulation.coarser_run import FORCES, QUICK, TWICE, difference_from, glances
+from mbs.simulation.coarser_run import coarser_steps, difference_from
 from tests.simulation.drawn import drawn
 
 SPAN = (0.0, 1.0)  # s
@@ -37,8 +37,8 @@ SPAN = (0.0, 1.0)  # s
 def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost: float, more: dict[str, Any]) -> None:
     run = mbs.simulate(system_of("pendulum"), 10.0, h, progress=False, **more)
     assert run.accuracy is not None
-    assert run.accuracy.repeated_with == times * h
-    assert run.accuracy.repeat_cost == cost
+    assert run.accuracy.compared_step == times * h
+    assert run.accuracy.check_cost == cost
     assert not run.accuracy.message
 
 
@@ -54,7 +54,7 @@ def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     system, span = drawn("chain", 31, 6)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 6\.[5-9] %"):
         mbs.simulate(system, span, span / 250, every=5, progress=False)
-    known = Accuracy(None, None, 0.0, repeated_with=0.25, order=2.0, units={"m": 0.0066})
+    known = Accuracy(None, None, 0.0, compared_step=0.25, order=2.0, units={"m": 0.0066})
     assert difference_from(known, "ali3p", 0.1) == pytest.approx(0.0066 * (2.5**2 - 1.0))
 
 
@@ -163,7 +163,7 @@ def test_a_sample_that_one_in_two_leaves_out_is_compared() -> None:
     force = stiffness * np.maximum(place(stiffness, gap, run.t) - gap, 0.0)
     assert np.flatnonzero(force).tolist() == [13]
     assert run.accuracy is not None
-    assert run.accuracy.repeated_with == pytest.approx(every / 20 * h, rel=1e-12)
+    assert run.accuracy.compared_step == pytest.approx(every / 20 * h, rel=1e-12)
     assert "N" in run.accuracy.units
 
 
@@ -171,15 +171,15 @@ def test_which_coarser_runs_are_made() -> None:
     """One iteration shows what long steps miss, but not of forces nor of what sticks; none where the run is coarse."""
     run = mbs.simulate(ball(1e3, 0.5), 1.25, 0.005, estimate_error=False, progress=False)
     assert run.report is not None
-    still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Judged("m", place=True)}, mbs.Settings()
+    still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Compared("m", place=True)}, mbs.Settings()
     abrupt = replace(run.report, predictor_path=run.report.velocity_path)
     energy_momentum = mbs.Settings(method="energy_momentum")
-    assert glances(settings, moves, False, UNRESOLVED, still) == QUICK
-    assert glances(settings, moves, True, UNRESOLVED, still) == TWICE
-    assert glances(settings, {**moves, "force": Judged("N", load=True)}, False, UNRESOLVED, still) == FORCES
-    assert glances(settings, moves, False, UNRESOLVED, run.report) == QUICK[1:]
-    assert glances(settings, moves, False, UNRESOLVED, abrupt) == ()
-    assert glances(energy_momentum, moves, False, UNRESOLVED, abrupt) == ()
+    assert coarser_steps(settings, moves, False, UNRESOLVED, still) == [8, 4, 2]
+    assert coarser_steps(settings, moves, True, UNRESOLVED, still) == [2]
+    assert coarser_steps(settings, {**moves, "force": Compared("N", load=True)}, False, UNRESOLVED, still) == [2]
+    assert coarser_steps(settings, moves, False, UNRESOLVED, run.report) == [4, 2]
+    assert coarser_steps(settings, moves, False, UNRESOLVED, abrupt) == []
+    assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, abrupt) == []
 
 
 @pytest.mark.parametrize(
@@ -247,7 +247,7 @@ def test_a_chain_in_long_steps_of_high_order_is_checked_by_half_at_most() -> Non
     for h in (0.0125, 0.1):
         run = mbs.simulate(system, 2.0, h, method="semi_recursive", every=round(0.1 / h), progress=False)
         assert run.accuracy is not None
-        assert run.accuracy.repeat_cost <= 3.0
+        assert run.accuracy.check_cost <= 3.0
         exact = run if exact is None else exact
     names = [f"tip.position.{c}" for c in "xyz"]
     off = max(float(np.abs(run[n] - exact[n]).max()) for n in names)
@@ -333,7 +333,7 @@ def test_a_guide_whose_rate_jumps_needs_no_repeat(method, piece, rate, stiffness
     span = 5.0 * piece
     run = mbs.simulate(cam(lift, stiffness, damping), span, h, method=method, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost == cost
+    assert run.accuracy.check_cost == cost
     assert not run.accuracy.message
     exact = solve_ivp(
         lambda t, y: [y[1], stiffness * (lift(t) - y[0]) + damping * (lift(t, 1) - y[1])],

@@ -10,10 +10,10 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_machines
-from mbs.results.judged import COORDINATES, Judged
+from mbs.results.comparison import COORDINATES, Compared
 from mbs.results.smooth_laws import LOOPS, OPEN
-from mbs.simulation.coarser_run import HIGH, Coarser, TooFarError, glances, rest_missed
-from mbs.simulation.repeat import Repeats
+from mbs.simulation.coarser_run import CoarserRuns, TooFarError, coarser_steps, rest_missed
+from mbs.simulation.refined_run import RefinedRuns
 from tests.simulation.drawn import drawn
 from tests.simulation.test_coarser_runs import ball, place
 
@@ -56,12 +56,12 @@ def test_chains_that_were_silent_are_told(seed: int, number: int, steps: int, me
 def test_a_right_tree_costs_its_run_alone(method: str) -> None:
     run = mbs.simulate(swing(), 20.0, 0.2, method=method, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost == 0.0
+    assert run.accuracy.check_cost == 0.0
     assert np.abs(run["x"] - 0.02 * np.sin(run.t)).max() < 0.005 * 0.02
 
 
 def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
-    moves = {"x": Judged("m", place=True)}
+    moves = {"x": Compared("m", place=True)}
     fine, coarse = (
         mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
         for h in (0.2, 0.3)
@@ -69,9 +69,9 @@ def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
     assert fine.settings is not None
     assert fine.report is not None
     assert coarse.report is not None
-    assert glances(fine.settings, moves, False, OPEN, fine.report) == HIGH
-    assert glances(fine.settings, moves, False, OPEN, coarse.report) == HIGH[1:]
-    assert glances(fine.settings, moves, False, LOOPS, coarse.report) == HIGH
+    assert coarser_steps(fine.settings, moves, False, OPEN, fine.report) == [4, 2]
+    assert coarser_steps(fine.settings, moves, False, OPEN, coarse.report) == [2]
+    assert coarser_steps(fine.settings, moves, False, LOOPS, coarse.report) == [4, 2]
 
 
 def test_a_half_that_surely_is_coarse_is_not_made() -> None:
@@ -79,8 +79,8 @@ def test_a_half_that_surely_is_coarse_is_not_made() -> None:
     h, w, gap = 0.01, 160.0, 0.4033
     run = mbs.simulate(ball(w * w, gap, wall=1e3), 80 * h, h, method="radau_5", progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeated_with == pytest.approx(h / 4)
-    assert run.accuracy.repeat_cost == 4.0
+    assert run.accuracy.compared_step == pytest.approx(h / 4)
+    assert run.accuracy.check_cost == 4.0
     truth = place(w * w, gap, run.t)
     assert np.abs(run["x"] - truth).max() < 0.05 * np.ptp(truth)
     assert not run.accuracy.message
@@ -92,16 +92,16 @@ def test_a_coarser_run_is_given_up_where_it_differs() -> None:
     """
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.01, every=2, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost == 6.25
-    assert run.accuracy.repeated_with == 0.0025
+    assert run.accuracy.check_cost == 6.25
+    assert run.accuracy.compared_step == 0.0025
 
 
 def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth() -> None:
     """At 0.75 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.0025, every=4, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost == 0.3
-    assert run.accuracy.repeated_with == 0.005
+    assert run.accuracy.check_cost == 0.3
+    assert run.accuracy.compared_step == 0.005
     assert 0.0 < run.accuracy.units["N"] < 0.005
 
 
@@ -121,7 +121,7 @@ def never(*_: Any) -> Any:
 def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndarray], np.ndarray], ends: bool) -> None:
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
-    look = Coarser(Repeats(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 0.03, 40)
+    look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 0.03, 40)
     values = np.column_stack([run[name] for name in run.units])
     values[:, list(run.units).index("x")] += grown(t) * np.ptp(run["x"])
     assert look(values[:51]) == ends
@@ -143,7 +143,7 @@ def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.1 %"):
         run = mbs.simulate(system, span, span / 100, every=2, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost == 14.0
+    assert run.accuracy.check_cost == 14.0
 
 
 def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
@@ -152,16 +152,16 @@ def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
     def judged(most: float | None) -> mbs.Trajectory:
         return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
 
-    for most, spent, said in ((1.0, 0.4, "none has shorter steps"), (10.0, 6.4, "tells 3.9 % of the largest range")):
-        with pytest.warns(mbs.AccuracyWarning, match=f"not judged: .* more than {most:g} runs, .*{said}") as told:
+    for most, spent, said in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
+        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{said}") as told:
             run = judged(most)
         assert run.accuracy is not None
-        assert run.accuracy.repeat_cost == pytest.approx(spent)
+        assert run.accuracy.check_cost == pytest.approx(spent)
         needed = float(str(told[0].message).split("estimate_error=")[1].split(")")[0])
         enough, free = judged(needed).accuracy, judged(None).accuracy
         assert enough == free
         assert enough is not None
-        assert enough.repeat_cost <= needed <= enough.repeat_cost + 1.0
+        assert enough.check_cost <= needed <= enough.check_cost + 1.0
         assert not enough.message
     assert "at most 48 unless estimate_error=N" in str(run.accuracy)
 
@@ -172,5 +172,5 @@ def test_coordinates_are_compared_at_the_same_instants_in_all_runs(steps: int) -
     system = ball(1e3, 0.5, loads=True, motion=False)
     run = mbs.simulate(system, 1.25, 1.25 / steps, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.repeat_cost > 0.0
+    assert run.accuracy.check_cost > 0.0
     assert 0.0 < run.accuracy.units[COORDINATES] < 0.05

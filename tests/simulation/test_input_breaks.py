@@ -160,7 +160,7 @@ def test_a_coarser_run_that_missed_what_moves_does_not_agree() -> None:
         sledge(50.0), 4.0, 0.01, {"push": lambda t: 100.0 * max(0.0, 1.0 - abs(t - 0.53) / 0.01)}, progress=False
     )
     assert run.accuracy is not None
-    assert run.accuracy.repeated_with == 0.005
+    assert run.accuracy.compared_step == 0.005
     assert run.accuracy.error is not None
 
 

@@ -71,6 +71,6 @@ def test_without_checks_nothing_is_repeated_and_true_is_refused() -> None:
         runs = mbs.simulate_many(system, [mbs.Variant()], 0.2, 0.01, progress=False, estimate_error=False)
     assert runs.trajectories[0] is not None
     assert runs.trajectories[0].accuracy is not None
-    assert runs.trajectories[0].accuracy.repeated_with is None
+    assert runs.trajectories[0].accuracy.compared_step is None
     with pytest.raises(ValueError, match="estimate_error = True; many runs"):
         mbs.simulate_many(system, [mbs.Variant()], 0.2, 0.01, progress=False, estimate_error=True)

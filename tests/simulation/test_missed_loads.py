@@ -10,8 +10,7 @@ import pytest
 import mbs
 from benchmarks.methods import random_cars
 from mbs.results import comparison
-from mbs.results.comparison import WIDTH, missed_load
-from mbs.results.judged import instants, judged_sensors
+from mbs.results.comparison import WIDTH, compared_sensors, instants, missed_load
 from mbs.scenes import prototype_car
 
 N = 2001
@@ -55,7 +54,7 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5.[67] %"):
         run = drive.run(h=0.02)
     load = "spring_RR.force"
-    size = max(np.abs(fine[n]).max() for n, what in judged_sensors(drive.system).items() if what.load)
+    size = max(np.abs(fine[n]).max() for n, what in compared_sensors(drive.system).items() if what.load)
     gaps = np.abs(run[load] - fine[load]) / size
     assert gaps.max() > 0.05
     assert gaps[np.linspace(0, len(gaps) - 1, 51).round().astype(int)].max() < 0.03
@@ -68,7 +67,7 @@ def test_a_fourth_repeat_tells_what_three_leave_open() -> None:
     with pytest.warns(mbs.AccuracyWarning):
         run = random_cars.drive(_stream(31, 27)).run(h=0.02)
     assert run.accuracy is not None
-    assert run.accuracy.repeated_with == 0.02 / 16
+    assert run.accuracy.compared_step == 0.02 / 16
     assert run.accuracy.error == pytest.approx(0.0508, rel=0.06)
 
 
@@ -83,7 +82,7 @@ def _stream(seed: int, number: int) -> np.random.Generator:
 def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """50 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
     system = mbs.compile(prototype_car.build())
-    names = [n for n, what in judged_sensors(system).items() if what.load]
+    names = [n for n, what in compared_sensors(system).items() if what.load]
 
     def run(height: float) -> tuple[float, list[str]]:
         """Largest error of a peak over the largest load, and what is said."""

@@ -30,7 +30,7 @@ def swing(at: float = 1.0) -> mbs.System:
 def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
     """169 mm at its hand; at half the step 27 mm, 4.2 % of an angle, which is right."""
     system = mbs.compile(puma.build())
-    with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a repeat with steps of 0.025 s"):
+    with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a refined run with steps of 0.025 s"):
         puma.replay(system, 0.1)
     puma.replay(system, 0.05)
 
@@ -51,7 +51,7 @@ def test_the_twin_goes_on_from_run_to_run() -> None:
     simulation = Simulation(swing())
     first = simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
     second = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)
-    assert first.accuracy.repeated_with == second.accuracy.repeated_with == 0.005
+    assert first.accuracy.compared_step == second.accuracy.compared_step == 0.005
     whole = mbs.simulate(swing(), 2.0, 0.01, estimate_error=True, **QUIET)
     assert second.accuracy.sensors == pytest.approx(whole.accuracy.sensors, rel=1e-3)
     assert 0.0 < first.accuracy.error < whole.accuracy.error
@@ -59,7 +59,7 @@ def test_the_twin_goes_on_from_run_to_run() -> None:
 
 def test_a_few_steps_are_not_repeated() -> None:
     simulation = Simulation(swing())
-    assert simulation.run(0.45, 0.05, **QUIET).accuracy.repeated_with is None
+    assert simulation.run(0.45, 0.05, **QUIET).accuracy.compared_step is None
 
 
 def test_a_tolerance_holds_across_switches() -> None:

@@ -11,9 +11,8 @@ import pytest
 import mbs
 from mbs.kernel.header.enumerations import Status
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
-from mbs.results.comparison import EVENT_ORDER, by_limit, unsure
-from mbs.results.judged import Judged
-from mbs.simulation.repeat import Repeats, Run
+from mbs.results.comparison import Compared
+from mbs.simulation.refined_run import EVENT_ORDER, RefinedRuns, Run, extrapolated, unsure
 
 T = np.linspace(0.0, 1.0, 101)
 FORCE = 1000.0 * np.cos(3.0 * T)
@@ -25,14 +24,14 @@ def repeat(step: float, order: float) -> dict[str, np.ndarray]:
 
 
 def by(**units: float) -> Accuracy:
-    return Accuracy(None, None, 0.0, repeated_with=0.1, order=2.0, units=units)
+    return Accuracy(None, None, 0.0, compared_step=0.1, order=2.0, units=units)
 
 
 @pytest.mark.parametrize("order", [EVENT_ORDER, 1.0, 1.5])
 def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
     run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
-    found = by_limit(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Judged("N", load=True)), None, 1.0)
+    found = extrapolated(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0)
     left = 0.125**order - (0.25**order - 0.125**order) / (2.0**EVENT_ORDER - 1.0)
     true = float(np.abs(run["a"] - FORCE).max())
     assert abs(left) < (1e-15 if order == EVENT_ORDER else 0.084)
@@ -65,32 +64,28 @@ def test_what_moves_is_judged_wherever_it_lies() -> None:
     assert told == pytest.approx([told[0]] * 3, rel=1e-6)
 
 
-@pytest.mark.parametrize("refused", [(2,), (2, 8)])
-def test_a_longer_repeat_that_is_refused_does_not_overrule_a_finer_one(refused: tuple[int, ...]) -> None:
-    """Where a quarter of the step ended, a half that does not is passed over; an eighth that does not is told."""
+def test_a_finer_run_that_is_refused_is_not_passed_over() -> None:
+    """Half the step, 12 % off, may be off by as much as it says; a quarter that does not end is told."""
     m = mbs.Model("oscillator", dimension=2, gravity=(0.0, 0.0))
     mass = m.point_mass("mass", mass=1.0, position=(0.0, 0.02))
     m.point_on_line("guide", (mass, None), (m.ground, (0.0, 0.0)), axis=(0.0, 1.0))
     m.spring_damper("spring", (m.ground, (0.0, -1.0)), mass, stiffness=1000.0, free_length=1.0)
     m.sense_position("y", mass, None, "y")
-    system, tried = mbs.compile(m), []
+    system, tried, refused = mbs.compile(m), [], set[int]()
 
     def march(h: float, every: int, update: Callable[[float], None], look: bool, iterations: int, *_: Any) -> Run:
-        tried.append(round(0.02 / h))
+        tried.append(round(0.01 / h))
         if tried[-1] in refused:
             raise mbs.SimulationError("it did not converge", 0.0, Status.NOT_CONVERGED)
-        return mbs.simulate(system, 1.0, h, every=every, progress=False, estimate_error=False), []
+        return mbs.simulate(system, 0.2, h, every=every, progress=False, estimate_error=False), []
 
-    def update(_: float) -> None:
-        pass
+    def repeats() -> RefinedRuns:
+        tried.clear()
+        return RefinedRuns(system, march(0.01, 1, lambda _: None, False, 0), march, 0.01, 1, lambda _: None)
 
-    repeats = Repeats(system, march(0.02, 1, update, False, 0), march, 0.02, 1, update)
-    known = repeats.finer(4)
-    if 8 in refused:
-        with pytest.raises(mbs.SimulationError, match="did not converge"):
-            repeats.decided(known)
-        return
-    found = repeats.decided(known)
-    assert tried[:4] == [1, 4, 2, 8]
-    assert found.repeated_with == pytest.approx(0.02 / tried[-1])
-    assert found.error == pytest.approx(known.error, rel=0.1)
+    found = repeats().verdict()
+    assert tried == [1, 2, 4]
+    assert found.compared_step == pytest.approx(0.0025)
+    refused.add(4)
+    with pytest.raises(mbs.SimulationError, match="did not converge"):
+        repeats().verdict()

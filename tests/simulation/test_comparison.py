@@ -7,10 +7,9 @@ import pytest
 from scipy.interpolate import PPoly
 
 import mbs
-from mbs.results.comparison import differences
-from mbs.results.judged import Judged, judged_in, sizes_of
+from mbs.results.comparison import Compared, compared_in, differences, sizes_of
 
-RATE, PLACE = Judged("rad/s", always=False), Judged("m", place=True)
+RATE, PLACE = Compared("rad/s", always=False), Compared("m", place=True)
 T = np.linspace(0.0, 1.0, 101)
 
 
@@ -67,11 +66,11 @@ def test_rates_are_judged_where_no_place_moves_by_itself() -> None:
     """Without guides each place that moves does; with them two motions say so."""
     candidates = {"x": PLACE, "rate": RATE}
     values = {"x": np.sin(T), "rate": np.cos(9.0 * T)}
-    assert set(judged_in(values, candidates, 1.0)) == {"x"}
-    assert set(judged_in(values, candidates, 1.0, guided=True)) == {"x", "rate"}
+    assert set(compared_in(values, candidates, 1.0)) == {"x"}
+    assert set(compared_in(values, candidates, 1.0, guided=True)) == {"x", "rate"}
     still = values | {"x": 0.0 * T}
-    assert set(judged_in(still, candidates, 1.0)) == {"rate"}
-    assert set(judged_in(still, candidates, 1.0, stands=True)) == set()
+    assert set(compared_in(still, candidates, 1.0)) == {"rate"}
+    assert set(compared_in(still, candidates, 1.0, stands=True)) == set()
     other = values | {"rate": np.cos(8.0 * T)}
     for moved, units in ((0.0, {"m", "rad/s"}), (1e-3, {"m"})):
         found, gaps, sizes = differences(values, other | {"x": (1.0 + moved) * values["x"]}, candidates, None, 1.0)
@@ -80,7 +79,7 @@ def test_rates_are_judged_where_no_place_moves_by_itself() -> None:
 
 
 def test_angles_from_minus_pi_to_pi_are_compared_as_angles() -> None:
-    angle, turns = Judged("rad", place=True, wrapped=True), 20.0 * T
+    angle, turns = Compared("rad", place=True, wrapped=True), 20.0 * T
     wrapped = (turns + np.pi) % (2.0 * np.pi) - np.pi
     late = (turns - 0.3 + np.pi) % (2.0 * np.pi) - np.pi
     assert np.abs(wrapped - late).max() > 5.0
@@ -88,8 +87,8 @@ def test_angles_from_minus_pi_to_pi_are_compared_as_angles() -> None:
     assert sensors["a"] == pytest.approx(0.3)
     assert sizes["a"] == pytest.approx(20.0)
     assert units["rad"] == pytest.approx(0.015)
-    assert set(judged_in({"a": wrapped}, {"a": angle}, 1.0)) == {"a"}
-    assert set(judged_in({"a": wrapped[::10]}, {"a": angle}, 1.0)) == set()
+    assert set(compared_in({"a": wrapped}, {"a": angle}, 1.0)) == {"a"}
+    assert set(compared_in({"a": wrapped[::10]}, {"a": angle}, 1.0)) == set()
 
 
 def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:
@@ -108,13 +107,15 @@ def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:
 
 def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     values = {"large": 1000.0 + 10.0 * np.sin(9.0 * T), "small": 1e-3 * T, "load": 5.0 + T, "rest": 0.0 * T}
-    found = sizes_of(values, {"large": PLACE, "small": PLACE, "load": Judged("N", load=True), "rest": RATE}, length=1.0)
+    found = sizes_of(
+        values, {"large": PLACE, "small": PLACE, "load": Compared("N", load=True), "rest": RATE}, length=1.0
+    )
     assert found == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
 
 
 def test_a_small_turn_counts_where_nothing_else_moves() -> None:
-    judged = {"turn": Judged("rad", place=True), "x": PLACE}
+    judged = {"turn": Compared("rad", place=True), "x": PLACE}
     values = {"turn": 5e-4 * np.sin(9.0 * T), "x": np.sin(T)}
-    assert set(judged_in(values, judged, 1.0)) == {"x"}
-    assert set(judged_in(values | {"x": 0.0 * T}, judged, 1.0)) == {"turn"}
-    assert set(judged_in(values | {"turn": 3.0 * values["turn"]}, judged, 1.0)) == {"turn", "x"}
+    assert set(compared_in(values, judged, 1.0)) == {"x"}
+    assert set(compared_in(values | {"x": 0.0 * T}, judged, 1.0)) == {"turn"}
+    assert set(compared_in(values | {"turn": 3.0 * values["turn"]}, judged, 1.0)) == {"turn", "x"}

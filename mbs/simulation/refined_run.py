@@ -1,4 +1,4 @@
-"""The check of a run by repeats with other steps: which ones it needs, and what they say."""
+"""Refined runs by which a run is checked: which ones it needs, and what they show."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
-from mbs.results.comparison import by_limit, differences, unsure
-from mbs.results.judged import (
+from mbs.results.accuracy import FAR, MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.comparison import (
     COORDINATES,
-    Judged,
+    Compared,
     add_ends,
-    judged_in,
-    judged_sensors,
+    compared_in,
+    compared_sensors,
+    differences,
     shows_motion,
     sizes_of,
 )
@@ -33,14 +33,15 @@ from mbs.system.system import System
 
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
+EVENT_ORDER = 2.0  # behind abrupt events: of ALi3-P, where stops are located and parts of steps shrink with the step
 
 
 class TooDearError(Exception):
-    """A repeat would cost more than is left."""
+    """A refined run would cost more than is left."""
 
 
 @dataclass
-class Repeats:
+class RefinedRuns:
     """Further runs of the same motion, compared with the first.
 
     Parameters
@@ -59,13 +60,13 @@ class Repeats:
         Takes the progress of all runs, from 0 to 1.
     before : dict of str to ndarray, optional
         The ends of what moved in the runs before this one, by name.
-    twin : int
-        By what the step is divided for the repeat that goes on from the one of a run before, so that there is a single
-        one; 0 where none does.
+    divisor : int
+        By what the step is divided for the refined run that goes on from that of the run before, which is the only one;
+        0 where none does.
     inputs : dict of str to Signal, optional
         Those that follow time.
     most : float
-        What all repeats may cost, in first runs.
+        What all refined runs may cost, in first runs.
     path : sequence of tuple of int and Report
         Numbers of samples of the first run on its way, and what it had counted there; none where no coarser run may end
         before it.
@@ -73,17 +74,17 @@ class Repeats:
     Attributes
     ----------
     cost : float
-        Of the repeats, in first runs.
+        Of all further runs, in first runs.
     tried : float
-        Step of the last repeat, s.
+        Step of the last refined run, s.
     known : Accuracy or None
         By the last repeat.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
-    judged : dict of str to Judged
+    compared : dict of str to Compared
         What is compared, by name.
     parts : int
-        By what the step is divided for the repeat with half of what was really made.
+        By what the step is divided for the refined run with half of what was really made.
     unresolved : float
         The missed share above which steps do not resolve what changes the velocities.
     has_order : bool
@@ -98,7 +99,7 @@ class Repeats:
     every: int
     update: Callable[[float], None]
     before: dict[str, NDArray[np.float64]] | None = None
-    twin: int = 0
+    divisor: int = 0
     inputs: Mapping[str, Signal] | None = None
     most: float = MOST_COST
     path: Sequence[tuple[int, Report]] = ()
@@ -116,15 +117,17 @@ class Repeats:
         self.has_order = self.unresolved > UNRESOLVED
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
-        coordinates = dict.fromkeys(self._columns, Judged(COORDINATES, place=True))
+        coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))
         seen = self._coordinates(self.run)
         stands = bool(seen) and not sizes_of(seen, coordinates, self.length, self.before)
         guided = len(self.system.arrays["gterm_row"]) > 0
-        self.judged = judged_in(self.run[0], judged_sensors(self.system), self.length, self.before, stands, guided)
-        if shows_motion(self.judged):
+        self.compared = compared_in(
+            self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided
+        )
+        if shows_motion(self.compared):
             self.run = self.run[0], []
         elif self.run[1]:
-            self.judged |= coordinates
+            self.compared |= coordinates
 
     def finer(self, parts: int) -> Accuracy:
         """By a run whose steps are shorter by so many times.
@@ -134,7 +137,7 @@ class Repeats:
         again = self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
         self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
-        self.known = self.compared(self.run, again, self.h / parts, parts / (1.0 + halvings))
+        self.known = self.estimated(self.run, again, self.h / parts, parts / (1.0 + halvings))
         return self.known
 
     @property
@@ -154,69 +157,72 @@ class Repeats:
         """By what the step is divided first: no run is made that surely is `coarse`, down to an eighth of the step, as
         far as it costs no more than is left.
         """
-        left = self.most - self.cost
-        if self.twin:
-            return max(self.twin, self.parts)
-        most = 2 if self.has_order else 4
-        share = self._missed(self.run) / self.unresolved
-        most = max(times for times in (1, 2, 4) if times == 1 or (times <= most and times * self.parts <= left))
-        return self.parts * next((times for times in (1, 2) if times >= most or share <= times), most)
+        if self.divisor:
+            return max(self.divisor, self.parts)
+        share, times = self._missed(self.run) / self.unresolved, 1
+        while (
+            share > times and times < (2 if self.has_order else 4) and 2 * times * self.parts <= self.most - self.cost
+        ):
+            times *= 2
+        return self.parts * times
 
-    def decided(self, known: Accuracy) -> Accuracy:
-        """After a finer run: by one of twice its step where none was made, then, where the last one is coarse, or what
-        the last two differ by may change the verdict, by the next ones, down to a 16th of the step.
+    def verdict(self) -> Accuracy:
+        """By a finer run, and where that one is coarse, or may itself be off by so much that the verdict changes, by
+        those of half its step, down to a 16th of the step. With a `divisor` there is one.
 
-        Of the last two the one that says more counts: behind abrupt forces they are off to both sides. With an order
-        the last one counts, and two that agree are enough. One of twice its step that does not end is passed over.
-        Raises `SimulationError`: one finer than all others does not end.
+        Of the last two the one that says more counts: behind abrupt forces they are off to both sides.
+        Raises `SimulationError`: one does not end; `TooDearError`: one would cost more than is left.
         """
-        parts, last = max(self._finer), known
-        if parts == self.parts:
-            parts, known = 2 * parts, self.finer(2 * parts)
-        else:
-            try:
-                self._finer[parts // 2] = self.again(self.h * 2 / parts, self.every * parts // 2, parts / 2.0)
-            except SimulationError:  # says nothing against the finer one that ended
-                parts, last, known = 2 * parts, known, self.finer(2 * parts)
-        while True:
-            first, second = (self._table(self._finer[n]) for n in (parts // 2, parts))
-            if parts > 2 * self.parts:
-                known = by_limit(known, [self._table(self.run), first, second], self.judged, self.before, self.length)
-                self.known = known
-            if parts == 8 * self.parts or (parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR):
-                break  # of this one and the last the larger error counts
-            apart = differences(first, second, self.judged, self.before, self.length)[0]
-            if not (unsure(known, apart) or self.coarse):
-                break
+        parts = self.first
+        last = known = self.finer(parts)
+        while not self.divisor and parts < 8 * self.parts and (self.coarse or self._unsure(known, parts)):
             parts, last, known = 2 * parts, known, self.finer(2 * parts)
+            if parts > 2 * self.parts:
+                runs = (self.run, self._finer[parts // 2], self._finer[parts])
+                known = self.known = extrapolated(
+                    known, [self._table(r) for r in runs], self.compared, self.before, self.length
+                )
+            if parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR:
+                break
         if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
             known = replace(known, units=last.units, sensors=last.sensors)
-        return replace(known, repeat_cost=self.cost)
+        return replace(known, check_cost=self.cost)
+
+    def _unsure(self, known: Accuracy, parts: int) -> bool:
+        """Whether the last finer run may itself be off by so much that the verdict changes.
+
+        By order one where two finer runs have shown what they differ by, by the least order where a single one has.
+        """
+        pair = parts // 2 in self._finer
+        if not pair and (known.error or 0.0) > FAR:
+            return False
+        apart = self._apart(self._finer[parts // 2] if pair else self.run, self._finer[parts])
+        more = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
+        return unsure(known, {unit: more * gap for unit, gap in apart.items()})
+
+    def _apart(self, one: Run, other: Run) -> dict[str, float]:
+        """What two runs differ by, over the range in the other, per unit."""
+        return differences(self._table(one), self._table(other), self.compared, self.before, self.length)[0]
 
     def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
         """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
         do by the order of the errors where no run is that fine and it costs no more than is left.
         """
-        step, tried = accuracy.needed_step(self.h, known), self._offs(known)
+        step, tried = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
         if parts > max(self._finer) and tried[-1][1] > accuracy.MET:
             try:
                 self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):
                 return tried
-            return self._offs(known)
+            return self._offs()
         return tried
 
-    def _offs(self, known: Accuracy) -> list[tuple[float, float]]:
+    def _offs(self) -> list[tuple[float, float]]:
         """Of each finer run by the finest; of that one by the order with which the last two come nearer to it."""
         *others, finest = [1, *sorted(self._finer)]
-        tables = {n: self._table(self.run if n == 1 else self._finer[n]) for n in (*others, finest)}
-        apart = {
-            n: max(
-                differences(tables[n], tables[finest], self.judged, self.before, self.length)[0].values(), default=0.0
-            )
-            for n in others
-        }
+        runs = {1: self.run, **self._finer}
+        apart = {n: max(self._apart(runs[n], runs[finest]).values(), default=0.0) for n in others}
         near, order = others[-1], float(METHOD_TABLE[self.method].order)
         if near > 1 and min(apart[1], apart[near]) > 0.0:
             order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))
@@ -226,11 +232,11 @@ class Repeats:
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
         if self.before is not None:
-            add_ends(self.before, self._table(self.run), self.judged)
+            add_ends(self.before, self._table(self.run), self.compared)
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
-        return accuracy.error_text(known, self._sizes, self.judged)
+        return accuracy.error_text(known, self._sizes, self.compared)
 
     def again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
         """The motion in other steps, paid for. Raises `TooDearError`: it would cost more than is left."""
@@ -263,20 +269,20 @@ class Repeats:
         """What is compared of a run, by name."""
         if not self.run[1]:
             return run[0]
-        return {name: run[0][name] for name, what in self.judged.items() if what.load} | self._coordinates(run)
+        return {name: run[0][name] for name, what in self.compared.items() if what.load} | self._coordinates(run)
 
     def _coordinates(self, run: Run) -> dict[str, NDArray[np.float64]]:
         """Of a run at the instants, by name; none where they are not kept."""
         q = np.array(run[1])
         return {name: q[:, i] for name, i in self._columns.items()} if len(q) else {}
 
-    def compared(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
+    def estimated(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
         assert run.accuracy is not None
         tables = self._table(coarse), self._table(fine)
-        units, sensors, self._sizes = differences(*tables, self.judged, self.before, self.length)
+        units, sensors, self._sizes = differences(*tables, self.compared, self.before, self.length)
         order = float(METHOD_TABLE[run.settings.method].order)
         before, after = coarse[0].report, fine[0].report
         if round(ratio) < 4 and before is not None and after is not None:  # else the order hardly counts
@@ -284,9 +290,37 @@ class Repeats:
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
             run.accuracy,
-            repeated_with=h,
-            repeat_cost=self.cost,
+            compared_step=h,
+            check_cost=self.cost,
             order=order,
             units={unit: factor * e for unit, e in units.items()},
             sensors={name: factor * e for name, e in sensors.items()},
         )
+
+
+def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
+    """Whether a run that is off by `apart` may change the verdict of the error that it gave, both over the range, per
+    unit.
+    """
+    above = {unit: error - WARNED_ERROR for unit, error in known.units.items()}
+    surely_wrong = any(more >= apart[unit] for unit, more in above.items())
+    return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
+
+
+def extrapolated(
+    known: Accuracy,
+    tables: Sequence[Mapping[str, NDArray[np.float64]]],
+    compared: Mapping[str, Compared],
+    before: Mapping[str, NDArray[np.float64]] | None,
+    length: float,
+) -> Accuracy:
+    """The error against what refined runs tend to, by Richardson's extrapolation with `EVENT_ORDER`.
+
+    `tables`: of the run and of the last two refined ones, of which the last has half the step, samples of shape (n,) by
+    name; `before`, `length`: as of `sizes_of`.
+    """
+    run, coarse, fine = tables
+    more = 1.0 / (2.0**EVENT_ORDER - 1.0)
+    limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in compared}
+    units, sensors, _ = differences(run, limit, compared, before, length)
+    return replace(known, units=units, sensors=sensors)
