@@ -104,8 +104,8 @@ export class Player extends Shell {
   }
 
   /** @param {Data} look as that of the shell */
-  set(look) {
-    super.set(look);
+  setLook(look) {
+    super.setLook(look);
     if (look.deformation !== undefined && this.solid >= 0) {
       this.#scan(); // the floor lies below what is drawn
       this.#show();
