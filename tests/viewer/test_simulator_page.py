@@ -353,7 +353,7 @@ class TestOnePage:
         names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
         values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
         assert shared.commands() == list(zip(names, values, strict=True))
-        assert shared.ask("['max', 'min'].map((end) => Number(document.querySelector('.a3-slide')[end]))") == [3, -9.5]
+        assert shared.ask("['max', 'min'].map(end => Number(document.querySelector('.a3-slide')[end]))") == [3, -9.5]
         keyboard.press("h")
         assert shared.page.locator('[data-a3="help list"]').is_visible()
         keyboard.press("h")
