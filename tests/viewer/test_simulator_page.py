@@ -346,7 +346,8 @@ class TestOnePage:
         click = lambda what: shared.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
         click("rewind")
         shared.page.locator('[data-a3="timeline"]').evaluate(
-            "slider => { slider.value = slider.max - 7.5; for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
+            "slider => { slider.value = slider.max - 7.5;"
+            " for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
         )
         shared.page.locator('[data-a3="place"]').select_option("hill_20")
         shared.until_heard({"type": "place", "name": "hill_20"})
