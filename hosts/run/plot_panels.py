@@ -34,7 +34,7 @@ def draw_lines(
         # The right wheels are dashed, so that the left ones show through where they do the same.
         style = (0, (4, 3)) if label in ("FR", "RR") else "-"
         axes.plot(t, values, color=colour, label=label, linestyle=style, drawstyle="steps-pre" if steps else "default")
-    axes.set_title(title)
+    axes.set_title(title, loc="left")
     axes.set_ylabel(unit if unit != "1" else "")
     axes.margins(x=0)
     if len(series) > 1:

@@ -346,14 +346,15 @@ class TestOnePage:
         click = lambda what: shared.page.locator(f'[data-a3="{what}"]').first.click()  # noqa: E731
         click("rewind")
         shared.page.locator('[data-a3="timeline"]').evaluate(
-            "slider => { slider.value = slider.max - 7.5; for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
+            "slider => { slider.value = slider.max - 7.5;"
+            " for (const e of ['input', 'change']) slider.dispatchEvent(new Event(e)); }"
         )
         shared.page.locator('[data-a3="place"]').select_option("hill_20")
         shared.until_heard({"type": "place", "name": "hill_20"})
         names = ["pause", "step", "rewind", "rewind", "upright", "reset", "speed", "rewind", "rewind"]
         values = [0, 1, 2, 10, 0, 0, 0.25, 2, 7.5]
         assert shared.commands() == list(zip(names, values, strict=True))
-        assert shared.ask("['max', 'min'].map((end) => Number(document.querySelector('.a3-slide')[end]))") == [3, -9.5]
+        assert shared.ask("['max', 'min'].map(end => Number(document.querySelector('.a3-slide')[end]))") == [3, -9.5]
         keyboard.press("h")
         assert shared.page.locator('[data-a3="help list"]').is_visible()
         keyboard.press("h")

@@ -91,7 +91,7 @@ test("a page has the keys of its own cameras only", () => {
 test("a recording can do what the table of keys says of recordings, and a page offers nothing else", () => {
   const run = { scene: null, t: new Float64Array([0, 1, 2]), epoch: new Float64Array(3), columns: {}, name: "", notes: [], missing: [] };
   const source = new Recordings([run], {});
-  const ofTime = ROWS.filter(({ act, where }) => where === "recorded" && !["path", "settings"].includes(act)).map(({ act }) => act);
+  const ofTime = ROWS.filter(({ act, where }) => where === "recorded" && act !== "path").map(({ act }) => act);
   assert.deepEqual(ofTime.filter((act) => !(act in source.acts)), []);
   source.acts.after({});
   assert.equal(source.time, 1);

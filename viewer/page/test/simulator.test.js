@@ -181,6 +181,13 @@ test("a trail is thinned and breaks where the car was put elsewhere", () => {
   trail.add(100, 100);
   trail.add(NaN, 0);
   assert.deepEqual(trail.points.slice(-2), [null, [100, 100]]);
+  const lifts = [[1, 1], [1.1, 1], [3, 1], [3.1, 1], [2, 1], [2.1, 1], [2.2, 2]].map(([time, epoch], k) => {
+    trail.at(time, epoch, 0.5);
+    const lifted = trail.points.at(-1) === null;
+    trail.add(10 * k, 0);
+    return lifted;
+  });
+  assert.deepEqual(lifts, [false, false, true, false, true, false, true], "a jump ahead, one back, another epoch");
 });
 
 test("friction of the ground where a world tells it", () => {

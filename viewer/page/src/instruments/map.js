@@ -19,6 +19,8 @@ const PAINTS = { white: "#f2f2ee", yellow: "#f0c84a", red: "#d8503f", blue: "#4a
 export class Trail {
   constructor() {
     this.points = []; // [x, y], or null for a break
+    /** @type {{time: number, epoch: number} | undefined} */
+    this.now = undefined;
   }
 
   /** @param {number} x @param {number} y */
@@ -27,6 +29,16 @@ export class Trail {
     if (!Number.isFinite(x + y) || (last && Math.hypot(x - last[0], y - last[1]) < APART)) return;
     this.points.push([x, y]);
     if (this.points.length > KEPT) this.points.splice(0, KEPT / 10);
+  }
+
+  /**
+   * What follows is of this time: it does not hang on what was if that is later, of another epoch, or long ago.
+   * @param {number} time - s. @param {number} epoch @param {number} longest - s.
+   */
+  at(time, epoch, longest) {
+    const { time: before, epoch: last } = this.now ?? { time, epoch };
+    if (time < before || time - before > longest || epoch !== last) this.lift();
+    this.now = { time, epoch };
   }
 
   /** What follows does not hang on what was. */

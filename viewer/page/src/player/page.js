@@ -14,7 +14,8 @@ export function playPage(container, page) {
   made.ready = decoded(page).then(
     async (given) => {
       made.player = play(container, given);
-      for (const name of ["seek", "camera", "set", "step", "play", "pause", "toggle", "speed", "side"]) {
+      made.set = (look) => made.player.setLook(look);
+      for (const name of ["seek", "camera", "play", "pause", "toggle", "speed", "side"]) {
         made[name] = (...values) => made.player[name](...values);
       }
       for (const name of ["problem", "time", "view", "clock", "runs", "notes", "plots", "cameras"]) {

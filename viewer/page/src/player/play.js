@@ -27,7 +27,6 @@ export const play = (container, given) => new Player(container, given);
 export class Player extends Shell {
   /** Pictures. @type {SceneView[]} */
   #drawn = [];
-  shown = { time: 0, epoch: 0 };
 
   /** @param {HTMLElement} container @param {{runs: import("../sources/decode.js").Run[], options?: Data}} given */
   constructor(container, { runs, options = {} }) {
@@ -104,8 +103,8 @@ export class Player extends Shell {
   }
 
   /** @param {Data} look as that of the shell */
-  set(look) {
-    super.set(look);
+  setLook(look) {
+    super.setLook(look);
     if (look.deformation !== undefined && this.solid >= 0) {
       this.#scan(); // the floor lies below what is drawn
       this.#show();
@@ -252,24 +251,17 @@ export class Player extends Shell {
   #show() {
     const numbers = this.source.sample();
     if (this.solid >= 0) {
-      this.#lift();
       this.view.update(numbers[this.solid]);
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
       for (const { traces, sampler } of this.drawnRuns) traces.update(this.clock.time, sampler.place[0]);
+      const { samplers, speed } = this.source;
+      this.instruments?.plan.trail.at(this.time, this.runs[this.solid].epoch[samplers[this.solid].place[0]], JUMP * Math.max(1, speed));
       this.instruments?.show(numbers[this.solid]);
       this.view.render();
     }
     this.bar?.show(this.source);
     if (this.sideOpen) this.plots?.now();
     this.dirty = false;
-  }
-
-  /** The way on the map ends where another one begins: at a jump in time, and at a reset. */
-  #lift() {
-    const epoch = this.runs[this.solid].epoch?.[this.source.samplers[this.solid].place[0]];
-    const passed = this.time - this.shown.time;
-    if (passed < 0 || passed > JUMP * Math.max(1, this.source.speed) || epoch !== this.shown.epoch) this.instruments?.plan.trail.lift();
-    this.shown = { time: this.time, epoch };
   }
 
   #frame(now) {

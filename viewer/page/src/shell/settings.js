@@ -47,18 +47,18 @@ export class Settings {
       this.shown[key](look[key]);
       range.addEventListener("input", () => {
         const value = Number((10 ** Number(range.value)).toPrecision(3));
-        player.set({ [key]: value });
+        player.setLook({ [key]: value });
       });
       rows.push(el("span", {}, text), range, shown);
-      return (value) => player.set({ [key]: value });
+      return (value) => player.setLook({ [key]: value });
     };
     if (player.has.arrows) {
-      this.shown.arrows = check(hint("arrows"), look.arrows, (arrows) => player.set({ arrows }), "show arrows");
+      this.shown.arrows = check(hint("arrows"), look.arrows, (arrows) => player.setLook({ arrows }), "show arrows");
       factor("length of the arrows", "arrowScale", 0.1, 10);
     }
-    if (player.has.path) this.shown.path = check(hint("path"), look.path, (path) => player.set({ path }), "show path");
-    if (player.has.closed) this.shown.closed = check(hint("closed"), look.closed, (closed) => player.set({ closed }), "show closed");
-    if (player.has.stress) this.shown.stress = check(hint("stress"), look.stress, (stress) => player.set({ stress }), "show stress");
+    if (player.has.path) this.shown.path = check(hint("path"), look.path, (path) => player.setLook({ path }), "show path");
+    if (player.has.closed) this.shown.closed = check(hint("closed"), look.closed, (closed) => player.setLook({ closed }), "show closed");
+    if (player.has.stress) this.shown.stress = check(hint("stress"), look.stress, (stress) => player.setLook({ stress }), "show stress");
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);
       const fit = () => deform(player.view.fittingDeformation);
@@ -68,7 +68,7 @@ export class Settings {
     if (this.source.acts.loop) this.shown.loop = check(hint("loop"), this.source.clock.loop, () => this.source.acts.loop());
     if (player.view) {
       const text = "quality of the picture";
-      const quality = select("quality", text, named(QUALITIES), (wish) => player.set({ quality: wish }), player.quality);
+      const quality = select("quality", text, named(QUALITIES), (wish) => player.setLook({ quality: wish }), player.quality);
       this.shown.quality = (wish) => (quality.value = wish);
       rows.push(el("span", {}, text), quality, el("span"));
     }

@@ -91,7 +91,7 @@ export class Shell {
       ...source.acts,
       camera,
       ...cameraActs({ names: () => this.cameras, all: this.cameras, now: () => this.cameraName, choose: camera }),
-      ...Object.fromEntries(switches.map((what) => [what, () => this.set({ [what]: !this.look[what] })])),
+      ...Object.fromEntries(switches.map((what) => [what, () => this.setLook({ [what]: !this.look[what] })])),
       panels: () => this.side(!this.sideOpen),
       settings: () => this.settings.toggle(),
       help: () => this.help.toggle(),
@@ -128,7 +128,7 @@ export class Shell {
   }
 
   /** Change what pictures show. @param {Data} look as `SceneView.set` has it, with `path` */
-  set(look) {
+  setLook(look) {
     if (look.stress && this.look.closed && look.closed === undefined && this.has.closed) look.closed = false; // what has the colours is within
     Object.assign(this.look, look);
     for (const view of this.views) view.set(look);
