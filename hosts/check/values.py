@@ -108,16 +108,16 @@ def reads_twice(subject: Subject) -> Finding:
     instance = Instance(subject).start()
     instance.run(2)
     once, twice = instance.get(subject.outputs), instance.get(subject.outputs)
-    single = [v for v in _scalars(subject, "input", "output") if v.type in REAL]
-    forward, back = instance.get(single), instance.get(single[::-1])[::-1]
-    for v, a, b in zip(single, forward, back, strict=True):
-        if a != b and a == a:
-            words = f"{v.name} reads {a:g}, and {b:g} where the references are asked for the other way round"
-            return Finding("reads twice", "bad", f"{words}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
     if any(a != b and a == a for a, b in zip(once, twice, strict=True)):
         k = next(k for k, (a, b) in enumerate(zip(once, twice, strict=True)) if a != b)
         words = f"an output reads {once[k]:g} and then {twice[k]:g} with no call in between; a read must change nothing"
         return Finding("reads twice", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+    single = [v for v in _scalars(subject, "input", "output") if v.type in REAL]
+    forward, back = instance.get(single), instance.get(single[::-1])[::-1]
+    for v, a, b in zip(single, forward, back, strict=True):
+        if a != b and a == a:
+            words = f"{v.name} reads {a:.9g}, and {b:.9g} where the references are asked for the other way round"
+            return Finding("reads twice", "bad", f"{words}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
     return Finding("reads twice", "good", "the same")
 
 
