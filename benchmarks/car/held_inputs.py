@@ -80,5 +80,5 @@ def draw(rows: Sequence[Row], file: Path) -> None:
         ax.minorticks_off()
         ax.grid(visible=True, alpha=0.3)
     axes[0].set_ylabel("error of the place over the path")
-    axes[0].legend()
+    axes[0].legend(loc="center left")
     save_chart(figure, file)
