@@ -1,7 +1,4 @@
-"""The table of planted faults in docs/fmu.md, printed; with --write it is put there.
-
-python -m tests.hosts.odd_fmus.table [--write]
-"""
+"""Planted faults by check, and which of them other programs find, printed: python -m tests.hosts.odd_fmus.table."""
 
 from __future__ import annotations
 
@@ -14,7 +11,7 @@ from itertools import product
 from multiprocessing import get_context
 from pathlib import Path
 
-from benchmarks.shared.pages import DOCS, replace, table
+from benchmarks.shared.pages import table
 from tests.hosts.odd_fmus import planted_fmu
 from tests.hosts.test_check_planted import ALSO, PLANTS, found
 
@@ -60,8 +57,4 @@ def rows() -> list[dict[str, str]]:
 
 
 if __name__ == "__main__":
-    made = table(rows(), dict.fromkeys(("check", "faults", *WAYS), ""))
-    print(made)
-    if "--write" in sys.argv[1:]:
-        page = DOCS / "fmu.md"
-        page.write_text(replace(page.read_text(encoding="utf-8"), {"planted faults": made}), encoding="utf-8")
+    print(table(rows(), dict.fromkeys(("check", "faults", *WAYS), "")))
