@@ -12,7 +12,7 @@ from typing import Any
 
 import fmpy
 
-from benchmarks.car import fmu_calls, wasm_times
+from benchmarks.car import fmu_calls, held_inputs, manoeuvres, wasm_times
 from benchmarks.methods import studies
 from benchmarks.methods.study_pages import study_blocks
 from benchmarks.shared.command import Part, run, watched
@@ -32,6 +32,14 @@ def _calls(options: Namespace) -> list[dict[str, Any]]:
             asked = options.steps, min(options.repeats, 64), options.instances
             rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *asked)
     return rows
+
+
+def _held(options: Namespace) -> list[dict[str, Any]]:
+    system = manoeuvres.system_of("drop")
+    kinds = dict.fromkeys(kind for kind, *_ in held_inputs.WAYS.values())
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        fmus = {kind: build_fmu(system, "car", Path(folder), [fmpy.platform], kind=kind) for kind in watched([*kinds])}
+        return held_inputs.measured(fmus, options.only)
 
 
 def _plant(options: Namespace) -> list[dict[str, Any]]:
@@ -81,6 +89,14 @@ PARTS = {
         },
         pages=("stepping.md",),
         blocks=_plant_blocks,
+    ),
+    "held": Part(
+        "errors over the communication step: inputs held, on derivatives, asked for within steps",
+        _held,
+        names=held_inputs.MANOEUVRES,
+        pages=("fmu.md",),
+        blocks=held_inputs.blocks,
+        chart=held_inputs.draw,
     ),
     "study": Part(
         "what Dask takes beside runs of about 0.1 s; memory, disk and starts as runs grow in number (extra `study`)",

@@ -27,6 +27,11 @@ from mbs.elements.road import ANSWER
 ELEMENTS = "extra/org.ali3.elements/elements.txt"
 """Where an FMU with arrays says what their elements are called in the other kinds."""
 
+LS_NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
+LS_STRUCT = "org.fmi-standard.fmi-ls-struct"
+"""Of modelica/fmi-ls-struct, whose terminals are maps: the release candidate 1 of 1.0."""
+MAPS = f"{LS_STRUCT}.map"
+
 
 def model_description_fmi3(
     head: Description, table: Sequence[Variable], arrays: Sequence[Array], reach: Dependencies
@@ -62,7 +67,7 @@ def model_description_fmi3(
     for place, (reference, array) in enumerate(zip(numbers, arrays, strict=True)):
         if place == time:
             _time(variables, time)
-        _variable(variables, reference, array, types)
+        _variable(variables, reference, array, types, table)
     if time == len(arrays):
         _time(variables, time)
     for reference, text in enumerate(head.texts, start=len(arrays) + 1):
@@ -103,7 +108,7 @@ def build_description(model_identifier: str, sources: Sequence[str]) -> bytes:
 
 def terminals(arrays: Sequence[Array]) -> bytes:
     """terminalsAndIcons.xml: the place of the icon; a terminal per part of the model that has a name and more than one
-    variable from outside or to outside, and one of the inputs without such a name.
+    variable from outside or to outside, one of the inputs without such a name, and one per table.
     """
     parts: dict[str, list[Array]] = {}
     for array in arrays:
@@ -120,8 +125,8 @@ def terminals(arrays: Sequence[Array]) -> bytes:
     ElementTree.SubElement(picture, "CoordinateSystem", corners | {"suggestedScalingFactorTo_mm": "0.1"})
     ElementTree.SubElement(picture, "Icon", corners)
     parts = {name: members for name, members in parts.items() if len(members) > 1}
-    plugs = _plugs(arrays)
-    holder = ElementTree.SubElement(root, "Terminals") if parts or plugs else root
+    plugs, tables = _plugs(arrays), tables_of(arrays)
+    holder = ElementTree.SubElement(root, "Terminals") if parts or plugs or tables else root
     for name, members in parts.items():
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="bus")
         for member in members:
@@ -132,12 +137,44 @@ def terminals(arrays: Sequence[Array]) -> bytes:
                 memberName=member.name.rpartition(".")[2],
                 variableKind="signal",
             )
+    for name, members in tables.items():
+        kinds = {"name": name, "terminalKind": f"{MAPS}.rectilinearGrid", "matchingRule": MAPS}
+        terminal = ElementTree.SubElement(holder, "Terminal", kinds)
+        for member in members:
+            named = {"variableName": member.name, "memberName": member.name.rpartition(".")[2]}
+            named["variableKind"] = f"{MAPS}.{'domain' if member is members[0] else 'codomain'}"
+            ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     for name, ports in plugs:
         terminal = ElementTree.SubElement(holder, "Terminal", name=name, matchingRule="plug")
         for place, called, kind in ports:
             named = {"variableName": place, "memberName": called, "variableKind": kind}
             ElementTree.SubElement(terminal, "TerminalMemberVariable", named)
     return to_bytes(root)
+
+
+def tables_of(arrays: Sequence[Array]) -> dict[str, list[Array]]:
+    """Arrays of constants of one length under one name: the points of a table, then its values there."""
+    found: dict[str, list[Array]] = {}
+    for array in arrays:
+        prefix, _, _ = array.name.rpartition(".")
+        if array.of.source == "constant" and len(array.items) > 1 and prefix:
+            found.setdefault(prefix, []).append(array)
+    return {
+        name: members
+        for name, members in found.items()
+        if len(members) > 1 and len({len(a.items) for a in members}) == 1
+    }
+
+
+def map_manifest(arrays: Sequence[Array]) -> dict[str, bytes]:
+    """Manifest of the layered standard by which terminals are maps, by its path; nothing where there are none."""
+    if not tables_of(arrays):
+        return {}
+    named = {"name": LS_STRUCT, "version": "1.0.0-rc.1", "description": "Layered standard for structuring of variables"}
+    ElementTree.register_namespace("fmi-ls", LS_NAMESPACE)
+    attributes = {f"{{{LS_NAMESPACE}}}fmi-ls-{name}": value for name, value in named.items()}
+    manifest = ElementTree.Element("fmiLayeredStandardManifest", attributes)
+    return {f"extra/{LS_STRUCT}/fmi-ls-manifest.xml": to_bytes(manifest)}
 
 
 _FORCE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
@@ -212,6 +249,7 @@ def _variable(
     reference: int,
     array: Array,
     types: dict[str, dict[str, str]],
+    table: Sequence[Variable],
 ) -> None:
     v = array.of
     attributes = {"name": array.name, "valueReference": str(reference)}
@@ -224,6 +262,8 @@ def _variable(
     if v.causality == "input" and not v.whole:
         attributes["intermediateUpdate"] = "true"
     attributes |= variable_attributes(v)
+    if "start" in attributes:
+        attributes["start"] = " ".join(variable_attributes(table[k])["start"] for k in array.items)
     element = ElementTree.SubElement(parent, "Int32" if v.whole else "Float64", attributes)
     if len(array.items) > 1:
         ElementTree.SubElement(element, "Dimension", start=str(len(array.items)))

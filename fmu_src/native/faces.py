@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from fmu_src.description.description import Description, model_description
-from fmu_src.description.fmi3 import build_description, element_names, model_description_fmi3, terminals
+from fmu_src.description.fmi3 import build_description, element_names, map_manifest, model_description_fmi3, terminals
 from fmu_src.native.package import Face, NativeContents
 from fmu_src.native.platforms import FMI3_FOLDERS, PLATFORMS, TARGETS
 from fmu_src.native.table import c_arrays
@@ -45,11 +45,15 @@ def _face_fmi3(group: Callable[[Sequence[Variable]], tuple[Array, ...]], words: 
 
     def documents(head: Description, contents: NativeContents) -> dict[str, bytes]:
         groups = group(contents.table)
-        return {
-            "modelDescription.xml": model_description_fmi3(head, contents.table, groups, contents.reach),
-            "sources/buildDescription.xml": build_description(contents.model_name, head.sources),
-            "terminalsAndIcons/terminalsAndIcons.xml": terminals(groups),
-        } | element_names(contents.table, groups)
+        return (
+            {
+                "modelDescription.xml": model_description_fmi3(head, contents.table, groups, contents.reach),
+                "sources/buildDescription.xml": build_description(contents.model_name, head.sources),
+                "terminalsAndIcons/terminalsAndIcons.xml": terminals(groups),
+            }
+            | element_names(contents.table, groups)
+            | map_manifest(groups)
+        )
 
     return Face(
         "fmi3",

@@ -19,6 +19,7 @@ import mbs
 from ali3.parameter_set import ParameterSet
 from ali3.write_parameter_set import parameter_set_bytes
 from fmu_src.description.description import number, to_bytes
+from fmu_src.description.fmi3 import LS_NAMESPACE
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
@@ -26,7 +27,6 @@ from mbs.simulation.refusal import refusal
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 EXPERIMENTS = "experiments.exp"
-_NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 _ROWS = 100
 _PART = 0.2
 Column = NDArray[np.float64]
@@ -149,13 +149,13 @@ def reference_files(
     `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s; `parameters`: their values.
     Result: by path in the FMU.
     """
-    ElementTree.register_namespace("fmi-ls", _NAMESPACE)
+    ElementTree.register_namespace("fmi-ls", LS_NAMESPACE)
     manifest = ElementTree.Element(
         "fmiReferences",
         {
-            f"{{{_NAMESPACE}}}fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
-            f"{{{_NAMESPACE}}}fmi-ls-version": "1.0.0-alpha.1",
-            f"{{{_NAMESPACE}}}fmi-ls-description": "Layered Standard providing information on related files included "
+            f"{{{LS_NAMESPACE}}}fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
+            f"{{{LS_NAMESPACE}}}fmi-ls-version": "1.0.0-alpha.1",
+            f"{{{LS_NAMESPACE}}}fmi-ls-description": "Layered Standard providing information on related files included "
             "in an FMU.",
         },
     )

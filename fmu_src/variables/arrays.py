@@ -41,8 +41,8 @@ class Array:
 def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     """Group the variables of a table.
 
-    Returns vectors where all components are outputs of one unit and follow each other, series such as gauge_1.stress,
-    gauge_2.stress ..., else single variables; in the order of the table.
+    Returns vectors where all components are outputs of one unit and follow each other, series of outputs or constants
+    such as gauge_1.stress, gauge_2.stress ..., else single variables; in the order of the table.
     """
     found: list[Array] = []
     taken: set[int] = set()
@@ -95,8 +95,9 @@ def common_text(texts: Sequence[str]) -> str:
 
 def _alike(table: Sequence[Variable], items: Sequence[int]) -> bool:
     first = table[items[0]]
-    return all(
-        table[k].causality == "output" and table[k].unit == first.unit and table[k].whole == first.whole for k in items
+    kind = (first.causality, first.source == "constant", first.unit, first.whole)
+    return (first.causality == "output" or first.source == "constant") and all(
+        (table[k].causality, table[k].source == "constant", table[k].unit, table[k].whole) == kind for k in items
     )
 
 

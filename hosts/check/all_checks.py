@@ -11,7 +11,7 @@ from ali3.errors import UserError
 from ali3.isolated import Lost
 from hosts.check.behaviour import BEHAVIOUR_CHECKS
 from hosts.check.dependencies import DEPENDENCY_CHECKS
-from hosts.check.documents import DOCUMENT_CHECKS
+from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS
 from hosts.check.instance import Check, Finding, NotInstantiatedError, Subject, open_subject
 from hosts.check.portability import PORTABILITY_CHECKS
 from hosts.check.process_settings import SETTING_CHECKS
@@ -77,8 +77,10 @@ def lost(check: Check, loss: Lost, limit: float) -> Finding:
     verdict = check.crash if not loss.late else check.late if check.calls else "note"
     open_by = f" ({check.clause})" if verdict == "note" and check.clause else ""
     if loss.late:
-        return Finding(check.name, verdict, f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s")
-    return Finding(check.name, verdict, f"the process {loss.how}{open_by}")
+        words = f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s"
+    else:
+        words = f"the process {loss.how}{open_by}"
+    return Finding(check.name, verdict, words, last=check.name == FUNCTIONS)
 
 
 def left_out(finding: Finding) -> list[Check]:

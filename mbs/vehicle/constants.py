@@ -7,7 +7,7 @@ from mbs.vehicle.car_content import CarContent
 
 
 def vehicle_constants(m: Model, car: CarContent) -> None:
-    """Add dimensions of the car, its steering and the friction of its tyres as constants ``vehicle.*``."""
+    """Add dimensions, steering and tyre friction as constants ``vehicle.*``, and the tables of springs and dampers."""
     drawn = ", with the ratio of the car file"  # a constant of FMI stays where a parameter changes the ratio
     turned, angle = car.steering.wheel_angle_max, car.steering.front_wheel_angle_max
     for name, value, unit, text in (
@@ -36,3 +36,12 @@ def vehicle_constants(m: Model, car: CarContent) -> None:
             f"largest longitudinal force of a {name} tyre over its nominal load, on a road with the coefficient of "
             "friction 1",
         )
+    for name, axle in car.axles.items():  # behind the others, whose references stay
+        for part, table, columns in (
+            ("spring", axle.spring.table, (("compression", "m"), ("force", "N"))),
+            ("damper", axle.damper.table, (("speed", "m/s"), ("force", "N"))),
+        ):
+            for values, (column, unit) in zip(zip(*(table or ()), strict=True), columns, strict=False):
+                for k, value in enumerate(values, 1):
+                    text = f"{column} in row {k} of the table of a {name} {part}, a monotone cubic, before its factor"
+                    m.constant(f"{name}.{part}.table.{column}_{k}", value, unit, text)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tomllib
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,15 +11,22 @@ import fmpy
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
+from lxml import etree
 
 import mbs
 from fmu_src.build.build import build_fmu
+from fmu_src.description.fmi3 import LS_STRUCT
+from mbs.vehicle.read_car import CARS
 from tests import kinds
 from tests.fmu import scenes
 from tests.fmu.calls import ERROR, FMI_2, OK, HostMaker
+from tests.fmu.test_native_file import schema
+from tests.in_process import build_fmu as build_car
 
 H = 0.01
 CONSTANTS = {"crane.reach": (1.25, "m"), "crane.ratio": (17.1, "1")}
+TABLE = {"speed": ("m/s", (-1.0, 0.0, 0.5)), "force": ("N", (-400.0, 0.0, 250.0))}
+SCHEMA = Path(__file__).parents[1] / "data" / "fmi_ls_ref" / "fmi3LayeredStandardStructManifest.xsd"
 
 
 @pytest.fixture(scope="module")
@@ -74,3 +83,66 @@ def test_fmi_3_reads_them_beside_time_and_outputs(files: dict[str, Path], host: 
     for name in ("crane.reach", "time"):
         with pytest.raises(FMICallException):
             slave.setFloat64([references[name]], [1.0])
+
+
+@pytest.fixture(scope="module")
+def tabled(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """An FMU with the constants of a table, of a kind."""
+    m = scenes.crane(name="tabled")
+    for column, (unit, values) in TABLE.items():
+        for k, value in enumerate(values, 1):
+            m.constant(f"crane.damper.{column}_{k}", value, unit, f"{column} in row {k}")
+    m.constant("crane.alone_1", 1.0)  # no table
+    m.constant("crane.alone_2", 2.0)
+    folder, system = tmp_path_factory.mktemp("tabled"), mbs.compile(m)
+    return lambda kind: build_fmu(system, "tabled", folder, [fmpy.platform], kind=kind)
+
+
+def test_a_table_of_constants_is_a_map_of_fmi_ls_struct(tabled: Callable[[str], Path], host: HostMaker) -> None:
+    """Its terminal and manifest as the layered standard has them (modelica/fmi-ls-struct, 1.0.0-rc.1)."""
+    fmu = tabled("fmi3")
+    assert validate_fmu(str(fmu)) == []
+    with zipfile.ZipFile(fmu) as archive:
+        manifest = etree.fromstring(archive.read(f"extra/{LS_STRUCT}/fmi-ls-manifest.xml"))
+        icons = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    checker = schema(SCHEMA)
+    assert checker.validate(manifest), checker.error_log
+    (found,) = [t for t in icons.iter("Terminal") if t.get("matchingRule") == f"{LS_STRUCT}.map"]
+    assert (found.get("name"), found.get("terminalKind")) == ("crane.damper", f"{LS_STRUCT}.map.rectilinearGrid")
+    members = [(m.get("variableName"), m.get("memberName"), m.get("variableKind")) for m in found]
+    assert members == [
+        ("crane.damper.speed", "speed", f"{LS_STRUCT}.map.domain"),
+        ("crane.damper.force", "force", f"{LS_STRUCT}.map.codomain"),
+    ]
+    driven = host(fmu).start()
+    variables = {v.name: v for v in driven.description.modelVariables}
+    for column, (unit, values) in TABLE.items():
+        v = variables[f"crane.damper.{column}"]
+        assert (v.causality, v.variability, v.unit, v.shape) == ("local", "constant", unit, (len(values),))
+        assert tuple(driven.slave.getFloat64([v.valueReference], len(values))) == values
+        assert tuple(map(float, v.start.split())) == values
+        with pytest.raises(FMICallException):
+            driven.slave.setFloat64([v.valueReference], values)
+
+
+@pytest.mark.parametrize("kind", ["native", "fmi3_scalar"])
+def test_without_arrays_there_are_the_numbers_and_no_map(
+    tabled: Callable[[str], Path], host: HostMaker, kind: str
+) -> None:
+    fmu = tabled(kind)
+    with zipfile.ZipFile(fmu) as archive:
+        assert not [name for name in archive.namelist() if LS_STRUCT in name]
+    driven = host(fmu).start()
+    for column, (_, values) in TABLE.items():
+        assert tuple(driven.get(f"crane.damper.{column}_{k}") for k in range(1, 4)) == values
+
+
+@pytest.mark.slow
+def test_the_maps_of_a_car_are_the_tables_of_its_file(tmp_path: Path) -> None:
+    fmu = build_car(tmp_path, "--car", "hatchback", "--fidelity", "0", "--kind", "fmi3")
+    variables = {v.name: v for v in fmpy.read_model_description(str(fmu)).modelVariables}
+    content = tomllib.loads((CARS / "hatchback" / "car.toml").read_text(encoding="utf-8"))
+    for axle in ("front", "rear"):
+        for column, values in zip(("speed", "force"), zip(*content[axle]["damper"]["table"], strict=True), strict=True):
+            stated = variables[f"{axle}.damper.table.{column}"].start
+            assert tuple(map(float, stated.split())) == values

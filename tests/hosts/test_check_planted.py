@@ -108,6 +108,43 @@ def test_each_fault_is_found(tmp_path: Path, plant: str, three: bool) -> None:
     assert f"(FMI {'3' if three else '2'}.0, " in lines[check][1]
 
 
+@pytest.mark.parametrize("three", [False, True])
+def test_an_fmu_of_one_instance_in_a_process(tmp_path: Path, three: bool) -> None:
+    """Where it says so each check frees what was before; else it gives no second one, and that is one verdict."""
+    flag = {"canHandleVariable": 'canBeInstantiatedOnlyOncePerProcess="true" canHandleVariable'}
+    (tmp_path / "said").mkdir()
+    _, lines = found(planted_fmu(tmp_path / "said", "ONCE", three, flag))
+    assert [name for name, (verdict, _) in lines.items() if verdict == "BAD"] == ["stop time"]
+    assert lines["repeats"] == ("ok", "bit for bit, one after another")
+    _, lines = found(planted_fmu(tmp_path, "ONCE", three))
+    (bad,) = [words for verdict, words in lines.values() if verdict == "BAD"]
+    assert bad.startswith(
+        f"it is not instantiated (FMI {'3.0, 2.3.1' if three else '2.0, 2.1.5'}): Failed to instantiate"
+    )
+    assert "checks, which call functions of the FMU" in lines["not done"][1]
+
+
+@pytest.mark.parametrize("three", [False, True])
+def test_a_start_that_differs_by_round_off_is_a_note(tmp_path: Path, three: bool) -> None:
+    old, new = ('"input" start="0"', '"input" start="3.0000000001"')
+    if not three:
+        old, new = ('<Real start="0"', '<Real start="3.0000000001"')
+    _, lines = found(planted_fmu(tmp_path, "START_VALUE", three, {old: new}))
+    assert lines["start values"][0] == "note"
+    assert "u reads 3 before it is set, and its start is 3.0000000001" in lines["start values"][1]
+
+
+def test_dependencies_may_name_an_input_by_an_alias(tmp_path: Path) -> None:
+    """Both have one value reference; without the dependency the verdict is "BAD"."""
+    alias = '<ScalarVariable name="also" valueReference="0" causality="local"><Real/></ScalarVariable>\n'
+    known = {"  </ModelVariables>": f"    {alias}  </ModelVariables>"}
+    for place, verdict in (("1", "ok"), ("3", "ok"), ("", "BAD")):
+        (tmp_path / f"by{place}").mkdir()
+        listed = {'<Unknown index="2" dependencies=""/>': f'<Unknown index="2" dependencies="{place}"/>'}
+        _, lines = found(planted_fmu(tmp_path / f"by{place}", "FEEDTHROUGH", False, known | listed))
+        assert lines["dependencies"][0] == verdict, lines["dependencies"]
+
+
 def test_a_source_file_that_is_named_and_missing(tmp_path: Path) -> None:
     """In FMI 3.0 `buildDescription.xml` names them, see `test_check_portability`."""
     old, new = (

@@ -21,7 +21,7 @@ const char *fmi2GetVersion(void) { return PLANT == VERSION ? "1.0" : fmi2Version
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging) {
   (void)type, (void)visible, (void)logging;
-  if (!*name || strcmp(guid, "{small}") || !takes_path(resources)) return NULL;
+  if (!*name || strcmp(guid, "{small}") || !takes_path(resources) || !may_begin()) return NULL;
   face *f = calloc(1, sizeof *f);
   planted *made = new_planted();
   f->p = *made, f->functions = functions;
@@ -29,7 +29,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
   return f;
 }
 
-void fmi2FreeInstance(fmi2Component c) { free(c); }
+void fmi2FreeInstance(fmi2Component c) { free(c), alive--; }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerant, fmi2Real tolerance, fmi2Real start,
                                fmi2Boolean ends, fmi2Real stop) {

@@ -29,7 +29,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                                          fmi3IntermediateUpdateCallback update) {
   (void)visible, (void)logging, (void)events, (void)early, (void)needed, (void)n, (void)update;
-  if (!*name || strcmp(token, "{small}") || !takes_path(resources)) return NULL;
+  if (!*name || strcmp(token, "{small}") || !takes_path(resources) || !may_begin()) return NULL;
   face *f = calloc(1, sizeof *f);
   planted *made = new_planted();
   f->p = *made, f->log = log, f->environment = environment;
@@ -37,7 +37,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
   return f;
 }
 
-void fmi3FreeInstance(fmi3Instance c) { free(c); }
+void fmi3FreeInstance(fmi3Instance c) { free(c), alive--; }
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerant, fmi3Float64 tolerance, fmi3Float64 start,
                                        fmi3Boolean ends, fmi3Float64 stop) {

@@ -76,7 +76,8 @@ enum {
   AFFINITY,
   LIMITS,
   CLOSES,
-  CHILD
+  CHILD,
+  ONCE
 };
 
 static void *sleeps(void *none) {
@@ -231,6 +232,10 @@ static void free_planted(void **state) {
 static size_t place_planted(const unsigned *r, size_t n, size_t k) {
   return PLANT == READ_ORDER && n == 2 && r[0] > r[1] ? 1 - k : k;
 }
+
+/* Whether there may be an instance more: of ONCE one at a time. */
+static int alive;
+static bool may_begin(void) { return PLANT != ONCE || alive++ == 0; }
 
 static bool takes_path(const char *path) {
   return PLANT != PATHS || !path || (!strchr(path, '%') && !strchr(path, ' '));

@@ -1,0 +1,84 @@
+"""Errors of a car's FMU over the communication step: inputs held, on their derivatives, and asked for within steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.car import manoeuvres, trajectories
+from benchmarks.car.accuracy import BEFORE, TITLES, start_of_fmu
+from benchmarks.shared.command import pyplot, save_chart
+from benchmarks.shared.pages import Row, table
+from hosts.fmu.fmu import Fmu
+
+MANOEUVRES = ("double_lane_change_replay", "step_steer_given_throttle")
+STEPS = (0.002, 0.005, 0.01, 0.02, 0.04)
+"""Communication steps, s; each is a whole number of inner steps."""
+INNER = 0.001
+WAYS = {
+    "held": ("native", False, "inputs held"),
+    "derivatives": ("native", True, "derivatives of FMI 2.0"),
+    "within": ("fmi3_scalar", True, "intermediate update of FMI 3.0"),
+}
+"""By the way of inputs: kind of FMU, whether inputs follow their lines, words."""
+
+
+def error(fmu: Path, name: str, step: float, follow: bool) -> float:
+    """Largest error of the place at communication points, over the length of the path."""
+    manoeuvre, inputs = manoeuvres.load(name), list(manoeuvres.load(name).inputs)
+    t, values, length = trajectories.read(name)
+    wanted, places = np.array([values[n] for n in trajectories.POSITION]), []
+    every = max(1, round(manoeuvres.sampling(name) / step))
+    with Fmu(fmu) as car:
+        set_inputs, set_slopes = car.setter(inputs), car.slope_setter(inputs)
+        get = car.getter(trajectories.POSITION)
+        car.initialise(start_of_fmu(name) | manoeuvre.at(0.0) | {"step_size": INNER})
+        for k in range(round(manoeuvre.stop_time / step)):
+            now, then = manoeuvre.at(k * step), manoeuvre.at((k + 1) * step - BEFORE)
+            set_inputs(list(now.values()))
+            if follow:
+                set_slopes([(then[n] - now[n]) / (step - BEFORE) for n in inputs])
+            car.step(k * step, step)
+            if (k + 1) % every == 0:
+                places.append(((k + 1) * step, get()))
+    rows = np.searchsorted(t, [time - 0.25 * step for time, _ in places])
+    assert np.allclose(t[rows], [time for time, _ in places], atol=1e-9)
+    gaps = np.array([place for _, place in places]).T - wanted[:, rows]
+    return float(np.linalg.norm(gaps, axis=0).max()) / length
+
+
+def measured(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[dict[str, Any]]:
+    """A row for each manoeuvre and step, with the errors of the three ways; `fmus`: by kind."""
+    return [
+        {"manoeuvre": TITLES[name], "H, ms": 1000.0 * step}
+        | {words: error(fmus[kind], name, step, follow) for kind, follow, words in WAYS.values()}
+        for name in names
+        for step in STEPS
+    ]
+
+
+def blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """The table of the page."""
+    forms = {"manoeuvre": "", "H, ms": "g"} | {words: ".1e" for *_, words in WAYS.values()}
+    return {"errors over the communication step": table(rows, forms)}
+
+
+def draw(rows: Sequence[Row], file: Path) -> None:
+    """The errors over the communication step, a panel for each manoeuvre."""
+    names = list(dict.fromkeys(row["manoeuvre"] for row in rows))
+    figure, axes = pyplot().subplots(1, len(names), figsize=(4.2 * len(names), 3.6), sharey=True, layout="constrained")
+    for name, ax in zip(names, axes, strict=True):
+        mine = [row for row in rows if row["manoeuvre"] == name]
+        for (*_, words), mark in zip(WAYS.values(), ("o-", "s-", "x--"), strict=True):
+            ax.loglog([row["H, ms"] for row in mine], [row[words] for row in mine], mark, label=words)
+        ax.set_title(name)
+        ax.set_xlabel("communication step, ms")
+        ax.set_xticks([1000.0 * step for step in STEPS], [f"{1000.0 * step:g}" for step in STEPS])
+        ax.minorticks_off()
+        ax.grid(visible=True, alpha=0.3)
+    axes[0].set_ylabel("error of the place over the path")
+    axes[0].legend(loc="center left")
+    save_chart(figure, file)
