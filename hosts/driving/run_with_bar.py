@@ -26,7 +26,7 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import seen_through
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
-from hosts.fmu.own_process import PATIENCE, files_of
+from hosts.fmu.own_process import PATIENCE, files_of_drives
 
 _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
 
@@ -56,7 +56,7 @@ def run_with_bar(
     """
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     begin = clock.perf_counter()
-    work, reads = _Drive(fmu.path.absolute(), fmu.aliases), (fmu.path, *files_of(manoeuvre.start))
+    work, reads = _Drive(fmu.path.absolute(), fmu.aliases), files_of_drives(fmu.path, [manoeuvre.start])
     process: Isolated[_Task, Result] = Isolated(work, Result, reads=reads)
     names = [name for part in columns_of(fmu, with_names_of(manoeuvre, fmu.variables)) for name in part]
     with closing(process), bar_of(total=steps, desc=what, unit="step") as bar:
