@@ -73,7 +73,7 @@ def _beside(road: str, x: float, y: float) -> bool:
     if place is None:
         return False
     ends = zip((x, y), *(json.loads(place["keys"][key]) for key in ("origin", "extent")), strict=True)
-    return math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends)) > place["range"][1]
+    return bool(math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends)) > place["range"][1])
 
 
 @cache

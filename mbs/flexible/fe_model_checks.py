@@ -43,7 +43,8 @@ def check_symmetric(matrix: Sparse, what: str) -> None:
 
 def asymmetry(matrix: Sparse) -> float:
     """Largest difference of a matrix from its transpose over its largest entry."""
-    return float(abs(matrix - matrix.T).max() / abs(matrix).max())
+    gap = sp.coo_array(matrix - matrix.T).data
+    return float(np.abs(gap).max(initial=0.0) / np.abs(sp.coo_array(matrix).data).max())
 
 
 def negative_eigenvalues(matrix: Sparse) -> int:
@@ -52,7 +53,8 @@ def negative_eigenvalues(matrix: Sparse) -> int:
     By Sylvester's law of inertia: the signs of the pivots of its factors.
     """
     diagonal = matrix.diagonal()
-    used = np.flatnonzero(abs(matrix).sum(axis=0))
+    entries = sp.coo_array(matrix)
+    used = np.unique(entries.col[entries.data != 0.0])
     if (diagonal[used] <= 0.0).any():
         return max(int((diagonal[used] <= 0.0).sum()), 1)
     scale = sp.diags_array(1.0 / np.sqrt(diagonal[used]))
