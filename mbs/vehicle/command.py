@@ -47,9 +47,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         "inputs over time, speed=V, m/s at its start; default: path=1 loads=3, three drives",
     )
     add_option(parser, "--json", "none")
-    parser.add_argument(
-        "--picture", type=Path, metavar="FILE", help="draw the points that were read, from the side and above, as PNG"
-    )
+    add_option(parser, "--picture", "none; the points of the file, from the side and above")
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")
