@@ -14,7 +14,7 @@ WORDS = ("x, m (ahead)", "y, m (left)", "z, m (up)")
 LABEL = {"facecolor": "white", "alpha": 0.7, "linewidth": 0.0, "pad": 0.3}
 
 
-def points_of(car: CarContent) -> dict[str, tuple[float, float, float]]:
+def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
     """Every point of a car's file by its key path, m, with the places of masses."""
     found = {
         section.key(field): value
