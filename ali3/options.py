@@ -91,6 +91,7 @@ _SUFFIXES = (".html", ".htm", ".csv", ".json", ".ssv", ".fmu", ".so", ".dll", ".
 SHARED: dict[str, Option] = {
     "--out": Option("DIR", "folder of what is written", folder),
     "--json": Option("FILE", "write all numbers there too", Path),
+    "--picture": Option("FILE", "draw what was read as PNG", Path),
     "--list": Option("", "list what there is to choose from, and stop"),
     "--again": Option("", "make again what an earlier call has left"),
     "--no-open": Option("", "do not open a browser"),

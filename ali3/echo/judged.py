@@ -78,7 +78,7 @@ class Echo:
         return [v for v in self.values if not v.inside(self.kind)]
 
     def text(self) -> str:
-        """The table: a row for each quantity, with its values, of many the ends, the usual range, and a mark outside."""
+        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside."""
         lines = [("quantity", "value", "usual", "")]
         for q in dict.fromkeys(v.quantity for v in self.values):
             own = [v for v in self.values if v.quantity is q]

@@ -195,11 +195,11 @@ def _done(
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do, write_runs
     from hosts.experiment.pool import Pool
-    from hosts.fmu.own_process import files_of
+    from hosts.fmu.own_process import files_of_drives
 
     form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
     parts = [0.0] * len(tasks)
-    reads = [file for task in tasks for file in (task.car.path, *files_of(task.car.start))]
+    reads = [file for task in tasks for file in files_of_drives(task.car.path, [task.car.start])]
     with (
         bar_of(total=float(len(tasks)), bar_format=form, desc="catalogue") as bar,
         Pool(do, TestRecord | Reason, jobs, reads) as pool,

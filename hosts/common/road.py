@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import argparse
+import json
+import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from ali3.files import make_folder
+from ali3.json_reading import read_json
 from ali3.reading import is_file, is_folder
+from ali3.temporary import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.options import ROAD, Wishes, wishes
 
@@ -43,12 +49,37 @@ def road_value(given: str, out: Path) -> str:
     return str(made.absolute())
 
 
-def tell_start(road: object, start: Mapping[str, object]) -> None:
-    """Tell before a drive begins that it begins beside its road, on standard error.
+def tell_starts(starts: Iterable[Mapping[str, object]]) -> None:
+    """Tell before drives begin that they begin beside their roads, on standard error, of each road once.
 
-    `road`: value of the parameter ``road.file``, nothing where it is no file here; `start`: start values.
+    `starts`: start values; one without a file here as its parameter ``road.file`` says nothing.
     """
-    if not isinstance(road, str) or not is_file(Path(road)):
-        return
-    x, y = (start.get(name, 0.0) for name in ("initial.x", "initial.y"))
-    print(run_ali3("road", road, "--start", f"{x}", f"{y}"), end="", file=sys.stderr)
+    for start in starts:
+        road = start.get(ROAD)
+        if not isinstance(road, str) or not is_file(Path(road)) or road in _TOLD:
+            continue
+        x, y = (float(str(start.get(name, 0.0))) for name in ("initial.x", "initial.y"))
+        if _beside(road, x, y):
+            _TOLD.add(road)
+            print(run_ali3("road", road, "--start", f"{x}", f"{y}"), end="", file=sys.stderr, flush=True)
+
+
+_TOLD = set[str]()
+
+
+def _beside(road: str, x: float, y: float) -> bool:
+    """Whether a point is farther from the extent of a road than one usually starts."""
+    place = _place(road, Path(road).stat().st_mtime_ns)
+    if place is None:
+        return False
+    ends = zip((x, y), *(json.loads(place["keys"][key]) for key in ("origin", "extent")), strict=True)
+    return bool(math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends)) > place["range"][1])
+
+
+@cache
+def _place(road: str, changed: int) -> dict[str, Any] | None:
+    """The record of where a road lies; None for one without an end. `changed`: its time, ns."""
+    with temporary_folder() as folder:
+        run_ali3("road", road, "--start", "0", "0", "--json", str(folder / "road.json"))
+        (rows,) = read_json(folder / "road.json").values()
+    return next((row for row in rows if "start" in row["keys"]), None)

@@ -21,7 +21,7 @@ from hosts.driving.result import Result
 from hosts.experiment.pool import Pool
 from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.fmu_source import FmuSource
-from hosts.fmu.own_process import files_of
+from hosts.fmu.own_process import files_of_drives
 
 
 def inputs_of(
@@ -115,7 +115,7 @@ class Replay(Closing):
         jobs: int = 1,
     ) -> None:
         self.stretches, self.step = list(stretches), step
-        reads = [fmu.path, *(file for stretch in stretches for file in files_of(stretch.manoeuvre.start))]
+        reads = files_of_drives(fmu.path, (stretch.manoeuvre.start for stretch in stretches))
         work = StretchWork(StretchFmu(fmu, step), stretches)
         self._pool: Pool[Task, Result | str] = Pool(work, Result | str, min(jobs, len(stretches)), reads)
         self._can_reset: bool | None = None

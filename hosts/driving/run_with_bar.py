@@ -23,7 +23,7 @@ from hosts.driving.recorded_rows import kept_rows
 from hosts.driving.result import Result
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.fmu_source import FmuSource
-from hosts.fmu.own_process import PATIENCE, files_of
+from hosts.fmu.own_process import PATIENCE, files_of_drives
 
 _Task: TypeAlias = tuple[Manoeuvre, float, Pilot | None, int]
 
@@ -51,10 +51,7 @@ def run_with_bar(
     """
     steps, what = max(1, round(manoeuvre.stop_time / step)), f"{fmu.path.stem}, {manoeuvre.name}"
     begin = clock.perf_counter()
-    work, reads = (
-        _Drive(FmuSource.of(fmu)),
-        (fmu.path, *files_of(manoeuvre.start)),
-    )
+    work, reads = _Drive(FmuSource.of(fmu)), files_of_drives(fmu.path, [manoeuvre.start])
     process: Isolated[_Task, Result] = Isolated(work, Result, reads=reads)
     names = [name for part in columns_of(fmu, with_names_of(manoeuvre, fmu.variables)) for name in part]
     with closing(process), bar_of(total=steps, desc=what, unit="step") as bar:

@@ -16,6 +16,7 @@ from hosts.common.arguments import mapping, positive, texts
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
+from hosts.common.road import tell_starts
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu
 
@@ -142,6 +143,7 @@ class Car(Closing):
             self.fmu.messages.clear()  # in place: who wraps the FMU shares them
             self.fmu.reset()
         self._used, self._started = True, False
+        tell_starts([start])
         self.fmu.initialise(start)
         self._start_time, self._steps, self._started = 0.0, 0, True
 

@@ -15,7 +15,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State
-from hosts.fmu.own_process import files_of, in_own_process
+from hosts.fmu.own_process import files_of_drives, in_own_process
 from hosts.recordings.format import REFUSED
 from hosts.recordings.last_drive import LastDrive
 from hosts.recordings.recorded_drive import RecordedDrive, RowKey
@@ -70,7 +70,7 @@ def fmu_of(drive: RecordedDrive, fmu: Path | None) -> Path:
 def reads_of(drive: RecordedDrive, fmu: Path) -> list[Path]:
     """Files that a process reads which repeats a recording in an FMU."""
     starts = [drive.meta["start"], *(event["start"] for event in drive.events if isinstance(event.get("start"), dict))]
-    return [drive.folder, fmu, *(file for start in starts for file in files_of(start))]
+    return [drive.folder, *files_of_drives(fmu, starts)]
 
 
 class Repeater(Closing):

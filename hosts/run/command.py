@@ -17,7 +17,7 @@ from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.running import run_command
 from ali3.units import quantity
 from hosts.common.errors import HostError
-from hosts.common.options import ROAD, add_fmu, add_setting_options, wishes
+from hosts.common.options import add_fmu, add_setting_options, wishes
 from hosts.common.units import unit_of
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
@@ -116,10 +116,6 @@ def _run(options: argparse.Namespace) -> int:
 
             given = wishes_with_road(options, options.out)
         manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
-        if options.road is not None:
-            from hosts.common.road import tell_start
-
-            tell_start(dict(given.values).get(ROAD), manoeuvre.start)
         still = options.manoeuvre is None
         stem = _words(path.stem) if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)

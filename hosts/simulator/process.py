@@ -11,7 +11,7 @@ from ali3.errors import UserError
 from ali3.isolated import Isolated, Lost
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
-from hosts.fmu.own_process import files_of
+from hosts.fmu.own_process import files_of_drives
 from hosts.simulator.car_process import Order, run_car
 from hosts.simulator.shared_values import shared_files
 
@@ -31,7 +31,7 @@ class Process:
         self._asked = self._started = False
         self._said: queue.SimpleQueue[HostError | None] = queue.SimpleQueue()
         self._process: Isolated[Order, None] = Isolated(
-            run_car, None, str, (order.fmu, *files_of(order.start)), shared_files(order.memory)
+            run_car, None, str, files_of_drives(order.fmu, [order.start]), shared_files(order.memory)
         )
         self._life = threading.Thread(target=self._live, args=(order,), name="car watch", daemon=True)
         self._life.start()

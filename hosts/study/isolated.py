@@ -7,8 +7,9 @@ from pathlib import Path
 
 from ali3.isolated import Lost
 from hosts.common.closing import Closing
+from hosts.common.road import tell_starts
 from hosts.experiment.pool import Pool
-from hosts.fmu.own_process import PATIENCE, files_of
+from hosts.fmu.own_process import PATIENCE, files_of_drives
 from hosts.study.one_run import Bench
 from hosts.study.work import FAILED, Outcome, Run, Work
 
@@ -19,8 +20,9 @@ class RunProcesses(Closing):
     def __init__(self, work: Work, path: Path, jobs: int = 1) -> None:
         self._limit = work.time_limit
         started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
-        reads = [path, *(file for values in started for file in files_of(values))]
+        reads = files_of_drives(path, started)
         limit = PATIENCE if work.time_limit is None else work.time_limit
+        self._started = started or [{}]
         self._pool: Pool[Run, Outcome] = Pool(Bench(work, path.absolute()), Outcome, jobs, reads, limit)
 
     def close(self) -> None:
@@ -29,7 +31,11 @@ class RunProcesses(Closing):
 
     def run(self, run: Run) -> Outcome:
         """Make a run, each time in the same process."""
+        self._tell(run)
         return self._outcome(self._pool.run(run))
+
+    def _tell(self, run: Run) -> None:
+        tell_starts({**start, **run.values} for start in self._started)
 
     def outcomes(self, runs: Iterable[Run]) -> Generator[tuple[Run, Outcome]]:
         """Make runs; give each with its outcome as soon as it is there."""
@@ -38,6 +44,7 @@ class RunProcesses(Closing):
         def remembered() -> Iterator[Run]:
             for number, run in enumerate(runs):
                 sent[number] = run
+                self._tell(run)
                 yield run
 
         for number, result in self._pool.results(remembered()):

@@ -16,7 +16,7 @@ from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.options import ROAD, Wishes
 from hosts.common.package_names import check_world
-from hosts.common.road import wishes_with_road
+from hosts.common.road import tell_starts, wishes_with_road
 from hosts.common.world_files import make_world
 from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu_file import fmu_file
@@ -67,6 +67,7 @@ def _written(options: argparse.Namespace, given: Wishes) -> int:
     places = {} if world is None else _places(world, fmus[0])
     first = next(iter(places.values()), {})
     start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
+    tell_starts([start])
     if fmus[0].own_road is not None:
         start[ROAD] = fmus[0].own_road.name
     wanted = {"name": name, **_page_options(fmus, options), "start": start, **({"places": places} if places else {})}

@@ -43,7 +43,8 @@ def check_symmetric(matrix: Sparse, what: str) -> None:
 
 def asymmetry(matrix: Sparse) -> float:
     """Largest difference of a matrix from its transpose over its largest entry."""
-    return float(abs(matrix - matrix.T).max() / abs(matrix).max())
+    gap = sp.coo_array(matrix - matrix.T).data
+    return float(np.abs(gap).max(initial=0.0) / np.abs(sp.coo_array(matrix).data).max())
 
 
 def negative_eigenvalues(matrix: Sparse) -> int:
@@ -52,7 +53,8 @@ def negative_eigenvalues(matrix: Sparse) -> int:
     By Sylvester's law of inertia: the signs of the pivots of its factors.
     """
     diagonal = matrix.diagonal()
-    used = np.flatnonzero(abs(matrix).sum(axis=0))
+    entries = sp.coo_array(matrix)
+    used = np.unique(entries.col[entries.data != 0.0])
     if (diagonal[used] <= 0.0).any():
         return max(int((diagonal[used] <= 0.0).sum()), 1)
     scale = sp.diags_array(1.0 / np.sqrt(diagonal[used]))
@@ -121,6 +123,14 @@ def _mistaken(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.n
         yield "rotations before translations of each node", x, dof[:, [3, 4, 5, 0, 1, 2]]
         yield "mm in place of m in the places of the nodes", 1e-3 * x, dof
         yield "N mm in place of N m in the stiffness", 1e3 * x, dof
+    numbers = [(len(name), name) if name.isdigit() else (0, name) for name in model.names]
+    for words, order_of in (
+        ("by their names", sorted(range(n), key=lambda k: numbers[k])),
+        ("by their names as words", sorted(range(n), key=lambda k: model.names[k])),
+        ("backwards", list(range(n))[::-1]),
+    ):
+        yield f"nodes in the order of the matrices in place of {words}", x[np.argsort(order_of)], dof
+        yield f"nodes {words} in place of the order of the matrices", x[order_of], dof
     for order in permutations(range(3)):
         names = [f"{a} for {b}" for a, b in zip((AXES[k] for k in order), AXES, strict=True) if a != b]
         if names:
@@ -130,14 +140,6 @@ def _mistaken(model: FiniteElementModel) -> Iterator[tuple[str, np.ndarray, np.n
             yield f"{words}, in the order of the freedoms", x, dof[:, [*order, *(3 + k for k in order)]]
     for k, axis in enumerate(AXES):
         yield f"the sign of {axis} in the places of the nodes", x * np.where(np.arange(3) == k, -1.0, 1.0), dof
-    numbers = [(len(name), name) if name.isdigit() else (0, name) for name in model.names]
-    for words, order_of in (
-        ("by their names", sorted(range(n), key=lambda k: numbers[k])),
-        ("by their names as words", sorted(range(n), key=lambda k: model.names[k])),
-        ("backwards", list(range(n))[::-1]),
-    ):
-        yield f"nodes in the order of the matrices in place of {words}", x[np.argsort(order_of)], dof
-        yield f"nodes {words} in place of the order of the matrices", x[order_of], dof
 
 
 def _turned_entry(model: FiniteElementModel) -> tuple[int, int] | None:

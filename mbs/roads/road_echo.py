@@ -17,7 +17,7 @@ from mbs.roads.road_file import TEXTS, RoadFile
 MOST_LEVELS, FEWEST_LEVELS = 4096, 5
 MOST_POINTS = 4e6
 """Of a file that is read for its summary; of more its place alone is looked at."""
-MM = 1e-3
+MM, TITLE = 1e-3, "road"
 KEYS = frozenset({"origin", "spacing"})
 QUANTITIES = quantities_of("road")
 Start = tuple[float, float]
@@ -60,7 +60,7 @@ def place_of(road: GridRoad) -> Place:
 def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | None = None) -> Echo:
     """What was understood of a road. `what`: the file; `start`: x and y where a drive begins, m."""
     if not isinstance(road, GridRoad):
-        return Echo(what, _plain_values(road))
+        return Echo(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
     undone = (
         ("mm in place of m in coordinates", KEYS, place.in_mm(), z),
@@ -70,7 +70,7 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
     mistakes = [Mistake(words, keys, partial(road_values, road, p, h, start)) for words, keys, p, h in undone]
     if start is not None:
         mistakes += start_mistakes(place, start)
-    return Echo(what, road_values(road, place, z, start), mistakes)
+    return Echo(what, road_values(road, place, z, start), mistakes, title=TITLE)
 
 
 def start_echo(what: str, place: Place, start: Start) -> Echo:
@@ -78,7 +78,7 @@ def start_echo(what: str, place: Place, start: Start) -> Echo:
     mistakes, small = start_mistakes(place, start), place.in_mm()
     if min(small.extent) > 1.0:
         mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_placed, small, start)))
-    return Echo(what, _placed(place, start), mistakes)
+    return Echo(what, _placed(place, start), mistakes, title=TITLE)
 
 
 def _placed(place: Place, start: Start) -> list[Value]:

@@ -45,6 +45,7 @@ from mbs.simulation.follower import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
 from mbs.simulation.refusal import refusal
 from mbs.simulation.restored import restored
+from mbs.simulation.start_on_road import tell_start
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
@@ -108,6 +109,8 @@ class Simulation(SteppedSystem):
             self.set_input(name, value)
         if (placed := check_pose(pose, self._meta)) is not None:
             self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
+        if self._meta["floating"]:
+            tell_start(system, self.road_paths, pose, 2)
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
         self._started = True
 

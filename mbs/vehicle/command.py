@@ -47,6 +47,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehi
         "inputs over time, speed=V, m/s at its start; default: path=1 loads=3, three drives",
     )
     add_option(parser, "--json", "none")
+    add_option(parser, "--picture", "none; the points of the file, from the side and above")
     options = parser.parse_args(arguments)
     if not options.list and options.car is None:
         parser.error("a CAR is needed, or --list")
@@ -94,7 +95,7 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
     _refuse(given_of(parser, options, _OF_KINEMATICS), "--kinematics")
     if options.list or options.folder is not None:
-        _refuse(given_of(parser, options, ("json",)), "a CAR alone, --kinematics or --cheapest")
+        _refuse(given_of(parser, options, ("json", "picture")), "a CAR alone, --kinematics or --cheapest")
     if options.list:
         print("\n".join(in_columns([(name, read_car(BuiltCar, name).description) for name in car_names()])))
         return 0
@@ -104,16 +105,16 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         for file in copy_car(options.car, options.folder):
             print(file)
         return 0
-    return _check(options.car, options.show_parameters, options.json)
+    return _check(options.car, options.show_parameters, options.json, options.picture)
 
 
-def _check(car: str, parameters: bool, json_file: Path | None) -> int:
+def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | None) -> int:
     import json
     import sys
     import warnings
 
     from ali3.echo import tables_of
-    from ali3.files import write_text
+    from ali3.files import whole_file, write_text
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
     from mbs.vehicle.read_car import read_car
@@ -125,6 +126,12 @@ def _check(car: str, parameters: bool, json_file: Path | None) -> int:
     print(f"{summary(loaded)}\n\n{loaded.summary()}")
     if json_file is not None:
         write_text(json_file, json.dumps(tables_of(loaded.echo()), indent=1) + "\n")
+    if picture is not None:
+        from mbs.vehicle.picture import draw_car
+
+        with whole_file(picture) as made:
+            draw_car(loaded, made)
+        print(f"written: {picture}")
     if parameters:
         print("\n" + parameter_table(loaded))
     for warning in caught:

@@ -62,7 +62,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     parser.add_argument(
         "--friction-range", type=_finite, nargs=2, metavar=("BLACK", "WHITE"), help="frictions in a picture"
     )
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the road, or a map of the world, as PNG")
+    add_option(parser, "--picture", "none; the road with its starts, or a map of the world")
     parser.add_argument(
         "--part", type=Path, metavar="FILE", help="write the road as an entry of a scene's roads, JSON: what draws it"
     )

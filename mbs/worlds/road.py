@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ali3.echo import Echo, tables_of
 from ali3.errors import UserError
 from ali3.files import whole_file, write_text
 from ali3.told_warnings import told_warnings
@@ -36,12 +37,13 @@ def make_road(options: argparse.Namespace) -> int:
         write_text(options.part, json.dumps(part, allow_nan=False))
         print(f"written: {options.part}, as the world beside {options.input} draws it")
         return 0
-    others = (output, options.picture, options.part, options.json)
+    others = (output, options.picture, options.part)
     if options.start is not None and options.input.suffix.lower() == ".road" and not any(others):
         (echo,) = file_echo(RoadFile(options.input), tuple(options.start), most=0)  # a large road is not read for it
         with told_warnings():
             echo.warn(RoadWarning)
         print(echo.text())
+        _write_table(options.json, echo)
         return 0
     with told_warnings():
         road = read_road(options.input, **given)
@@ -59,12 +61,16 @@ def make_road(options: argparse.Namespace) -> int:
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
     print("\n".join([*_lines(road), echo.text()]))
-    if options.json is not None:
-        write_text(options.json, json.dumps(echo.to_json(), indent=1) + "\n")
+    _write_table(options.json, echo)
     for file in (output, options.picture, options.part, options.json):
         if file is not None:
             print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
     return 0
+
+
+def _write_table(file: Path | None, echo: Echo) -> None:
+    if file is not None:
+        write_text(file, json.dumps(tables_of([echo]), indent=1) + "\n")
 
 
 def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:

@@ -9,7 +9,6 @@ import json
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -66,8 +65,7 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
 def _echoes(file: Path, road: Path) -> Sequence[Echo]:
     """What was understood of the description of a world, and of the road that was made of it."""
     described = file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world"
-    own = [replace(echo, title="world") for echo in echo_of(read_world(file))] if described else []
-    return [*own, *(replace(echo, title="its road") for echo in echo_of(RoadFile(road)))]
+    return [*(echo_of(read_world(file)) if described else []), *echo_of(RoadFile(road))]
 
 
 def _file(given: str) -> Path:

@@ -43,7 +43,7 @@ def world_echo(what: str, world: WorldDescription) -> Echo:
     for key, (x, y) in _seen(world):
         off = float(np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0)))
         values.append(Value(QUANTITIES["outside"], off, {key: [x, y], "bounds": list(world.bounds)}, key))
-    return Echo(what, values, mistakes)
+    return Echo(what, values, mistakes, title="world")
 
 
 def _with(values: list[Value], world: WorldDescription, key: str, thing: Thing) -> list[Value]:

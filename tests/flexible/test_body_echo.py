@@ -1,4 +1,4 @@
-"""Flexible bodies that are right in form and wrong in meaning are told or refused, with the mistake that explains it."""
+"""Flexible bodies that are right in form and wrong in meaning are told or refused, with the mistake behind it."""
 
 from __future__ import annotations
 

@@ -1,0 +1,31 @@
+"""Tells of a start beside the road."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from mbs.kernel.header.enumerations import RoadType
+from mbs.roads.road_echo import QUANTITIES, Place, file_echo, start_echo
+from mbs.roads.road_file import RoadFile
+from mbs.roads.steep_faces import RoadWarning
+from mbs.simulation.state import Pose
+from mbs.system.system import System
+
+
+def tell_start(system: System, files: Mapping[int, str], pose: Pose | None, stacklevel: int) -> None:
+    """Warn of a scene that starts beside a grid, of a file or of the model.
+
+    `files`: paths of files in place of roads, by the number of the road; `pose`: None: as drawn.
+    """
+    start, arrays = (0.0, 0.0) if pose is None else (pose.x, pose.y), system.arrays
+    for number, kind in enumerate(arrays["road_type"]):
+        if path := files.get(number, ""):
+            (echo,) = file_echo(RoadFile(path), start, most=0)
+        elif kind == RoadType.GRID:
+            first = arrays["road_real_ptr"][number]
+            nx, ny, x, y, dx, dy = arrays["road_real"][first : first + 6].tolist()
+            echo = start_echo("the road", Place((x, y), (dx, dy), (int(nx), int(ny))), start)
+        else:
+            continue
+        if any(v.quantity is QUANTITIES["away"] for v in echo.outside):
+            echo.warn(RoadWarning, stacklevel + 1)

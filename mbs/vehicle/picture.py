@@ -1,0 +1,93 @@
+"""A picture of a car as its file draws it: from the side and from above, with all points that were read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ali3.chart_words import png_metadata
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.section import sections_of
+
+COLOURS = {"front": "#1c5fd0", "rear": "#e8590c"}
+OTHERS, TYRE_WIDTH, ROWS = "#2b8a3e", 0.2, 30
+WORDS = ("x, m (ahead)", "y, m (left)", "z, m (up)")
+LABEL = {"facecolor": "white", "alpha": 0.7, "linewidth": 0.0, "pad": 0.3}
+
+
+def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
+    """Every point of a car's file by its key path, m, with the places of masses."""
+    found = {
+        section.key(field): value
+        for section in sections_of(car)
+        for field in type(section).model_fields
+        if isinstance(value := getattr(section, field), tuple)
+        and len(value) == 3
+        and (q := section.quantity(field)) is not None
+        and q.unit == "m"
+    }
+    contact = car.chassis.ground_contact
+    drawn = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
+    return found | {f"chassis.ground_contact.points.{k}": tuple(p) for k, p in enumerate(drawn)}
+
+
+def draw_car(car: CarContent, file: Path) -> None:
+    """Draw wheels and points, numbered as in the list beside them, and each axle larger.
+
+    Points of the right side, which are mirrored, have no numbers. `file`: a PNG, or what Matplotlib writes by the
+    suffix.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Circle, Rectangle
+
+    points = points_of(car)
+    columns = -(-len(points) // ROWS)
+    figure = Figure(figsize=(17.0 + 2.4 * columns, 9.0), layout="constrained")
+    FigureCanvasAgg(figure)
+    grid = figure.add_gridspec(2, 4, width_ratios=(9.0, 4.0, 4.0, 2.4 * columns))
+    views = [  # axes, which coordinates, whose points have numbers
+        (figure.add_subplot(grid[0, 0]), (0, 2), "", f"{car.name} from the side"),
+        (figure.add_subplot(grid[1, 0]), (0, 1), "", f"{car.name} from above"),
+    ]
+    for k, name in enumerate(car.axles, 1):
+        views.append((figure.add_subplot(grid[0, k]), (0, 2), name, f"{name} axle from the side"))
+        views.append((figure.add_subplot(grid[1, k]), (1, 2), name, f"{name} axle, left, from ahead"))
+    for axes, (i, j), which, title in views:
+        for name, axle in car.axles.items():
+            centre, r = axle.wheel.centre, axle.tyre.radius
+            half = (r, 0.5 * TYRE_WIDTH, r)
+            for left in (1.0, -1.0) if not which else (1.0,) * (name == which):
+                mid = (centre[0], left * centre[1], centre[2])
+                corner = (mid[i] - half[i], mid[j] - half[j])
+                wheel = (
+                    Circle((mid[0], mid[2]), r) if j == 2 and i == 0 else Rectangle(corner, 2 * half[i], 2 * half[j])
+                )
+                wheel.set(fill=False, edgecolor=COLOURS[name])
+                axes.add_patch(wheel)
+        for number, (key, point) in enumerate(points.items(), 1):
+            owner = key.split(".", 1)[0]
+            if which not in ("", owner):
+                continue
+            at, colour = (point[i], point[j]), COLOURS.get(owner, OTHERS)
+            axes.plot(*at, "o", color=colour, markersize=4)
+            if which or owner not in COLOURS:
+                axes.annotate(str(number), at, (3.0, 3.0), textcoords="offset points", fontsize=8, bbox=LABEL)
+            if not which and j == 1 and point[1] and (owner in COLOURS or "ground_contact" in key):
+                axes.plot(point[0], -point[1], "o", color=colour, markersize=4, fillstyle="none")
+        axes.set(aspect="equal", xlabel=WORDS[i], ylabel=WORDS[j], title=title)
+        axes.grid(True, alpha=0.3)
+        if j == 2:
+            axes.axhline(0.0, color="#888888", linewidth=1.0)
+    names = figure.add_subplot(grid[:, 3])
+    for number, key in enumerate(points, 1):
+        column, row = divmod(number - 1, ROWS)
+        place = (column / columns, 1.0 - (row + 1.0) / (ROWS + 1.0))
+        colour = COLOURS.get(key.split(".", 1)[0], OTHERS)
+        names.text(*place, f"{number:2d} {_short(key)}", fontsize=8, color=colour, va="center")
+    names.set_axis_off()
+    figure.savefig(file, dpi=110, metadata=png_metadata(figure) if file.suffix.lower() == ".png" else None)
+
+
+def _short(key: str) -> str:
+    """A key path without the tables that all points stand in."""
+    return ".".join(part for part in key.split(".") if part not in ("suspension", "points", "bodies"))
