@@ -69,10 +69,10 @@ def test_a_step_that_crashes_is_bad_and_every_other_check_is_done(fmu: Callable[
 
 def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
     code, found = verdicts(fmu("long_steps"), "--steps", 5, "--time-limit", 2)
-    assert code == 1  # no more than that a step beyond the stop time is taken
+    assert code == 0
     assert list(found) == [check.name for check in CHECKS]
-    assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["stop time"]
-    assert found["stop time"][1].endswith("(FMI 2.0, 2.1.6)")
+    assert not [name for name, (verdict, _) in found.items() if verdict == "BAD"]
+    assert found["stop time"][0] == "note" and "(FMI 2.0, 2.1.6)" in found["stop time"][1]
     assert found["far from zero"] == (
         "note",
         "a step of 0.01 s at 1e+16 s is taken, its clock stands; FMI does not speak of it (FMI 2.0, 4.2.2)",

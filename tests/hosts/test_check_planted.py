@@ -94,7 +94,8 @@ def found(fmu: Path) -> tuple[int, dict[str, tuple[str, str]]]:
 def test_without_a_fault_nothing_is_bad(tmp_path: Path, three: bool) -> None:
     _, lines = found(planted_fmu(tmp_path, "NONE", three))
     bad = {name: words for name, (verdict, words) in lines.items() if verdict == "BAD"}
-    assert set(bad) == {"stop time"}, bad  # that a step beyond it is taken
+    assert not bad
+    assert lines["stop time"][0] == "note"  # a step beyond it is taken
     assert lines["derivatives"][0] == "note"  # over a step, without a word
 
 
@@ -114,7 +115,7 @@ def test_an_fmu_of_one_instance_in_a_process(tmp_path: Path, three: bool) -> Non
     flag = {"canHandleVariable": 'canBeInstantiatedOnlyOncePerProcess="true" canHandleVariable'}
     (tmp_path / "said").mkdir()
     _, lines = found(planted_fmu(tmp_path / "said", "ONCE", three, flag))
-    assert [name for name, (verdict, _) in lines.items() if verdict == "BAD"] == ["stop time"]
+    assert not [name for name, (verdict, _) in lines.items() if verdict == "BAD"]
     assert lines["repeats"] == ("ok", "bit for bit, one after another")
     _, lines = found(planted_fmu(tmp_path, "ONCE", three))
     (bad,) = [words for verdict, words in lines.values() if verdict == "BAD"]
