@@ -14,7 +14,6 @@ from hosts.common.closing import Closing
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.compare.follower import demanded
-from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import StretchFmu, StretchWork, Task
 from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
@@ -23,6 +22,7 @@ from hosts.experiment.pool import Pool
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.own_process import files_of
+from hosts.measures.signal import Signal
 
 
 def inputs_of(

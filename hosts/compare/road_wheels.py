@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of, in_own_process
+from hosts.measures.signal import Signal
 
 ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
 _POINTS = 21  # of the curve between both locks

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from hosts.common.numbers import Value
-from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of, in_own_process
+from hosts.measures.signal import Signal
 
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import StretchFmu
 from hosts.compare.stretches import Stretch
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.own_process import in_own_process
+from hosts.measures.signal import Signal
 
 _AHEAD = 0.5  # s, until when the speed is met
 _CLOSE = 0.005  # of the pedal

@@ -13,21 +13,26 @@ from mbs.elements.road import GridRoad
 
 MOST_LEVELS, FEWEST_LEVELS = 4096, 5
 MM = 1e-3
+UNITS = {MM: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
+"""What is taken for m, by its length in m."""
 KEYS = ("spacing", "heights")
 QUANTITIES = quantities_of("road")
 
 
 def road_echo(what: str, road: GridRoad) -> Echo:
     """What was understood of a grid. `what`: the file."""
-    z, spacing = np.asarray(road.heights, float), [MM * float(h) for h in road.spacing]
-    mistakes = [
-        Mistake(words, frozenset(keys), partial(road_values, replace(_plain(road), **change)))
-        for words, keys, change in (
-            ("mm in place of m in coordinates", ("spacing",), {"spacing": spacing}),
-            ("mm in place of m in heights", ("heights",), {"heights": MM * z}),
-            ("mm in place of m in coordinates and heights", KEYS, {"spacing": spacing, "heights": MM * z}),
-        )
-    ]
+    mistakes = []
+    for keys, of in ((KEYS[:1], "coordinates"), (KEYS[1:], "heights"), (KEYS, "coordinates and heights")):
+        for factor, unit in UNITS.items():
+            changed = replace(_plain(road), **{key: factor * np.asarray(getattr(road, key), float) for key in keys})
+            mistakes.append(Mistake(f"{unit} in place of m in {of}", frozenset(keys), partial(road_values, changed)))
+    z, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float)
+    if 0 < (none := z == z.min()).sum() < z.size:
+        filled = replace(_plain(road), heights=np.where(none, z[~none].min(), z))
+        words = f"{z.min():g} in the place of no value in heights"
+        mistakes.append(Mistake(words, frozenset(KEYS[1:]), partial(road_values, filled)))
+    parts = partial(road_values, replace(_plain(road), frictions=0.01 * frictions))
+    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
     return Echo(what, road_values(road), mistakes)
 
 
@@ -49,7 +54,7 @@ def start_echo(what: str, place: Place, start: tuple[float, float]) -> Echo:
             ("mm in place of m in coordinates", small),
             ("x and y exchanged in the origin", replace(place, origin=place.origin[::-1])),
             (
-                f"coordinates of a map, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken",
+                f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken",
                 replace(place, origin=tuple(at_start)),
             ),
         )
@@ -90,13 +95,15 @@ def road_values(road: GridRoad) -> list[Value]:
     sides = zip("xy", place_of(road).extent, strict=True)
     found = [Value(QUANTITIES["extent"], side, spacing, axis) for axis, side in sides]
     found.append(Value(QUANTITIES["heights"], float(np.ptp(z)), heights))
+    found += [Value(QUANTITIES["spacing"], float(h), spacing, axis) for h, axis in zip(road.spacing, "xy", strict=True)]
     steps = [float(np.abs(np.diff(z, axis=k)).max()) for k in range(2)]
     over = max(max(s - h for s, h in zip(steps, road.spacing, strict=True)), 0.0)
     found.append(Value(QUANTITIES["rise"], over, heights | spacing))
     found.append(Value(QUANTITIES["steepest"], max(s / h for s, h in zip(steps, road.spacing, strict=True))))
-    found.append(Value(QUANTITIES["step"], height_step(z), heights))
+    found.append(Value(QUANTITIES["step"], height_step(z), {"number type of heights": height_step(z)}))
     ends = (("least", frictions.min()), ("largest", frictions.max()))
-    return [*found, *(Value(QUANTITIES["friction"], float(v) * road.friction_factor, {}, of) for of, v in ends)]
+    keys = {"frictions": [float(frictions.min()), float(frictions.max())], "friction_factor": road.friction_factor}
+    return [*found, *(Value(QUANTITIES["friction"], float(v) * road.friction_factor, keys, of) for of, v in ends)]
 
 
 def _plain(road: GridRoad) -> GridRoad:

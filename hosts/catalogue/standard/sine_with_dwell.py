@@ -11,9 +11,8 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import load_test
 from hosts.catalogue.dwell_measures import EARLY, LATE, least_displacement, measures_of_dwell
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
-from hosts.catalogue.plausible import implausible
 from hosts.catalogue.record import Line, Plot, TestRecord
-from hosts.catalogue.steady_map import why_not_reached
+from hosts.catalogue.steady_map import refuse_odd, why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
@@ -38,9 +37,7 @@ def perform(car: TestedCar, settings: Mapping[str, float], progress: Callable[[f
     for side in (1.0, -1.0):
         ramps.append(_ramp(car, speed, side, given.largest))
         progress(0.1 * len(ramps))
-    wrong = implausible(ramps[0])
-    if wrong is not None:
-        raise HostError(wrong)
+    refuse_odd(ramps[0])
     found = [angle_by_regression(r.steering, r.acceleration) if len(r.time) else math.nan for r in ramps]
     if not math.isfinite(sum(found)):
         raise HostError(_no_angle(ramps, settings["speed"]))

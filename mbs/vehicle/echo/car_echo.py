@@ -143,6 +143,11 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
             yield Value(CAR["last_speed"], speed, keys)
     mass = 2.0 * sum(rest.load.values()) / GRAVITY
     yield Value(CAR["power"], drive.max_power / mass, {drive.key("max_power"): drive.max_power})
+    ratio = drive.max_power / (drive.max_torque * drive.limit_speed)
+    yield Value(CAR["torque"], ratio, {drive.key(f): getattr(drive, f) for f in ("max_power", "max_torque")})
+    air = car.aerodynamics
+    if air.drag_area:
+        yield Value(CAR["drag"], air.drag_area, {air.key("drag_area"): air.drag_area})
     brakes, weight = car.brakes, 2.0 * sum(rest.load.values())
     front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
     yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
@@ -190,6 +195,8 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         key = axle.wheel.key("spin_inertia")
         for factor, words in ((0.5, "both wheels in place of one"), (2.0, "half of the wheel")):
             yield f"{words} in {key}", {key}, _scale(key, factor)
+        other = axle.wheel.key("diametral_inertia")
+        yield f"{key} and {other} exchanged", {key, other}, partial(_exchange, key, other)
     chassis, drive, steering = car.chassis, car.drive, car.steering
     key = drive.key("ratios" if isinstance(drive, Automatic) else "ratio")
     yield (f"ratios without a final drive, of about {FINAL_DRIVE:g}, in {key}", {key}, _scale(key, FINAL_DRIVE))
@@ -197,7 +204,9 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
     limit = drive.key("limit_speed")
     yield f"rounds per minute in place of rad/s in {limit}", {limit}, _scale(limit, math.pi / 30.0)
     yield f"rounds per second in place of rad/s in {limit}", {limit}, _scale(limit, 2.0 * math.pi)
-    power = drive.key("max_power")
+    power, torque = drive.key("max_power"), drive.key("max_torque")
+    yield f"kilograms in place of newtons in {torque}", {torque}, _scale(torque, GRAVITY)
+    yield f"the torque of the wheels in {torque}", {torque}, _scale(torque, 0.5 / FINAL_DRIVE)
     yield f"horsepower in place of W in {power}", {power}, _scale(power, 735.5)
     yield f"kW in place of W in {power}", {power}, _scale(power, 1000.0)
     inertia = chassis.key("inertia")
@@ -208,6 +217,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
             partial(_swap, inertia, a, b),
         )
     yield f"half of the moments in {inertia}", {inertia}, _scale(inertia, 2.0)
+    yield f"pounds and feet in place of kg and m in {inertia}", {inertia}, _scale(inertia, 0.04214)
     brakes = car.brakes
     yield (
         "the share of the rear wheels in brakes.balance",
@@ -215,6 +225,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         partial(_rest_of_one, brakes.key("balance")),
     )
     torque = brakes.key("torque")
+    yield f"kilograms in place of newtons in {torque}", {torque}, _scale(torque, GRAVITY)
     yield f"the torque of one wheel in place of a side in {torque}", {torque}, _scale(torque, 2.0)
     yield f"the torque of all wheels in place of a side in {torque}", {torque}, _scale(torque, 0.5)
     angle = steering.key("front_wheel_angle_max")
@@ -261,6 +272,11 @@ def _swap(key: str, a: int, b: int, data: Data) -> None:
     values = list(holder[last])
     values[a], values[b] = values[b], values[a]
     holder[last] = list(np.array(values, float))
+
+
+def _exchange(key: str, other: str, data: Data) -> None:
+    (one, a), (two, b) = _holder(data, key), _holder(data, other)
+    one[a], two[b] = two[b], one[a]
 
 
 def _rest_of_one(key: str, data: Data) -> None:
