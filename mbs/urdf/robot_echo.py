@@ -14,6 +14,7 @@ from ali3.echo import Echo, Mistake, Value, quantities_of
 from mbs.urdf.source import Element
 
 SMALLEST = 1e-4  # m
+GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
 NO_LIMIT = 1e4  # rad, m: nobody counts so many turns
@@ -33,6 +34,8 @@ class Given(NamedTuple):
     centres: float = 1.0
     """Of origins of inertias, where other lengths are right."""
     efforts: float = 1.0
+    heaviest: float = 1.0
+    """Of the mass of the heaviest link."""
     small: float | None = None
     """Radius of gyration, m, in place of moments of 1 kg m2, which stand for those that nobody knew."""
 
@@ -43,6 +46,7 @@ UNDONE = (
     ("N mm in place of N m in efforts", ("effort",), Given(efforts=1e-3)),
     ("kN m in place of N m in efforts", ("effort",), Given(efforts=1e3)),
     ("grams in place of kilograms in masses", ("mass",), Given(masses=1e-3)),
+    ("grams in place of kilograms in one mass", ("mass",), Given(heaviest=1e-3)),
     ("tonnes in place of kilograms in masses", ("mass",), Given(masses=1e3)),
     *((f"{unit} in place of m in all lengths", ("xyz",), Given(lengths=size)) for unit, size in LENGTHS.items()),
     *((f"{unit} in place of m in centres of mass", ("xyz",), Given(centres=size)) for unit, size in LENGTHS.items()),
@@ -96,6 +100,20 @@ def _values(
         if inertia > 0.0:
             keys = {f"inertia of '{name}' in line {line}": inertia, f"mass of '{name}'": mass}
             found.append(Value(QUANTITIES["gyration"], radii[name] / max(scale, away), keys, of))
+    if len(heavy) > 1:
+        name = max(heavy, key=lambda n: heavy[n][0])
+        most = heavy[name][0] * given.heaviest
+        found.append(Value(QUANTITIES["heaviest"], most / (total - heavy[name][0]), {f"mass of '{name}'": most}))
+    efforts = {
+        f"effort of '{joint.attributes.get('name', '')}' in line {limit.line}": limit.numbers("effort")[0]
+        for joint in root.all("joint")
+        if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
+        if "effort" in limit.attributes
+    }
+    if efforts and scale > SMALLEST and max(efforts.values()) > 0.0:
+        key = max(efforts, key=efforts.__getitem__)
+        held = given.efforts * efforts[key] / (GRAVITY * total * scale)
+        found.append(Value(QUANTITIES["effort"], held, {key: efforts[key]}))
     return [*found, *_joints(root, at, given)]
 
 
@@ -129,9 +147,6 @@ def _joints(root: Element, at: Mapping[str, float], given: Given) -> Iterator[Va
         if limit is None or kind not in ("revolute", "prismatic"):
             continue
         scale = given.limits if kind == "revolute" else given.lengths
-        effort = given.efforts * limit.numbers("effort")[0] if "effort" in limit.attributes else 0.0
-        if kind == "revolute" and 0.0 < effort < NO_LIMIT:
-            yield Value(QUANTITIES["effort"], effort, {f"effort of '{name}' in line {limit.line}": effort}, of)
         low, high = (scale * limit.numbers(end)[0] for end in ("lower", "upper"))
         if low == high == 0.0 or high - low > NO_LIMIT:
             continue
