@@ -18,7 +18,7 @@ from hosts.measures.signal import Signal
 
 Array: TypeAlias = NDArray[np.float64]
 Signals: TypeAlias = Mapping[str, Signal]
-WINDOW = 1.0  # s over which rates are compared
+WINDOW, MOST = 1.0, 4000  # s over which rates are compared; windows of a log that are
 LEAST = {"turn": 0.6, "accelerate": 0.3, "move": 2.0, "yaw": 0.03}
 """m/s2, m/s2, m/s, rad/s: of less nothing is said."""
 STILL = {"chassis.ax": LEAST["accelerate"], "chassis.ay": LEAST["turn"], "chassis.wz": LEAST["yaw"]} | {
@@ -124,6 +124,8 @@ def _direction(signals: Signals) -> Signal | None:
         return None
     x, y = (signals[n] for n in PATH)
     begin, end = max(x.time[0], y.time[0]), min(x.time[-1], y.time[-1])
+    if not 3.0 < (end - begin) / WINDOW < MOST:
+        return None
     t = np.arange(begin, end, 0.5 * WINDOW)
     dx, dy = (np.diff(on_times(s, t)) for s in (x, y))
     moves = np.hypot(dx, dy) > LEAST["move"] * 0.5 * WINDOW
@@ -140,12 +142,13 @@ def _rates(signals: Signals, key: str, state: Signal, rate: str, least: float) -
     begin, end = max(state.time[0], r.time[0]), min(state.time[-1], r.time[-1])
     if end - begin < 5.0 * WINDOW:
         return
-    times = np.arange(begin, end, 0.5 * WINDOW)
+    starts = np.linspace(begin, end - WINDOW, min(int(2.0 * (end - begin) / WINDOW), MOST))
     whole = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(r.time) * (r.values[1:] + r.values[:-1]))])
 
     def change(at: Array, of: Array, delay: float = 0.0) -> Array:
-        now = np.interp(times + delay, at, of)
-        return np.asarray((now[2:] - now[:-2]) / WINDOW)
+        ends = (np.interp(starts + delay + one, at, of) for one in (0.0, WINDOW))
+        first, last = ends
+        return np.asarray((last - first) / WINDOW)
 
     names = (*PATH, rate) if key == "course" else (state.name, rate)
     keys = keys_of(signals, *names) | {"time": "the times of the log"}

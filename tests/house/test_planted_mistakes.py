@@ -127,10 +127,13 @@ def world(section: str, k: int, **values: Any) -> Told:
 MASS, MOMENTS, LIMITS = r'mass value="([^"]*)"', r'i[xyz][xyz]="([^"]*)"', r'(?:lower|upper)="([^"]*)"'
 PLANTED: dict[str, tuple[Told, str]] = {
     "half the track": (car("hatchback", rear__wheel__centre__1=0.5), "half the track less half of it"),
-    "wheel inertia of both": (car("saloon", front__wheel__spin_inertia=2.0, front__wheel__diametral_inertia=2.0), "both wheels in place of one"),
-    "half a wheel's inertia": (car("commonroad_escort", rear__wheel__spin_inertia=0.5), "half of the wheel"),
+    "wheel inertia of both": (
+        car("saloon", front__wheel__spin_inertia=2.0, front__wheel__diametral_inertia=2.0),
+        "both wheels in place of one",
+    ),
+    "half a wheel's inertia": (car("saloon", front__wheel__spin_inertia=0.5), "half of the wheel"),
     "no final drive": (car("ferrari_250_lm", drive__ratios=0.25), "ratios without a final drive"),
-    "final drive twice": (car("hatchback", drive__ratios=4.0), "the final drive, of about 4, twice"),
+    "final drive twice": (car("saloon", drive__ratios=4.0), "the final drive, of about 4, twice"),
     "torque in kgf m": (car("commonroad_vanagon", drive__max_torque=0.102), "kilograms in place of newtons in drive"),
     "damping in kgf s/m": (car("saloon", rear__damper__damping=0.102), "kilograms in place of newtons in rear.damper"),
     "tyre load in kg": (tyre(FNOMIN=0.10197), "kilograms in place of newtons in FNOMIN"),
@@ -146,7 +149,7 @@ PLANTED: dict[str, tuple[Told, str]] = {
     "speed in ft/s": (log(scaled("speed", 3.28084)), "ft/s in place of m/s"),
     "path in cm": (log(lambda d: scaled("chassis.x", 100.0)(scaled("chassis.y", 100.0)(d))), "cm in place of m of the"),
     "exchanged coordinates": (log(swapped("chassis.x", "chassis.y")), "'x' and 'y' exchanged"),
-    "a late yaw rate": (log(late("chassis.wz", 0.6)), "a delay of 0.6"),
+    "a late yaw rate": (log(late("chassis.wz", 0.6)), "s (within 0.02 s) of 'wz'"),
     "a late longitudinal acceleration": (log(late("chassis.ax", 0.9)), "a delay of 0.9"),
     "gravity in ax": (log(offset("chassis.ax", 9.81)), "an offset of 9.8"),
     "a frozen heading": (log(frozen("chassis.yaw", 10.0, 14.0)), "'yaw', longest time without a change"),
