@@ -56,7 +56,7 @@ TIMES = (
     (60.0, "minutes in place of s"),
 )
 RIM = ((1.0 / 0.31, "m/s of the rim in place of rad/s"),)
-PAIRS = (("chassis.ax", "chassis.ay"), PATH, ("chassis.ay", "chassis.wz"), *pairwise(WHEELS))
+PAIRS = (("chassis.ax", "chassis.ay"), PATH, *pairwise(WHEELS))
 
 
 def log_echo(what: str, signals: Signals) -> Echo:
@@ -157,10 +157,10 @@ def _factors(
         low, high, there = max(low, ends[0]), min(high, ends[1]), True
     turned = any(v.value < 0.0 for v, _ in _exponents(echo, "_alike", group))
     sign = -1.0 if turned else 1.0
-    if not there:
-        yield from ((words, factor, False) for factor, words in known)
-    elif turned and low <= 1.0 <= high:
+    if turned and low <= 1.0 <= high:
         yield "the other sign", -1.0, False
+    elif not there:
+        yield from ((words, factor, False) for factor, words in known)
     elif low <= high and not low <= 1.0 <= high:
         middle = float(np.sqrt(low * high))
         inside = [(words, sign * factor, False) for factor, words in known if low <= factor <= high]
