@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -63,7 +64,7 @@ def _changes(signal: Signal, signals: Signals, v: str, begin: float, end: float,
 
     speed, ax, ay, wz, long = of(v), of("chassis.ax"), of("chassis.ay"), of("chassis.wz"), end - begin
     if signal.name in SPEEDS:
-        way = np.hypot(*(np.ptp(of(n)) for n in PATH)) if all(len(of(n)) for n in PATH) else value * long
+        way = math.hypot(*(float(np.ptp(of(n))) for n in PATH)) if all(len(of(n)) for n in PATH) else value * long
         slower = way > long * (abs(value) + MOVED["speed"])  # a straight line is the shortest way
         return bool(slower) or (len(ax) > 0 and abs(float(ax.mean())) * long > MOVED["speed"])
     if signal.name in WHEELS:
