@@ -155,11 +155,12 @@ class Echo:
         shown = [f"{key} = {_given(given)}" for key, given in list(keys.items())[:MOST_KEYS]]
         more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
         sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
+        sentence += f"; {cause}" if cause else ""
         if len(group) > 1:
             others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
             left = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
             sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{left}"
-        sentence += f"; {cause}." if cause else "."
+        sentence += "."
         sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
         return (f"{self.what}: " if self.what else "") + sentence
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,8 @@ def road_echo(what: str, road: GridRoad) -> Echo:
     mistakes = []
     for keys, of in ((KEYS[:1], "coordinates"), (KEYS[1:], "heights"), (KEYS, "coordinates and heights")):
         for factor, unit in UNITS.items():
-            changed = replace(_plain(road), **{key: factor * np.asarray(getattr(road, key), float) for key in keys})
+            change: dict[str, Any] = {key: factor * np.asarray(getattr(road, key), float) for key in keys}
+            changed = replace(_plain(road), **change)
             mistakes.append(Mistake(f"{unit} in place of m in {of}", frozenset(keys), partial(road_values, changed)))
     z, frictions = np.asarray(road.heights, float), np.asarray(road.frictions, float)
     if 0 < (none := z == z.min()).sum() < z.size:
@@ -95,7 +97,7 @@ def road_values(road: GridRoad) -> list[Value]:
     sides = zip("xy", place_of(road).extent, strict=True)
     found = [Value(QUANTITIES["extent"], side, spacing, axis) for axis, side in sides]
     found.append(Value(QUANTITIES["heights"], float(np.ptp(z)), heights))
-    found += [Value(QUANTITIES["spacing"], float(h), spacing, axis) for h, axis in zip(road.spacing, "xy", strict=True)]
+    found.append(Value(QUANTITIES["spacing"], float(min(road.spacing)), spacing, "least"))
     steps = [float(np.abs(np.diff(z, axis=k)).max()) for k in range(2)]
     over = max(max(s - h for s, h in zip(steps, road.spacing, strict=True)), 0.0)
     found.append(Value(QUANTITIES["rise"], over, heights | spacing))

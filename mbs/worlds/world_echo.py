@@ -51,8 +51,8 @@ def world_echo(what: str, world: WorldDescription) -> Echo:
         values.append(_outside(world, key, places))
         if not values[-1].inside():
             for words, moved in MOVED.items():
-                altered = _outside(world, key, [moved(x, y) for x, y in places])
-                undone = partial(_replaced, values, altered)
+                elsewhere = _outside(world, key, [moved(x, y) for x, y in places])
+                undone = partial(_replaced, values, elsewhere)
                 mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), undone))
     return Echo(what, values, mistakes)
 
