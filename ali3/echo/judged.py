@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from ali3.columns import in_columns
-from ali3.echo.quantity import WIDEST, Quantity
+from ali3.echo.quantity import WIDEST, Quantity, Range
 
 ROUNDING = 1e-9  # of the range
-MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 2, 1, 4, 10
+MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 4, 1, 4, 10
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,13 @@ class Value:
 
     def inside(self, kind: str = WIDEST) -> bool:
         """Whether it is in the range of a kind. What has no range is."""
-        bounds = self.quantity.range(kind)
+        return self._within(self.quantity.range(kind))
+
+    def mended(self, kind: str = WIDEST) -> bool:
+        """Whether it is where undoing a mistake must bring it."""
+        return self._within(self.quantity.near or self.quantity.range(kind))
+
+    def _within(self, bounds: Range | None) -> bool:
         if bounds is None:
             return True
         slack = ROUNDING * (bounds[1] - bounds[0]) if math.isfinite(bounds[1] - bounds[0]) else 0.0
@@ -54,6 +60,8 @@ class Mistake:
     """What it would have changed; it is tried where a value outside its range follows from one of them."""
     undo: Undo
     """The values of the file without it; None where there is no such thing."""
+    guessed: bool = False
+    """Whether it is fitted to the values, as a factor: it is told only where none with a name mends the same."""
 
 
 @dataclass(frozen=True)
@@ -122,13 +130,14 @@ class Echo:
         undone = _undone(self.mistakes, left)
         while left:
             names = {v.name for v in left}
-            mended = {m.words: self._mended(names, after, m.keys) for m, after in undone}
-            best = max(mended.values(), key=len, default=frozenset())
+            mended = [(m, after, self._mended(names, after, m.keys)) for m, after in undone]
+            best = max((names for *_, names in mended), key=len, default=frozenset())
             if not best:
                 break
-            causes = [words for words, names in mended.items() if names == best][:MOST_CAUSES]
+            found = [(m, after) for m, after, names in mended if names == best]
+            named = [(m, after) for m, after in found if not m.guessed] or found
+            causes, after = [m.words for m, _ in named][:MOST_CAUSES], named[0][1]
             first = next(v for v in left if v.name in best)
-            after = next(after for m, after in undone if m.words == causes[0])
             value = next(v for v in after if v.name == first.name)
             cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
             told.append(self._sentence([v for v in left if v.name in best], cause))
@@ -147,6 +156,7 @@ class Echo:
         before = {v.name for v in self.outside}
         wrong = {v.name for v in after if not v.inside(self.kind)}
         own = {v.name for v in self.values if changed & set(v.keys)}
+        wrong |= {v.name for v in after if v.name in own & before and not v.mended(self.kind)}
         there = {v.name for v in after}
         return frozenset() if wrong - before or wrong & own else frozenset((names & there) - wrong)
 
@@ -156,11 +166,12 @@ class Echo:
         shown = [f"{key} = {_given(given)}" for key, given in list(keys.items())[:MOST_KEYS]]
         more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
         sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
+        sentence += f"; {cause}" if cause else ""
         if len(group) > 1:
             others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
             left = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
             sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{left}"
-        sentence += f"; {cause}." if cause else "."
+        sentence += "."
         sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
         return (f"{self.what}: " if self.what else "") + sentence
 

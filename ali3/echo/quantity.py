@@ -31,6 +31,8 @@ class Quantity:
     """By kind of thing, both ends included; empty: it is shown and not judged."""
     source: str
     """Where the range is from."""
+    near: Range | None = None
+    """What undoing a mistake must reach, where that is narrower than what is told."""
 
     def range(self, kind: str = WIDEST) -> Range | None:
         """Least and largest usual value; of an unknown kind the widest. `kind`: key of `ranges`."""
@@ -50,8 +52,12 @@ def quantities_of(thing: str) -> Mapping[str, Quantity]:
     """Quantities of a kind of thing by short keys, from the table beside this file. `thing`: as "car"."""
     with TABLE.open(encoding="utf-8", newline="") as file:
         found = [row for row in csv.DictReader(file) if row["thing"] == thing]
-    texts = ("name", "symbol", "unit", "follows", "source")
-    return {row["key"]: Quantity(ranges=_ranges(row["ranges"]), **{n: row[n] for n in texts}) for row in found}
+    return {row["key"]: _quantity(row) for row in found}
+
+
+def _quantity(row: Mapping[str, str]) -> Quantity:
+    texts = {name: row[name] for name in ("name", "symbol", "unit", "follows", "source")}
+    return Quantity(ranges=_ranges(row["ranges"]), near=_ranges(row["near"]).get(WIDEST), **texts)
 
 
 def _ranges(text: str) -> dict[str, Range]:

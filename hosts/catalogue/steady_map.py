@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.plausible import implausible
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.measures.filters import phaseless_low_pass
+from hosts.measures.log_echo import relations_echo
+from hosts.measures.signal import Signal
 
 _SLOW = math.radians(2.0)
 _FAST = math.radians(13.5)
@@ -24,6 +25,7 @@ _LARGEST = math.radians(540.0)
 _RATE_OF_INPUT = 0.005
 _LINE = (0.3, 1.2)
 _LATEST = 1.0
+FEWEST, ENOUGH = 20, 0.5  # samples; m/s2: in a run with less nothing is seen
 
 
 @dataclass(frozen=True)
@@ -117,9 +119,7 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
         found = replace(steady_map(car, lower, acceleration), notes=(note,))
     if not len(found.angle):
         raise HostError(why_not_reached(found.run.result, found.speed))
-    wrong = implausible(found.run)
-    if wrong is not None:
-        raise HostError(wrong)
+    refuse_odd(found.run)
     return found
 
 
@@ -130,6 +130,24 @@ def driven_ramp(sheet: Sheet, acceleration: float) -> SteadyMap:
     sheet.runs["ramp_left"] = ramp.run.thinned()
     sheet.notes += [*ramp.notes, *filter(None, [SteeringInput.of(sheet.car.facts).note])]
     return ramp
+
+
+def refuse_odd(run: SteeredRun) -> None:
+    """Refuse a slow turn whose steering, speed, yaw rate and lateral acceleration do not belong together.
+
+    Raises `HostError` with what would explain it, as a sign or unit of an alias file.
+    """
+    if len(run.time) < FEWEST or not np.abs(run.acceleration).max() >= ENOUGH:
+        return
+    given = (
+        ("steering.angle", "rad", run.steering),
+        ("speed", "m/s", run.speed),
+        ("chassis.wz", "rad/s", run.yaw_rate),
+        ("chassis.ay", "m/s2", run.acceleration),
+    )
+    signals = {n: Signal(n, n, unit, run.time, x) for n, unit, x in given if np.all(np.isfinite(x))}
+    for sentence in relations_echo("In a slow turn", signals).warnings():
+        raise HostError(f"{sentence} An alias file gives signs and units by factor.")
 
 
 def why_not_reached(result: Result, speed: float) -> str:

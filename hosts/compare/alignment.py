@@ -19,8 +19,8 @@ from hosts.compare.correlated import covariance
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
 from hosts.compare.left_out import FEWEST, Parts, jackknife, parts_of
-from hosts.compare.log import Signal
 from hosts.compare.noise import measured_noise
+from hosts.measures.signal import Signal
 
 _LEAST_CORRELATION = 0.5
 _AMBIGUOUS = 0.01

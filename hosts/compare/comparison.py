@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from hosts.compare.alignment import Alignment, align
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import Deviations, deviations
-from hosts.compare.log import Signal
 from hosts.compare.rating import Rating, on_equal_steps, rating
 from hosts.measures.measure import Measure
+from hosts.measures.signal import Signal
 
 
 @dataclass(frozen=True)

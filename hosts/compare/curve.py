@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from hosts.common.angles import angle_difference
-from hosts.compare.log import Signal
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 
 class Curve:

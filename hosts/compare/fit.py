@@ -16,11 +16,11 @@ from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
 from hosts.compare.fit_result import Fit, Found, Start
 from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
-from hosts.compare.log import Signal
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import RefusedError, Residuals
 from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 Jacobian = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]

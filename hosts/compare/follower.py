@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from hosts.compare.log import Signal
+from hosts.measures.signal import Signal
 
 
 def demanded(signal: Signal, frequency: float, time: NDArray[np.float64]) -> NDArray[np.float64]:

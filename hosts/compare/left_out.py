@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
+from hosts.measures.signal import Signal
 
 Array = NDArray[np.float64]
 _PARTS = 10  # of a run without restart

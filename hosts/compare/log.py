@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
-from ali3.echo import Understood
+from ali3.echo import Echo, Understood, echo_of
 from ali3.near_names import did_you_mean
 from ali3.units import known_unit
 from ali3.words import brief
@@ -26,42 +26,12 @@ from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.measures.log_echo import log_echo
+from hosts.measures.signal import Signal
 
 FEWEST_SAMPLES = 10
 _TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")
 _SLOWEST = 0.5  # s between samples of a test drive, unless the user has named the unit
-
-
-@dataclass(frozen=True)
-class Signal:
-    """A measured signal with its own samples."""
-
-    name: str
-    """Ours."""
-    source: str
-    """Column of the log."""
-    unit: str
-    """Of `values`."""
-    time: NDArray[np.float64]
-    """Shape (n,): s, increasing; where an input jumps its time stands twice."""
-    values: NDArray[np.float64]
-    """Shape (n,): finite."""
-
-    @property
-    def interval(self) -> float:
-        """Median time between samples, s."""
-        steps = np.diff(self.time)
-        return float(np.median(steps[steps > 0.0]))
-
-    @property
-    def jumps(self) -> NDArray[np.float64]:
-        """Times that stand twice, s."""
-        return np.asarray(self.time[1:][np.diff(self.time) == 0.0])
-
-    def between(self, begin: float, end: float) -> Signal:
-        """The samples in a span of time."""
-        inside = (self.time >= begin - 1e-9) & (self.time <= end + 1e-9)
-        return replace(self, time=self.time[inside], values=self.values[inside])
 
 
 @dataclass(frozen=True)
@@ -316,3 +286,8 @@ def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal
 
 def _near(name: str, names: Collection[str]) -> str:
     return did_you_mean(name, names, f"it has {some_of(names)}")
+
+
+@echo_of.register
+def _echo_of_log(log: Log) -> list[Echo]:
+    return [log_echo("", log.outputs)]

@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from ali3.chart_style import BLUE, COLOURS, RED, STYLE
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
-from hosts.compare.log import Signal
 from hosts.compare.words import unit_shown
+from hosts.measures.signal import Signal
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
 _MEASURED = "#8a8a8a"

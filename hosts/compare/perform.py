@@ -12,7 +12,6 @@ from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
 from hosts.compare.log import FEWEST_SAMPLES
-from hosts.compare.log_echo import consistent
 from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
@@ -20,6 +19,7 @@ from hosts.compare.task import Task, prepare
 from hosts.compare.turned_inputs import turned_input, turned_signals
 from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table
+from hosts.measures.log_echo import consistent
 
 _WORTH_PROCESSES = 60.0  # s of all windows: less is driven sooner than other processes start
 

@@ -10,9 +10,9 @@ import numpy as np
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
-from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.input_ranges import beyond_range
+from hosts.measures.signal import Signal
 
 LONGEST_GAP = 0.2
 """s between samples of an input that is bridged unless the user says otherwise."""

@@ -13,7 +13,6 @@ from hosts.common.closing import Closing
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.compare.follower import demanded
-from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import StretchFmu, StretchWork, Task
 from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
@@ -22,6 +21,7 @@ from hosts.experiment.pool import Pool
 from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.own_process import files_of_drives
+from hosts.measures.signal import Signal
 
 
 def inputs_of(

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve, SensedCurve
-from hosts.compare.log import Signal
 from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 Array = NDArray[np.float64]
 _SECANT = 1e-3  # of a range: over finer steps shifts of gears and the kinks of stops hide where the residuals go down

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.compare.log import Signal
 from hosts.fmu.fmu_source import FmuSource
+from hosts.measures.signal import Signal
 
 ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
 _POINTS = 21  # of the curve between both locks

@@ -8,9 +8,9 @@ from collections.abc import Callable, Collection, Mapping
 import numpy as np
 
 from hosts.common.numbers import Value
-from hosts.compare.log import Signal
 from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.fmu_source import FmuSource
+from hosts.measures.signal import Signal
 
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import StretchFmu
 from hosts.compare.stretches import Stretch
 from hosts.fmu.fmu_source import FmuSource
+from hosts.measures.signal import Signal
 
 _AHEAD = 0.5  # s, until when the speed is met
 _CLOSE = 0.005  # of the pedal

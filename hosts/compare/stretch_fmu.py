@@ -10,13 +10,13 @@ import numpy as np
 from scipy.signal import savgol_filter
 
 from hosts.common.numbers import Value
-from hosts.compare.log import Signal
 from hosts.compare.stretches import Stretch
 from hosts.driving.co_simulation import run
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
 from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.fmu_source import FmuSource, LoadedFmu
+from hosts.measures.signal import Signal
 
 _GAINS = 4.0, 4.0  # pedal per m/s and per m: the speed is to be as measured, not comfortable
 _ACCELERATION_GAIN = 0.1  # pedal per m/s2

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hosts.common.errors import HostError
-from hosts.compare.log import Signal
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 PEDALS = ("throttle", "brake")  # by which a driver holds a measured speed
 GAP = 1.0  # s between two stretches where they stand one after the other

@@ -15,9 +15,8 @@ from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import wishes_with_road
-from hosts.compare.log import FEWEST_SAMPLES, Log, Signal, log_for
+from hosts.compare.log import FEWEST_SAMPLES, Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
-from hosts.compare.log_echo import log_echo
 from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
@@ -37,6 +36,8 @@ from hosts.fmu.input_ranges import beyond_range
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable, default_step
+from hosts.measures.log_echo import log_echo
+from hosts.measures.signal import Signal
 
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
 _DEMAND = "steering_wheel_angle_demand"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hosts.common.errors import HostError
-from hosts.compare.log import Signal
+from hosts.measures.signal import Signal
 
 NUISANCES = ("delay", "delays", "drift", "bias", "gain")
 

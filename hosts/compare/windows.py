@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
-from hosts.compare.log import Signal
 from hosts.compare.stretches import PEDALS, Stretch
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 _FULL = 0.999  # of a pedal
 _LEAST = 20  # samples of a bin that is shown

@@ -17,8 +17,10 @@ from mbs.roads.road_file import TEXTS, RoadFile
 MOST_LEVELS, FEWEST_LEVELS = 4096, 5
 MOST_POINTS = 4e6
 """Of a file that is read for its summary; of more its place alone is looked at."""
-MM, TITLE = 1e-3, "road"
-KEYS = frozenset({"origin", "spacing"})
+UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
+"""What is taken for m, by its length in m."""
+TITLE = "road"
+KEYS, HEIGHTS = frozenset({"origin", "spacing"}), frozenset({"heights"})
 QUANTITIES = quantities_of("road")
 Start = tuple[float, float]
 
@@ -46,9 +48,10 @@ class Place:
         ends = zip(point, self.origin, self.extent, strict=True)
         return math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends))
 
-    def in_mm(self) -> Place:
-        """It with coordinates that were in mm."""
-        return replace(self, origin=tuple(MM * v for v in self.origin), spacing=tuple(MM * v for v in self.spacing))
+    def scaled(self, factor: float) -> Place:
+        """It with coordinates that were in another unit. `factor`: its length, m."""
+        origin, spacing = (tuple(factor * v for v in pair) for pair in (self.origin, self.spacing))
+        return replace(self, origin=origin, spacing=spacing)
 
 
 def place_of(road: GridRoad) -> Place:
@@ -62,12 +65,19 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
     if not isinstance(road, GridRoad):
         return Echo(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
-    undone = (
-        ("mm in place of m in coordinates", KEYS, place.in_mm(), z),
-        ("mm in place of m in heights", frozenset({"heights"}), place, MM * z),
-        ("mm in place of m in coordinates and heights", KEYS | {"heights"}, place.in_mm(), MM * z),
-    )
+    undone = []
+    for factor, unit in UNITS.items():
+        words, scaled = f"{unit} in place of m in", place.scaled(factor)
+        undone.append((f"{words} coordinates", KEYS, scaled, z))
+        undone.append((f"{words} heights", HEIGHTS, place, factor * z))
+        undone.append((f"{words} coordinates and heights", KEYS | HEIGHTS, scaled, factor * z))
+    if 0 < (none := z == z.min()).sum() < z.size:
+        filled = np.where(none, z[~none].min(), z)
+        undone.append((f"{z.min():g} in the place of no value in heights", HEIGHTS, place, filled))
     mistakes = [Mistake(words, keys, partial(road_values, road, p, h, start)) for words, keys, p, h in undone]
+    ratios = replace(_plain(road), frictions=0.01 * np.asarray(road.frictions, float))
+    parts = partial(road_values, ratios, place, z, start)
+    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
     if start is not None:
         mistakes += start_mistakes(place, start)
     return Echo(what, road_values(road, place, z, start), mistakes, title=TITLE)
@@ -75,7 +85,7 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
 
 def start_echo(what: str, place: Place, start: Start) -> Echo:
     """Whether a drive begins on a grid. `place`: of the grid; `start`: x and y where it begins, m."""
-    mistakes, small = start_mistakes(place, start), place.in_mm()
+    mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
     if min(small.extent) > 1.0:
         mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_placed, small, start)))
     return Echo(what, _placed(place, start), mistakes, title=TITLE)
@@ -88,7 +98,7 @@ def _placed(place: Place, start: Start) -> list[Value]:
 def start_mistakes(place: Place, start: Start) -> list[Mistake]:
     """Common mistakes by which a grid is not where a drive begins."""
     middle = [o + 0.5 * side for o, side in zip(place.origin, place.extent, strict=True)]
-    map_words = f"coordinates of a map, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
+    map_words = f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
     at_start = tuple(s - 0.5 * side for s, side in zip(start, place.extent, strict=True))
     return [
         Mistake(words, frozenset({"origin"}), partial(_away, replace(place, origin=origin), start))
@@ -115,24 +125,32 @@ def road_values(road: GridRoad, place: Place, z: np.ndarray, start: Start | None
     return [
         *_sides(place),
         Value(QUANTITIES["heights"], float(np.ptp(z)), heights),
+        Value(QUANTITIES["spacing"], min(place.spacing), spacing, "least"),
         Value(QUANTITIES["rise"], over, heights | spacing),
         Value(QUANTITIES["steepest"], max(s / h for s, h in zip(steps, place.spacing, strict=True))),
-        Value(QUANTITIES["step"], height_step(z), heights),
-        *_frictions(frictions.min() * road.friction_factor, frictions.max() * road.friction_factor),
+        Value(QUANTITIES["step"], height_step(z), {"number type of heights": height_step(z)}),
+        *_frictions(float(frictions.min()), float(frictions.max()), road.friction_factor),
         *([] if start is None else _away(place, start)),
     ]
 
 
 def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
-    friction = float(road.friction * road.friction_factor)
     steep = math.hypot(road.grade_x, road.grade_y) if isinstance(road, PlaneRoad) else 0.0
     step = road.step if isinstance(road, KerbRoad) else 0.0
-    return [Value(QUANTITIES["rise"], step), Value(QUANTITIES["steepest"], steep), *_frictions(friction, friction)]
+    return [
+        Value(QUANTITIES["rise"], step),
+        Value(QUANTITIES["steepest"], steep),
+        *_frictions(road.friction, road.friction, road.friction_factor),
+    ]
 
 
-def _frictions(least: float, largest: float) -> list[Value]:
-    ends = (("least", least), ("largest", largest))
-    return [Value(QUANTITIES["friction"], float(value), {}, of) for of, value in ends]
+def _frictions(least: float, largest: float, factor: float) -> list[Value]:
+    keys = {"frictions": [least, largest], "friction_factor": factor}
+    return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
+
+
+def _plain(road: GridRoad) -> GridRoad:
+    return GridRoad(road.origin, road.spacing, road.heights, road.frictions, road.friction_factor)
 
 
 def height_step(z: np.ndarray) -> float:

@@ -152,7 +152,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
     weights = {q: across[q] / across[q].max() for q in LOADS}
     first = _three(shares[1.0], weights[1.0])
     three = first, _three(shares[2.0], weights[2.0], first)
-    carcass = _carcass(tyre, c)
+    of_carcass = carcass(tyre, c)
     made = Tyre(
         radius=tyre.radius * c.get("Q_RE0", 1.0),
         bottoming_radius=tyre.bottoming_radius,
@@ -163,8 +163,8 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         trail=(three[0][0], three[1][0]),
         trail_zero=(three[0][1], three[1][1]),
         trail_end=(three[0][2], three[1][2]),
-        carcass_stiffness=carcass,
-        carcass_damping=(tyre.settling * carcass[0], tyre.settling * carcass[1]),
+        carcass_stiffness=of_carcass,
+        carcass_damping=(tyre.settling * of_carcass[0], tyre.settling * of_carcass[1]),
         nominal_load=nominal,
         reference_friction=tyre.reference_friction,
         bottoming_stiffness=tyre.bottoming_stiffness,
@@ -277,7 +277,7 @@ def _most_load(curves: Sequence[TyreCurve]) -> float:
     return min(most)
 
 
-def _carcass(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
+def carcass(tyre: MagicTyre, c: dict[str, float]) -> tuple[float, float]:
     """Stiffness at the nominal load: of the file, or slip stiffness over relaxation length, or of assumed lengths."""
     length = c.get("PTY1", 0.0) * sin(2.0 * atan(1.0 / (c.get("PTY2", 0.0) or 1.0))) or 1.0
     across = cornering_stiffness(c, tyre.nominal_load, tyre.nominal_load) / (length * tyre.radius)

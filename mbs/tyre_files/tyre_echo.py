@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,12 @@ from ali3.echo import Echo, Mistake, Value, echo_of, quantities_of
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+from mbs.tyre_files.fits import carcass
 from mbs.tyre_files.magic_file import TyreFile
 from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
 
 Array = NDArray[np.float64]
+AnyTyre: TypeAlias = "MagicTyre | Tyre"
 DEG = math.pi / 180.0
 FARTHEST = 0.6
 """Slip, and slip angle, rad, up to which a peak is looked for."""
@@ -41,9 +43,10 @@ OWN = {  # the coefficients that a value follows from first
     "zerox": ("PHX1", "PVX1"),
     "leftx": ("PCX1", "PEX1"),
     "ratio": ("PDY1", "PCY1", "LMUY", "PDX1", "PCX1", "LMUX"),
-    "deflection": ("FNOMIN", "VERTICAL_STIFFNESS", "UNLOADED_RADIUS"),
+    "trail": ("QDZ1", "LTR"),
 }
-SCALED = (  # coefficient, factor that undoes the mistake, words
+SCALED = (  # coefficient, factor that undoes the mistake, words; of a factor before the coefficient it multiplies
+    ("LKY", 1.0 / DEG, "per degree in place of per radian in LKY"),
     ("PKY1", 1.0 / DEG, "per degree in place of per radian in PKY1"),
     ("PKX1", 100.0, "per percent in place of per slip in PKX1"),
     ("PHY1", DEG, "degrees in place of radians in PHY1"),
@@ -53,8 +56,19 @@ SCALED = (  # coefficient, factor that undoes the mistake, words
     ("PEX1", -1.0, "the sign of PEX1"),
     ("PDY1", 0.01, "percent in place of a ratio in PDY1"),
     ("PDX1", 0.01, "percent in place of a ratio in PDX1"),
+    ("LMUY", 0.01, "percent in place of a ratio in LMUY"),
+    ("LMUX", 0.01, "percent in place of a ratio in LMUX"),
+    ("QDZ1", -1.0, "the sign of QDZ1"),
 )
-LOADS = ((9.80665, "kilograms in place of newtons in FNOMIN"), (4.44822, "pounds in place of newtons in FNOMIN"))
+FORCES = ((9.80665, "kilograms"), (4.4482216, "pounds"))
+VERTICAL = {  # fields of a tyre that have no curve, with the keys of the file and that of [UNITS]
+    "nominal_load": "FNOMIN",
+    "stiffness": "VERTICAL_STIFFNESS",
+    "damping": "VERTICAL_DAMPING",
+    "radius": "UNLOADED_RADIUS",
+    "bottoming_radius": "RIM_RADIUS",
+    "largest_load": "FZMAX",
+}
 PART = {1.0: "", 0.5: "at half the nominal load"}
 """Loads at which curves are looked at, over the nominal one."""
 
@@ -74,12 +88,10 @@ def magic_echo(what: str, tyre: MagicTyre, kind: str = "", prefix: str = "") -> 
 
     `what`: the file; `kind`: of the vehicle, else the widest range; `prefix`: of its keys, for those of a car.
     """
-    c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
-    mistakes = [_undo(what, tyre, prefix, key, factor, words) for key, factor, words in SCALED if c.get(key)]
-    for factor, words in LOADS:
-        heavier = replace(tyre, nominal_load=factor * tyre.nominal_load)
-        mistakes.append(Mistake(words, frozenset({prefix + "FNOMIN"}), partial(_magic_values, heavier, prefix)))
-    return Echo(what, _magic_values(tyre, prefix), mistakes, kind)
+    given = {key: v for key, v in tyre.coefficients.items() if v and not (key.startswith("L") and v == 1.0)}
+    mistakes = [_undo(tyre, prefix, key, factor, words) for key, factor, words in SCALED if key in given]
+    values, names = partial(_magic_values, prefix=prefix), {f: prefix + key for f, key in VERTICAL.items()}
+    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, names, values)], kind)
 
 
 def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo:
@@ -95,13 +107,8 @@ def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo
             changed = replace(curve, **{f: tuple(way * v for v in getattr(curve, f)) for f in fields})
             keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
             mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
-    for factor, words in LOADS:
-        heavier = replace(tyre, nominal_load=factor * tyre.nominal_load)
-        key = f"{prefix}nominal_load"
-        mistakes.append(
-            Mistake(words.replace("FNOMIN", key), frozenset({key}), partial(_tmeasy_values, heavier, prefix))
-        )
-    return Echo(what, _tmeasy_values(tyre, prefix), mistakes, kind)
+    values, names = partial(_tmeasy_values, prefix=prefix), {f: prefix + f for f in VERTICAL}
+    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, names, values)], kind)
 
 
 def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
@@ -111,19 +118,52 @@ def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
     return at_load(tyre.lateral.slope, load / tyre.nominal_load)
 
 
-def _undo(what: str, tyre: MagicTyre, prefix: str, key: str, factor: float, words: str) -> Mistake:
+def _undo(tyre: MagicTyre, prefix: str, key: str, factor: float, words: str) -> Mistake:
     coefficients = {**tyre.coefficients, key: factor * tyre.coefficients[key]}
     undone = replace(tyre, coefficients=coefficients)
     return Mistake(words, frozenset({prefix + key}), partial(_magic_values, undone, prefix))
 
 
+def _vertical_mistakes(tyre: AnyTyre, names: Mapping[str, str], values: Callable[[Any], list[Value]]) -> list[Mistake]:
+    """Of radii, loads and stiffness. `names`: keys of the fields; `values`: of a tyre."""
+    found = [
+        (f"{unit} in place of newtons in {names[field]}", {field: factor})
+        for field in ("nominal_load", "stiffness", "largest_load")
+        for factor, unit in FORCES
+        if hasattr(tyre, field)
+    ]
+    found.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
+    forces = [f for f in ("nominal_load", "stiffness", "damping", "largest_load") if hasattr(tyre, f)]
+    found += [
+        (f"numbers in newtons called {unit} in the unit of force", dict.fromkeys(forces, 1.0 / factor))
+        for factor, unit in FORCES
+        if isinstance(tyre, MagicTyre)
+    ]
+    return [
+        Mistake(
+            words,
+            frozenset(names[f] for f in change),
+            partial(values, replace(tyre, **{f: factor * getattr(tyre, f) for f, factor in change.items()})),
+        )
+        for words, change in found
+    ]
+
+
 def _magic_values(tyre: MagicTyre, prefix: str) -> list[Value]:
     nominal = tyre.nominal_load
-    given = {**MAGIC_COEFFICIENTS, **tyre.coefficients, "FNOMIN": nominal, "UNLOADED_RADIUS": tyre.radius}
-    given["VERTICAL_STIFFNESS"] = tyre.stiffness
+    c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
+    given = {**c, "FNOMIN": nominal}
     keys = {name: {prefix + k: given[k] for k in own if k in given} for name, own in OWN.items()}
     curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
-    return [*_of_curves(curves, keys), _deflection(nominal, tyre.stiffness, tyre.radius, keys["deflection"])]
+    names = {f: prefix + key for f, key in VERTICAL.items()}
+    found = [*_of_curves(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
+    slips = tyre.along[0], cornering(tyre, nominal)
+    lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
+    for of, slip, across, own in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
+        if any(c[k] for k in own):
+            told = {prefix + k: c[k] for k in own if c[k]}
+            found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, told, of))
+    return [*found, *_vertical(tyre, names)]
 
 
 def _lateral(tyre: MagicTyre, part: float) -> _Curve:
@@ -178,8 +218,7 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
                 k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
-    keys["deflection"] = {f"{prefix}{f}": getattr(tyre, f) for f in ("nominal_load", "stiffness", "radius")}
-    return [*_of_curves(curves, keys), _deflection(nominal, tyre.stiffness, tyre.radius, keys["deflection"])]
+    return [*_of_curves(curves, keys), *_vertical(tyre, {f: prefix + f for f in VERTICAL})]
 
 
 def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
@@ -205,8 +244,18 @@ def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str,
     return found
 
 
-def _deflection(load: float, stiffness: float, radius: float, keys: Mapping[str, Any]) -> Value:
-    return Value(QUANTITIES["deflection"], load / stiffness / radius, keys)
+def _vertical(tyre: AnyTyre, names: Mapping[str, str]) -> Iterator[Value]:
+    """Values of radii, loads and stiffness. `names`: keys of the fields."""
+    load, radius = tyre.nominal_load, tyre.radius
+    for name, value, fields in (
+        ("deflection", load / tyre.stiffness / radius, ("nominal_load", "stiffness", "radius")),
+        ("carries", 1e-3 * load / radius**3, ("nominal_load", "radius")),
+        ("rim", tyre.bottoming_radius / radius, ("bottoming_radius", "radius")),
+        ("damping", tyre.damping / tyre.stiffness, ("damping", "stiffness")),
+        ("room", getattr(tyre, "largest_load", 2.0 * load) / load, ("largest_load", "nominal_load")),
+    ):
+        if all(hasattr(tyre, f) for f in fields):
+            yield Value(QUANTITIES[name], value, {names[f]: getattr(tyre, f) for f in fields})
 
 
 @echo_of.register

@@ -14,8 +14,12 @@ from ali3.echo import Echo, Mistake, Value, quantities_of
 from mbs.urdf.source import Element
 
 SMALLEST = 1e-4  # m
+GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
+NO_LIMIT = 1e4  # rad, m: nobody counts so many turns
+LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
+MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
 QUANTITIES = quantities_of("robot")
 
 
@@ -27,17 +31,27 @@ class Given(NamedTuple):
     inertias: float = 1.0
     limits: float = 1.0
     angles: float = 1.0
+    centres: float = 1.0
+    """Of origins of inertias, where other lengths are right."""
+    efforts: float = 1.0
+    heaviest: float = 1.0
+    """Of the mass of the heaviest link."""
+    small: float | None = None
+    """Radius of gyration, m, in place of moments of 1 kg m2, which stand for those that nobody knew."""
 
 
 UNDONE = (
     ("degrees in place of radians in the limits", ("limit",), Given(limits=DEG)),
     ("degrees in place of radians in rpy", ("rpy",), Given(angles=DEG)),
+    ("N mm in place of N m in efforts", ("effort",), Given(efforts=1e-3)),
+    ("kN m in place of N m in efforts", ("effort",), Given(efforts=1e3)),
     ("grams in place of kilograms in masses", ("mass",), Given(masses=1e-3)),
+    ("grams in place of kilograms in one mass", ("mass",), Given(heaviest=1e-3)),
     ("tonnes in place of kilograms in masses", ("mass",), Given(masses=1e3)),
-    ("mm in place of m in all lengths", ("xyz",), Given(lengths=1e-3)),
-    ("inertias in kg mm2 in place of kg m2", ("inertia",), Given(inertias=1e-6)),
-    ("inertias in g mm2 in place of kg m2", ("inertia",), Given(inertias=1e-9)),
-    ("inertias in g cm2 in place of kg m2", ("inertia",), Given(inertias=1e-7)),
+    *((f"{unit} in place of m in all lengths", ("xyz",), Given(lengths=size)) for unit, size in LENGTHS.items()),
+    *((f"{unit} in place of m in centres of mass", ("xyz",), Given(centres=size)) for unit, size in LENGTHS.items()),
+    ("moments of 1 kg m2 in place of those of the parts", ("inertia",), Given(small=0.03)),
+    *((f"inertias in {unit} in place of kg m2", ("inertia",), Given(inertias=of)) for unit, of in MOMENTS.items()),
     ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Given(masses=1e-3, inertias=1e-9)),
     ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Given(lengths=1e-3, inertias=1e-6)),
 )
@@ -86,6 +100,20 @@ def _values(
         if inertia > 0.0:
             keys = {f"inertia of '{name}' in line {line}": inertia, f"mass of '{name}'": mass}
             found.append(Value(QUANTITIES["gyration"], radii[name] / max(scale, away), keys, of))
+    if len(heavy) > 1:
+        name = max(heavy, key=lambda n: heavy[n][0])
+        most = heavy[name][0] * given.heaviest
+        found.append(Value(QUANTITIES["heaviest"], most / (total - heavy[name][0]), {f"mass of '{name}'": most}))
+    efforts = {
+        f"effort of '{joint.attributes.get('name', '')}' in line {limit.line}": limit.numbers("effort")[0]
+        for joint in root.all("joint")
+        if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
+        if "effort" in limit.attributes
+    }
+    if efforts and scale > SMALLEST and max(efforts.values()) > 0.0:
+        key = max(efforts, key=efforts.__getitem__)
+        held = given.efforts * efforts[key] / (GRAVITY * total * scale)
+        found.append(Value(QUANTITIES["effort"], held, {key: efforts[key]}))
     return [*found, *_joints(root, at, given)]
 
 
@@ -95,10 +123,13 @@ def _part(link: Element, given: Given) -> tuple[float, NDArray[np.float64], floa
     if inertial is None:
         return 0.0, np.zeros(3), 0.0, link.line
     mass, origin, inertia = (inertial.first(tag) for tag in ("mass", "origin", "inertia"))
-    centre = np.zeros(3) if origin is None else given.lengths * np.array(origin.numbers("xyz"))
+    centre = np.zeros(3) if origin is None else given.lengths * given.centres * np.array(origin.numbers("xyz"))
     moments = [0.0] if inertia is None else [inertia.numbers(name)[0] for name in ("ixx", "iyy", "izz")]
+    heavy = 0.0 if mass is None else given.masses * mass.numbers("value")[0]
+    if given.small is not None:
+        moments = [heavy * given.small**2 if v == 1.0 else v for v in moments]
     return (
-        0.0 if mass is None else given.masses * mass.numbers("value")[0],
+        heavy,
         centre,
         given.inertias * max(moments),
         inertial.line,
@@ -117,14 +148,16 @@ def _joints(root: Element, at: Mapping[str, float], given: Given) -> Iterator[Va
             continue
         scale = given.limits if kind == "revolute" else given.lengths
         low, high = (scale * limit.numbers(end)[0] for end in ("lower", "upper"))
-        if low == high == 0.0:
+        if low == high == 0.0 or high - low > NO_LIMIT:
             continue
         keys: dict[str, Any] = {
             f"{'limit' if kind == 'revolute' else 'xyz'} of '{name}' in line {limit.line}": [low, high]
         }
         yield Value(QUANTITIES["range" if kind == "revolute" else "slide"], high - low, keys, of)
         value = at.get(name, 0.0)
-        yield Value(QUANTITIES["start"], max(low - value, value - high, 0.0), keys | {"start": value}, of)
+        if high > low:
+            beyond = max(low - value, value - high, 0.0) / (high - low)
+            yield Value(QUANTITIES["start"], beyond, keys | {"start": value}, of)
 
 
 def _spread(points: NDArray[np.float64]) -> float:

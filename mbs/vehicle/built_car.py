@@ -324,9 +324,6 @@ def checked_car(
         rest = settled(model, car)
     except ValueError as error:
         raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
-    faults = list(rest.faults(car))
-    if faults:
-        raise CarFileError(_told(what, faults))
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         told = [sentence for echo in car_echo("", car, rest, car._data, car._remade) for sentence in echo.warnings()]

@@ -1,4 +1,4 @@
-"""Physical quantities of a car file: unit, plausible range, and whether a finished FMU may change them."""
+"""Physical quantities of a car file: unit, range, and whether a finished FMU may change them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Quantity:
     """SI unit; "1" for a number without one."""
     low: float
     high: float
-    """`low`, `high`: least and largest plausible value. Where `low` is positive they are less than a factor of 1000
+    """`low`, `high`: least and largest value. Where `low` is positive they are less than a factor of 1000
     apart, so that a value in a unit 1000 times too large or too small is always outside; of inertias the radius of
     gyration and the two other moments tell it."""
     zero: bool = False

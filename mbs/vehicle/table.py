@@ -28,7 +28,7 @@ class Row:
         return self.cells[column]
 
     def number(self, column: str, low: float, high: float, unit: str) -> float:
-        """A cell as a number. `low`, `high`: least and largest plausible value.
+        """A cell as a number. `low`, `high`: least and largest value.
 
         Raises `CarFileError`: it is no number or not in the range.
         """

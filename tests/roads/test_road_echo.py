@@ -38,7 +38,7 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
 @pytest.mark.parametrize(
     ("road", "words"),
     [
-        (waves(factor=1000.0), "mm in place of m in heights would explain it"),
+        (waves(factor=1000.0), "mm in place of m in heights"),
         (waves(spacing=500.0), "mm in place of m in coordinates or"),
         (waves(step=0.01), "step of the heights is 0.01 m"),
         (waves(step=0.25), "step of the heights is 0.25 m"),

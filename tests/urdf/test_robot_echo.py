@@ -51,7 +51,7 @@ ODD = {
         "mm in place of m",
     ),
     "inertias in kg mm2": (scaled(INERTIA, 1e6), "inertias in kg mm2"),
-    "a centre 500 m away": (replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="500 0 0"'), "500"),
+    "a centre 500 m away": (replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="500 0 0"'), "size is 1000 m"),
     "a turn of 90 rad": (replaced(r'rpy="[^"]*"', 'rpy="0 90 0"'), "degrees in place of radians in rpy"),
     "limits in degrees": (
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="-170" upper="170"'),

@@ -9,9 +9,8 @@ import numpy as np
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import load_test
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
-from hosts.catalogue.plausible import implausible
 from hosts.catalogue.sheet import Sheet
-from hosts.catalogue.steady_map import why_not_reached
+from hosts.catalogue.steady_map import refuse_odd, why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
@@ -31,9 +30,7 @@ def drive(sheet: Sheet) -> None:
         ramps[side] = _ramp(car, speed, sign, given.largest)
         sheet.runs[f"ramp_{side}"] = ramps[side].thinned()
         sheet.progress(0.1 * len(ramps))
-    wrong = implausible(ramps["left"])
-    if wrong is not None:
-        raise HostError(wrong)
+    refuse_odd(ramps["left"])
     found = [angle_by_regression(r.steering, r.acceleration) if len(r.time) else math.nan for r in ramps.values()]
     if not math.isfinite(sum(found)):
         raise HostError(_no_angle(list(ramps.values()), settings["speed"]))

@@ -8,7 +8,7 @@ from mbs.common.errors import ModelError
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.dimensions import dimension_faults
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.masses import mass_faults, mass_oddities
+from mbs.vehicle.checks.masses import mass_faults
 from mbs.vehicle.checks.places import place_faults, place_oddities
 from mbs.vehicle.checks.tyres import tyre_faults, tyre_oddities
 from mbs.vehicle.section import sections_of
@@ -39,7 +39,6 @@ def car_oddities(car: CarContent, rest: Rest) -> list[str]:
         *(sentence for section in sections_of(car) for sentence in section.oddities()),
         *rest.oddities(car),
         *place_oddities(car),
-        *mass_oddities(car),
         *tyre_oddities(car, rest),
         *car.front.suspension.steering_oddities(car.steering, car.front.wheel.centre),
     ]

@@ -19,8 +19,7 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.steering.steered import Steered
 
-ODD, TOO_FAR = 0.02, 0.15  # m: a wheel's travel between drawing and rest
-LEAST_LENGTH = 0.4  # of the free length: a coil spring that is shorter is a block
+ODD = 0.02  # m: a wheel's travel between drawing and rest
 ODD_DEFLECTION = 0.005  # m: the same of a tyre's deflection
 FITTED = 1e-6  # m: of the free length with which a car stands as drawn
 WIDER = 5  # times that the range in which it is sought is doubled
@@ -45,20 +44,9 @@ class Rest:
     compiled: CompiledModel
     """Of the car."""
 
-    def faults(self, car: CarContent) -> Iterator[str]:
-        """A sentence for each axle far from where it is drawn."""
-        yield from self._moved(car, TOO_FAR, math.inf)
-        for name, axle in car.axles.items():
-            free, length = axle.spring.free_length, self.spring_length[name]
-            if length < LEAST_LENGTH * free:
-                yield (
-                    f"{axle.spring.key('free_length')} is {free:g} m, but at rest the spring has {length:.3g} m "
-                    f"between its points; it must be {length / LEAST_LENGTH:.3g} m or less."
-                )
-
     def oddities(self, car: CarContent) -> Iterator[str]:
         """A sentence for each difference from the drawing."""
-        yield from self._moved(car, ODD, TOO_FAR)
+        yield from self._moved(car)
         for name, axle in car.axles.items():
             drawn, found = axle.tyre.radius - axle.wheel.centre[2], self.deflection[name]
             if abs(found - drawn) > ODD_DEFLECTION:
@@ -74,12 +62,12 @@ class Rest:
                 "a spring is soft."
             )
 
-    def _moved(self, car: CarContent, low: float, high: float) -> Iterator[str]:
-        off = [name for name, travel in self.travel.items() if abs(travel) > low]
+    def _moved(self, car: CarContent) -> Iterator[str]:
+        off = [name for name, travel in self.travel.items() if abs(travel) > ODD]
         fitting = _fitting(self, car, off) if off else {}
         for name, axle in car.axles.items():
             travel = self.travel[name]
-            if low < abs(travel) <= high:
+            if abs(travel) > ODD:
                 fits = f": with {axle.spring.key('free_length')} = {fitting[name]:.6g} it is" if fitting else ""
                 spring = axle.spring
                 values = [f"{spring.key('free_length')} {spring.free_length:g} m"]

@@ -15,7 +15,6 @@ REFERENCE_TOLERANCE = 0.1  # m, between the reference point and the centre of ma
 SHARE = 0.15  # least share of the weight on an axle
 LOW = 0.1  # of the track: least height of the centre of mass
 ASIDE = 0.1  # of the track: most that the centre of mass is off the middle
-SMALL_PRODUCT = 1e-4  # of the largest moment
 
 
 def mass_faults(car: CarContent) -> Iterator[str]:
@@ -24,17 +23,6 @@ def mass_faults(car: CarContent) -> Iterator[str]:
     for part in parts_of(car):
         yield from _tensor(part.key("inertia"), part.inertia)
     yield from _chassis(car)
-
-
-def mass_oddities(car: CarContent) -> Iterator[str]:
-    """A sentence for each thing that is odd."""
-    least = SMALL_PRODUCT * max(car.chassis.inertia)
-    for k, (axes, product) in enumerate(zip(("xy", "xz", "yz"), car.chassis.products, strict=True)):
-        if 0.0 < abs(product) < least:
-            yield (
-                f"{car.chassis.key('products')}.{k} ({axes}) is {product:g} kg.m2, less than {least:.2g} kg.m2 beside "
-                f"{car.chassis.key('inertia')} but not 0: is the unit kg.m2?"
-            )
 
 
 def weighed_points(car: CarContent, payloads: bool) -> list[tuple[float, tuple[float, float, float]]]:
@@ -61,23 +49,6 @@ def _sum(car: CarContent) -> Iterator[str]:
         yield (
             f"{car.vehicle.key('reference_point')} is {list(car.vehicle.reference_point)} m, {off:.3g} m from the "
             f"centre of mass of all parts, {[round(c, 4) for c in centre]} m, which it is."
-        )
-    share = 1.0 + centre[0] / max(car.wheelbase, 1e-3)
-    along, aside, high = centre_ranges(car)
-    if not along[0] <= centre[0] <= along[1]:
-        yield (
-            f"{car.chassis.key('com')} leaves {share:.0%} of the weight to the front axle; it must be between "
-            f"{SHARE:.0%} and {1.0 - SHARE:.0%}."
-        )
-    if not aside[0] <= centre[1] <= aside[1]:
-        yield (
-            f"{car.chassis.key('com')} puts the centre of mass of the car {abs(centre[1]):.3g} m aside; it must be "
-            f"less than {aside[1]:.3g} m."
-        )
-    if not high[0] <= centre[2] <= high[1]:
-        yield (
-            f"{car.chassis.key('com')} puts the centre of mass of the car at a height of {centre[2]:.3g} m; with a "
-            f"track of {high[1]:g} m it must be between {high[0]:.3g} and {high[1]:g} m."
         )
 
 

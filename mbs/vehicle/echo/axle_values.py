@@ -13,7 +13,7 @@ from ali3.echo import Value, quantities_of
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.places import drawn_points
+from mbs.vehicle.checks.places import drawn_points, parts_of
 from mbs.vehicle.checks.working import DAMPER_SPEED, under_load, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
@@ -77,6 +77,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
             away = math.hypot(point[0] - centre[0], point[2] - centre[2])
             yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **y}, of)
             yield Value(CAR["joint_radius"], away / axle.tyre.radius, {key: list(point), **y}, of)
+    yield from _places(axle, name)
     yield from _alignment(axle, name)
     yield Value(
         CAR["wheel_radius"],
@@ -99,6 +100,24 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
         yield from _springs(axle, name, rest, rates)
 
 
+def _places(axle: Axle, name: str) -> Iterator[Value]:
+    """Of points and parts the farthest."""
+    points, centre = drawn_points(axle), axle.wheel.centre
+    near = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if points else set()
+    for quantity, keys in (("carrier", points.keys() & near), ("reach", points.keys() - near)):
+        if keys:
+            key = max(sorted(keys), key=lambda k: math.dist(points[k], centre))
+            yield Value(CAR[quantity], math.dist(points[key], centre), {key: list(points[key])}, name)
+    around = np.array([*points.values(), centre])
+    beyond = {
+        part.key("com"): float(max((around.min(axis=0) - part.com).max(), (part.com - around.max(axis=0)).max(), 0.0))
+        for part in parts_of(axle)
+    }
+    if beyond and axle.suspension.linked:
+        key = max(beyond, key=beyond.__getitem__)
+        yield Value(CAR["part"], beyond[key], {key: "com"}, name)
+
+
 def _points(axle: Axle) -> dict[str, Any]:
     return {key: list(p) for key, p in drawn_points(axle).items() if key.endswith(("ball_joint", "strut_top"))}
 
@@ -119,6 +138,8 @@ def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Va
     field = "stiffness" if spring.stiffness is not None else "table"
     springs = {spring.key(field): getattr(spring, field), spring.key("factor"): spring.factor}
     yield Value(CAR["rate"], rate * 1e-3, springs, name)
+    free = spring.free_length
+    yield Value(CAR["pressed"], rest.spring_length[name] / free, {spring.key("free_length"): free, **springs}, name)
     if mass <= 0.0 or rate <= 0.0:
         return
     yield Value(CAR["bounce"], math.sqrt(rate / mass) / (2.0 * math.pi), springs, name)

@@ -17,7 +17,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
-from mbs.vehicle.checks.places import parts_of
+from mbs.vehicle.checks.places import drawn_points, parts_of, points_of_the_body
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.echo.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.environment import GRAVITY
@@ -26,6 +26,7 @@ Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
 """Makes a car of the altered content of its file, and finds its rest; None where that is no car."""
 FINAL_DRIVE = 4.0
+HEIGHT = 4.0  # m: of a truck
 
 
 def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake) -> list[Echo]:
@@ -80,11 +81,31 @@ def _of_dimensions(car: CarContent, rest: Rest) -> Iterator[Value]:
     yield Value(CAR["wheelbase"], car.wheelbase, centres)
     yield Value(CAR["tracks"], tracks[1] / tracks[0], centres)
     yield Value(CAR["slender"], 0.5 * sum(tracks) / car.wheelbase, centres)
+    body = car.vehicle
+    yield Value(CAR["length"], body.length / car.wheelbase, {body.key("length"): body.length, **centres})
+    yield Value(CAR["width"], body.width / max(tracks), {body.key("width"): body.width, **centres})
+    yield from _of_points(car)
     contact = car.chassis.ground_contact
     points = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
     if contact and points:
         lowest = min(points, key=lambda p: p[2])
         yield Value(CAR["clearance"], lowest[2], {contact.key("points"): list(lowest)})
+
+
+def _of_points(car: CarContent) -> Iterator[Value]:
+    """Of points of the body the farthest outside of its outline, and of all points the coordinate nearest to 0."""
+    points, body = points_of_the_body(car), car.vehicle
+    middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
+    beyond = {
+        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - HEIGHT, -z, 0.0)
+        for key, (x, y, z) in points.items()
+    }
+    key = max(beyond, key=beyond.__getitem__)
+    yield Value(CAR["outline"], beyond[key], {key: list(points[key])})
+    points |= drawn_points(car.front) | drawn_points(car.rear) | {p.key("com"): p.com for p in parts_of(car)}
+    nearest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
+    key = min(nearest, key=nearest.__getitem__)
+    yield Value(CAR["nearest"], nearest[key], {key: list(points[key])})
 
 
 def _of_masses(car: CarContent) -> Iterator[Value]:
@@ -93,6 +114,11 @@ def _of_masses(car: CarContent) -> Iterator[Value]:
     share = (x - car.rear.wheel.centre[0]) / car.wheelbase
     yield Value(CAR["share"], share, _centre_key(car))
     yield Value(CAR["height"], height / track, _centre_key(car))
+    yield Value(CAR["aside"], y / track, _centre_key(car))
+    products = [abs(p) for p in chassis.products if p]
+    if products:
+        least = {chassis.key("products"): list(chassis.products)}
+        yield Value(CAR["products"], min(products) / max(chassis.inertia), least)
     weighed = weighed_points(car, payloads=True)
     total = sum(mass for mass, _ in weighed)
     inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
@@ -120,6 +146,12 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
         front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
         loads = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
         yield Value(CAR["understeer"], front - rear, loads | _centre_key(car))
+    for name, axle in car.axles.items():
+        tyre, road = axle.tyre, car.road
+        of_grip = {tyre.key("grip"): tyre.grip, tyre.key("reference_friction"): tyre.reference_friction}
+        of_grip |= {road.key("friction"): road.friction, road.key("friction_factor"): road.friction_factor}
+        for of, share in (("least", min), ("largest", max)):
+            yield Value(CAR["grip"], share(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
     steering = car.steering
     key = steering.key("front_wheel_angle_max")
     ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
@@ -143,6 +175,11 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
             yield Value(CAR["last_speed"], speed, keys)
     mass = 2.0 * sum(rest.load.values()) / GRAVITY
     yield Value(CAR["power"], drive.max_power / mass, {drive.key("max_power"): drive.max_power})
+    ratio = drive.max_power / (drive.max_torque * drive.limit_speed)
+    yield Value(CAR["torque"], ratio, {drive.key(f): getattr(drive, f) for f in ("max_power", "max_torque")})
+    air = car.aerodynamics
+    if air.drag_area:
+        yield Value(CAR["drag"], air.drag_area, {air.key("drag_area"): air.drag_area})
     brakes, weight = car.brakes, 2.0 * sum(rest.load.values())
     front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
     yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
@@ -190,6 +227,8 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         key = axle.wheel.key("spin_inertia")
         for factor, words in ((0.5, "both wheels in place of one"), (2.0, "half of the wheel")):
             yield f"{words} in {key}", {key}, _scale(key, factor)
+        other = axle.wheel.key("diametral_inertia")
+        yield f"{key} and {other} exchanged", {key, other}, partial(_exchange, key, other)
     chassis, drive, steering = car.chassis, car.drive, car.steering
     key = drive.key("ratios" if isinstance(drive, Automatic) else "ratio")
     yield (f"ratios without a final drive, of about {FINAL_DRIVE:g}, in {key}", {key}, _scale(key, FINAL_DRIVE))
@@ -197,7 +236,9 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
     limit = drive.key("limit_speed")
     yield f"rounds per minute in place of rad/s in {limit}", {limit}, _scale(limit, math.pi / 30.0)
     yield f"rounds per second in place of rad/s in {limit}", {limit}, _scale(limit, 2.0 * math.pi)
-    power = drive.key("max_power")
+    power, torque = drive.key("max_power"), drive.key("max_torque")
+    yield f"kilograms in place of newtons in {torque}", {torque}, _scale(torque, GRAVITY)
+    yield f"the torque of the wheels in {torque}", {torque}, _scale(torque, 0.5 / FINAL_DRIVE)
     yield f"horsepower in place of W in {power}", {power}, _scale(power, 735.5)
     yield f"kW in place of W in {power}", {power}, _scale(power, 1000.0)
     inertia = chassis.key("inertia")
@@ -208,6 +249,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
             partial(_swap, inertia, a, b),
         )
     yield f"half of the moments in {inertia}", {inertia}, _scale(inertia, 2.0)
+    yield f"pounds and feet in place of kg and m in {inertia}", {inertia}, _scale(inertia, 0.04214)
     brakes = car.brakes
     yield (
         "the share of the rear wheels in brakes.balance",
@@ -215,6 +257,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         partial(_rest_of_one, brakes.key("balance")),
     )
     torque = brakes.key("torque")
+    yield f"kilograms in place of newtons in {torque}", {torque}, _scale(torque, GRAVITY)
     yield f"the torque of one wheel in place of a side in {torque}", {torque}, _scale(torque, 2.0)
     yield f"the torque of all wheels in place of a side in {torque}", {torque}, _scale(torque, 0.5)
     angle = steering.key("front_wheel_angle_max")
@@ -261,6 +304,11 @@ def _swap(key: str, a: int, b: int, data: Data) -> None:
     values = list(holder[last])
     values[a], values[b] = values[b], values[a]
     holder[last] = list(np.array(values, float))
+
+
+def _exchange(key: str, other: str, data: Data) -> None:
+    (one, a), (two, b) = _holder(data, key), _holder(data, other)
+    one[a], two[b] = two[b], one[a]
 
 
 def _rest_of_one(key: str, data: Data) -> None:

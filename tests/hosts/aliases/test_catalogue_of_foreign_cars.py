@@ -74,5 +74,5 @@ def test_measures_are_the_same(style, step_steer, ours, file):
 
 def test_a_turned_sign_is_told(step_steer, file):
     turned = file("carmaker", '"chassis.wz" = { name = "Car.YawRate", factor = -1.0 }')
-    with pytest.raises(HostError, match=r"a sign is wrong, of the steering or of chassis\.wz"):
+    with pytest.raises(HostError, match=r"the other sign of 'chassis\.wz'"):
         step_steer("carmaker", turned)

@@ -234,10 +234,10 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
 @pytest.mark.parametrize(
     ("factors", "words"),
     [
-        ({"chassis.ay": -1.0}, "to the left the lateral acceleration is to the other side"),
-        ({"chassis.wz": -1.0}, "to the left the yaw rate is to the other side"),
-        ({"chassis.wz": math.degrees(1.0)}, r"where speed times yaw rate is 2\d\d m/s²: a unit is wrong"),
-        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, "to the left the lateral acceleration is to the other side"),
+        ({"chassis.ay": -1.0}, r"the other sign of 'chassis\.ay'"),
+        ({"chassis.wz": -1.0}, r"the other sign of 'chassis\.wz'"),
+        ({"chassis.wz": math.degrees(1.0)}, r"deg/s in place of rad/s of 'chassis\.wz'"),
+        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering\.angle'"),
     ],
 )
 def test_wrong_signs_and_units_are_told(test: str, factors: dict[str, float], words: str) -> None:

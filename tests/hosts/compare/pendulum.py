@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.signal import lfilter
 
-from hosts.compare.log import Signal
+from hosts.measures.signal import Signal
 
 MASS, GRAVITY, FREE_LENGTH = 2.0, 9.80665, 0.8
 END = 6.0

@@ -13,9 +13,9 @@ from scipy.signal import lfilter
 from hosts.compare.alignment import align
 from hosts.compare.comparison import compare
 from hosts.compare.curve import Curve
-from hosts.compare.log import Signal
 from hosts.compare.words import common_sentence
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 END = 20.0
 

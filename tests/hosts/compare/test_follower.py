@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lsim
 
 from hosts.compare.follower import demanded
-from hosts.compare.log import Signal
+from hosts.measures.signal import Signal
 
 
 def test_the_follower_moves_as_measured() -> None:

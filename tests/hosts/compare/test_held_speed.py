@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import _holder
+from hosts.measures.signal import Signal
 
 
 @pytest.mark.parametrize("step", [0.01, 0.05, 0.1])

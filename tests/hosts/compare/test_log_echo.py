@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from hosts.compare.log import Signal
-from hosts.compare.log_echo import consistent, log_echo
+from hosts.measures.log_echo import consistent, log_echo
+from hosts.measures.signal import Signal
 
 Drive = dict[str, Signal]
 UNITS = {"speed": "m/s", "chassis.ax": "m/s2", "chassis.ay": "m/s2", "chassis.wz": "rad/s", "chassis.yaw": "rad"} | {
@@ -146,11 +147,14 @@ def test_a_signal_of_the_other_sign_is_not_consistent(name: str) -> None:
 
 
 @pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
-def test_a_signal_that_no_usual_mistake_mends_is_told_without_a_cause(factor: float) -> None:
+def test_a_factor_without_a_name_is_told_with_its_interval(factor: float) -> None:
     """A hint names a signal only if correcting it alone mends all relations it is in."""
     (sentence,) = log_echo("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
-    assert "would explain" not in sentence
-    assert "'wz'" in sentence
+    found = re.search(r"a factor of (\S+) \((\S+) to (\S+)\) of 'wz' \(chassis\.wz\) would explain", sentence)
+    assert found is not None, sentence
+    middle, low, high = map(float, found.groups())
+    assert low < 1.0 / factor < high
+    assert middle == pytest.approx(1.0 / factor, rel=0.05)
 
 
 def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hosts.compare.log import Signal
 from hosts.compare.plausibility import odd_scale
 from hosts.compare.stretches import Stretch
 from hosts.compare.windows import held_words
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -14,12 +14,12 @@ from hosts.compare.command import main
 from hosts.compare.fit import fit
 from hosts.compare.fit_words import fit_notes
 from hosts.compare.left_out import parts_of
-from hosts.compare.log import Signal
 from hosts.compare.unknown import Unknown
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
+from hosts.measures.signal import Signal
 
 RATE, REFUSED = 2.0, 3.0
 T = np.linspace(0.0, 3.0, 151)

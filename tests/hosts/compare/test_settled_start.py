@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from hosts.compare.command import main
-from hosts.compare.log import Signal
 from hosts.compare.stretch_fmu import smoothed
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu
+from hosts.measures.signal import Signal
 
 NAMES = ("speed", "chassis.vy", "chassis.wz", "chassis.ay")
 BEGIN = 3.0  # s, by then the turn is steady

@@ -12,12 +12,12 @@ from matplotlib import pyplot as plt
 from ali3.charts import save_pictures
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
-from hosts.compare.log import Signal
 from hosts.compare.page import comparison_figure
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
 from hosts.compare.words import common_sentence, common_words, table, with_unit
 from hosts.driving.result import Result
+from hosts.measures.signal import Signal
 
 pytestmark = pytest.mark.drawn
 

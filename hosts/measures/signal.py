@@ -1,0 +1,40 @@
+"""A measured signal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A measured signal with its own samples."""
+
+    name: str
+    """Ours."""
+    source: str
+    """Column of the log."""
+    unit: str
+    """Of `values`."""
+    time: NDArray[np.float64]
+    """Shape (n,): s, increasing; where an input jumps its time stands twice."""
+    values: NDArray[np.float64]
+    """Shape (n,): finite."""
+
+    @property
+    def interval(self) -> float:
+        """Median time between samples, s."""
+        steps = np.diff(self.time)
+        return float(np.median(steps[steps > 0.0]))
+
+    @property
+    def jumps(self) -> NDArray[np.float64]:
+        """Times that stand twice, s."""
+        return np.asarray(self.time[1:][np.diff(self.time) == 0.0])
+
+    def between(self, begin: float, end: float) -> Signal:
+        """The samples in a span of time."""
+        inside = (self.time >= begin - 1e-9) & (self.time <= end + 1e-9)
+        return replace(self, time=self.time[inside], values=self.values[inside])

@@ -1,0 +1,173 @@
+"""Mistakes that are right in form and wrong in meaning, planted in files of the package: each is told with its cause.
+
+A sweep of one of each kind; `told` of a kind gives the sentences of a file with the mistake.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hosts.measures.log_echo import log_echo
+from mbs.elements.road import GridRoad
+from mbs.roads.road_echo import place_of, road_echo, start_echo
+from mbs.tyre_files import read_tyre
+from mbs.tyre_files.tyre_echo import magic_echo
+from mbs.urdf import read_urdf
+from mbs.vehicle import load
+from mbs.vehicle.car import car_from
+from mbs.vehicle.changes import changed_content
+from mbs.worlds.world_echo import world_echo
+from mbs.worlds.world_types import WorldDescription
+from tests.hosts.compare.test_log_echo import Drive, drive, frozen, late, scaled, swapped
+from tests.urdf.robots import ROBOTS, write_urdf
+
+ROOT = Path(__file__).parents[2]
+DEG = math.degrees(1.0)
+Told = Callable[[Path], list[str]]
+
+
+def car(name: str, **factors: float) -> Told:
+    """A car with numbers times a factor, by their key paths with two underscores for a point."""
+
+    def told(_: Path) -> list[str]:
+        own = load(name)
+        changes = {}
+        for key, factor in factors.items():
+            path = key.replace("__", ".")
+            value: Any = own._data
+            for part in path.split("."):
+                value = value[int(part)] if isinstance(value, list) else value[part]
+            changes[path] = [factor * v for v in value] if isinstance(value, list) else factor * value
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            car_from(changed_content(own._data, changes, "x"), own.folder, "x", warn=True)
+        return [str(w.message) for w in caught]
+
+    return told
+
+
+def tyre(**factors: float) -> Told:
+    """The tyre file of the saloon with numbers times a factor."""
+
+    def told(folder: Path) -> list[str]:
+        text = (ROOT / "mbs/vehicle/cars/saloon/tyre.tir").read_text(encoding="utf-8")
+        for key, factor in factors.items():
+            text, found = re.subn(
+                rf"(?m)^({key} *= *)(\S+)", lambda m, factor=factor: f"{m[1]}{factor * float(m[2]):.9g}", text
+            )
+            assert found == 1
+        file = folder / "t.tir"
+        file.write_text(text, encoding="utf-8")
+        return magic_echo("t.tir", read_tyre(file).tyre()).warnings()
+
+    return told
+
+
+def robot(pattern: str, factor: float) -> Told:
+    """The arm UR5 with numbers times a factor."""
+
+    def told(folder: Path) -> list[str]:
+        file = write_urdf(ROBOTS["ur5"], folder / "robot.urdf")
+        text = re.sub(
+            pattern,
+            lambda m: m[0].replace(m[1], " ".join(f"{factor * float(v):.9g}" for v in m[1].split())),
+            file.read_text(encoding="utf-8"),
+        )
+        file.write_text(text, encoding="utf-8")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            read_urdf(file)
+        return [str(w.message) for w in caught]
+
+    return told
+
+
+def log(change: Callable[[Drive], Drive]) -> Told:
+    """A drive with a mistake."""
+    return lambda _: log_echo("log.csv", change(drive())).warnings()
+
+
+def offset(name: str, by: float) -> Callable[[Drive], Drive]:
+    return lambda d: d | {name: replace(d[name], values=d[name].values + by)}
+
+
+def road(heights: float = 1.0, spacing: float = 0.5, origin: tuple[float, float] = (0.0, -5.0), **more: Any) -> Told:
+    """A hilly road in other units or elsewhere."""
+    x = np.linspace(0.0, 200.0, 401)
+    z = heights * (2.0 * np.sin(0.03 * x)[:, None] + 0.05 * np.cos(np.linspace(0.0, 3.0, 21)))
+    made = GridRoad(origin, (spacing, spacing), z, **more)
+    return lambda _: [
+        sentence
+        for echo in (road_echo("r.csv", made), start_echo("r.csv", place_of(made), (0.0, 0.0)))
+        for sentence in echo.warnings()
+    ]
+
+
+def world(section: str, k: int, **values: Any) -> Told:
+    """The proving ground with other values of one thing."""
+
+    def told(_: Path) -> list[str]:
+        data = tomllib.loads((ROOT / "mbs/worlds/proving_ground.toml").read_text(encoding="utf-8"))
+        data[section][k] |= values
+        return world_echo("w.toml", WorldDescription.model_validate(data)).warnings()
+
+    return told
+
+
+MASS, MOMENTS, LIMITS = r'mass value="([^"]*)"', r'i[xyz][xyz]="([^"]*)"', r'(?:lower|upper)="([^"]*)"'
+PLANTED: dict[str, tuple[Told, str]] = {
+    "half the track": (car("hatchback", rear__wheel__centre__1=0.5), "half the track less half of it"),
+    "wheel inertia of both": (
+        car("saloon", front__wheel__spin_inertia=2.0, front__wheel__diametral_inertia=2.0),
+        "both wheels in place of one",
+    ),
+    "half a wheel's inertia": (car("saloon", front__wheel__spin_inertia=0.5), "half of the wheel"),
+    "no final drive": (car("ferrari_250_lm", drive__ratios=0.25), "ratios without a final drive"),
+    "final drive twice": (car("saloon", drive__ratios=4.0), "the final drive, of about 4, twice"),
+    "torque in kgf m": (car("commonroad_vanagon", drive__max_torque=0.102), "kilograms in place of newtons in drive"),
+    "damping in kgf s/m": (car("saloon", rear__damper__damping=0.102), "kilograms in place of newtons in rear.damper"),
+    "tyre load in kg": (tyre(FNOMIN=0.10197), "kilograms in place of newtons in FNOMIN"),
+    "tyre diameter": (tyre(UNLOADED_RADIUS=2.0), "the diameter in place of the radius"),
+    "tyre stiffness in kgf/m": (tyre(VERTICAL_STIFFNESS=0.10197), "kilograms in place of newtons in VERTICAL"),
+    "tyre range in kg": (tyre(FZMAX=0.10197), "kilograms in place of newtons in FZMAX"),
+    "trail of the other sign": (tyre(QDZ1=-1.0), "the sign of QDZ1"),
+    "cornering stiffness per degree": (tyre(PKY1=1.0 / DEG), "per degree in place of per radian in PKY1"),
+    "masses in g": (robot(MASS, 1e3), "grams in place of kilograms in masses"),
+    "moments in kg cm2": (robot(MOMENTS, 1e4), "kg cm2 in place of kg m2"),
+    "limits in degrees": (robot(LIMITS, DEG), "degrees in place of radians in the limits"),
+    "speed in knots": (log(scaled("speed", 1.94384)), "knots in place of m/s"),
+    "speed in ft/s": (log(scaled("speed", 3.28084)), "ft/s in place of m/s"),
+    "path in cm": (log(lambda d: scaled("chassis.x", 100.0)(scaled("chassis.y", 100.0)(d))), "cm in place of m of the"),
+    "exchanged coordinates": (log(swapped("chassis.x", "chassis.y")), "'x' and 'y' exchanged"),
+    "a late yaw rate": (log(late("chassis.wz", 0.6)), "s (within 0.02 s) of 'wz'"),
+    "a late longitudinal acceleration": (log(late("chassis.ax", 0.9)), "a delay of 0.9"),
+    "gravity in ax": (log(offset("chassis.ax", 9.81)), "an offset of 9.8"),
+    "a frozen heading": (log(frozen("chassis.yaw", 10.0, 14.0)), "'yaw', longest time without a change"),
+    "heights in cm": (road(heights=1e2), "cm in place of m in heights"),
+    "coordinates in cm": (road(spacing=50.0), "cm in place of m in coordinates"),
+    "friction in percent": (road(frictions=90.0), "percent in place of a ratio in frictions"),
+    "another origin": (road(origin=(3e5, 5e6)), "coordinates of a map or another origin"),
+    "exchanged sides": (world("obstacles", 0, left=-5.0, right=5.0), "left and right exchanged in obstacles.0"),
+    "a kerb at y, x": (world("obstacles", 0, at=[30.0, 380.0, 0.0]), "x and y exchanged in obstacles.0"),
+    "an area in mm": (world("areas", 1, at=[553e3, -22e3]), "mm in place of m in areas.1"),
+}
+
+
+@pytest.mark.slow
+def test_each_is_told_with_its_cause(tmp_path: Path) -> None:
+    wrong = {}
+    for kind, (told, words) in PLANTED.items():
+        lines = told(tmp_path)
+        if not any(words in line for line in lines):
+            wrong[kind] = lines
+    assert wrong == {}
