@@ -384,7 +384,7 @@ def _trajectory(
 ) -> Trajectory:
     sensors = prepared(ended.system)[1]["sensors"]
     names, units = [s["name"] for s in sensors], [s["unit"] for s in sensors]
-    notices = notices_of(ended.system, times, values)
+    notices = [*notices_of(ended.system, times, values), *filter(None, [ended.start_text])]
     record = PositionRecord(ended.system, positions[0], len(times))
     record.fill(positions)
     return Trajectory(

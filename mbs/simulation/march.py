@@ -164,7 +164,10 @@ def trajectory_of(
         simulation.settings,
         wall,
         accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=[*notices_of(simulation.system, t, values), *filter(None, [report.capped_text, energy])],
+        notices=[
+            *notices_of(simulation.system, t, values),
+            *filter(None, [report.capped_text, energy, simulation.start_text]),
+        ],
         branch_change=simulation.branch_change,
         poses=record.poses(t),
         drawing=record.drawing,

@@ -41,11 +41,13 @@ class SteppedSystem(SystemInstance):
 
     @property
     def road_text(self) -> str:
-        """A sentence about the wheel that was pressed deepest into a road, or about a start on a road that is not
-        level; empty where there is nothing to say."""
+        """A sentence about the wheel that was pressed deepest into a road; empty where there is nothing to say."""
         element, text = self.instance.rim_text()
-        if text:
-            return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'."
+        return f"{text} It is the wheel of '{prepared(self.system)[1]['elements'][element]['name']}'." if text else ""
+
+    @property
+    def start_text(self) -> str:
+        """A sentence about a start on a road that is not level; empty where there is nothing to say."""
         lift, uneven = self.instance.start_lift()
         if not uneven > UNEVEN:
             return ""

@@ -186,6 +186,7 @@ def test_a_model_on_a_table(tmp_path):
     system = mbs.compile(prototype_car.build(mbs.RoadFile(tmp_path / "a.csv")))
     run = mbs.simulate(system, 0.5, H, pose=mbs.Pose(speed=10.0), progress=False)
     assert np.ptp(run["wheel_FL.Fz"]) > 50.0
+    assert any(text.startswith("The road is not level where this starts") for text in run.notices)
     (tmp_path / "a.csv").write_text("x,1\n")
     with pytest.raises(ValueError, match="a.csv has 1 rows"):
         prototype_car.build(mbs.RoadFile(tmp_path / "a.csv"))
