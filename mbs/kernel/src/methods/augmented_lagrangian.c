@@ -18,6 +18,7 @@
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "abrupt_force.h"
 #include "ali3p.h"
 #include "contact_event.h"
 #include "defect_correction.h"
@@ -28,7 +29,6 @@
 #include "newton.h"
 #include "predict.h"
 #include "projection.h"
-#include "quick_stop.h"
 #include "steps.h"
 
 /* What forces of the present iterate are asked for with. */
