@@ -8,28 +8,26 @@
 
 #include "slave.h"
 
-static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times */
-static const double START = 2.0; /* s from a start: a wheel that spins grips again as late as after 0.9 s */
-static const double LATER = 0.5; /* s after a difference in which what it is held against grows: a wheel lands */
+/* s after an abrupt step or a difference: a wheel swings four times, and lands on what its force is held against */
+static const double SPAN = 0.4;
+static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on, as a wheel spins; beside them s, and of what was
+                                                * driven: how much is made twice at most */
 static const double AGREED = 0.1; /* of what is wrong: a larger difference may still grow, as of a wheel that spins */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 static const int64_t MOST = 8; /* parts of a step */
-static const double LONG = 5.2e-3; /* s, steps that are made twice from a start on: they are made in MOST parts */
-static const double SAFE =
-    0.6; /* of what is wrong: what a step that was not tried would do with, by order one as at a kink */
-static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
+static const double SAFE = 0.6; /* of what is wrong: what an untried step would do with, by order one as at a kink */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* communication steps that may wait */
 
 /* Whether all is made twice that may be of what was driven up to a step. */
 static bool spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > FREE + SHARE * step->driven;
+  return t->spent > BUDGET + SHARE * step->driven;
 }
 
 /* What is compared: outputs that the System at work computes, see `judged` of the table. */
 static bool is_judged(const slave *s, const slave_variable *v) {
-  return v->source == SLAVE_SENSOR && v->judged.kind != 0 && !slave_left_out(s, v);
+  return v->source == SLAVE_SENSOR && v->judged.kind != 0 && !(v->uncomputed >> s->fidelity.number & 1);
 }
 
 /* Room for what is compared, in one block. */
@@ -287,7 +285,7 @@ static slave_status judge(slave *s) {
 /* What can be said by now, or when the run has `ended`. */
 static slave_status tell(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  return t->apart > 0.0 && (ended || now > t->time + LATER) ? judge(s) : SLAVE_OK;
+  return t->apart > 0.0 && (ended || now > t->time + SPAN) ? judge(s) : SLAVE_OK;
 }
 
 /* What is not judged when the run ends, also where the host resets or frees it without a word. */
@@ -303,18 +301,19 @@ slave_status slave_halve_steps(slave *s) {
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* tyres that are driven from the start on slip at once, what is let go swings: where long steps miss it */
-  const bool begins = t->begins && s->made.h > LONG, abrupt = report.abrupt_steps > t->abrupt || begins;
+  const bool begins = t->begins && 2.0 * s->made.h > (double)MOST * SHORT,
+             abrupt = report.abrupt_steps > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
   t->iterations = report.iterations;
   t->begins = false;
-  if (begins && !(t->driven > 0.0)) t->spent = -START; /* beside what abrupt forces may cost */
+  if (begins && !(t->driven > 0.0)) t->spent = -BUDGET; /* beside what abrupt forces may cost */
   t->driven += length;
   if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->left > 0.0 || t->n_late > 0)) {
     const bool waits = parts_of(s, s->made.h) == 2 && !s->made.sloped;
-    put_off(s, now, abrupt ? (begins ? START : SPAN) : 0.0);
+    put_off(s, now, abrupt ? (begins ? BUDGET : SPAN) : 0.0);
     catch_up(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->made.n);
   }
   return tell(s, now, false);
