@@ -8,8 +8,8 @@
 
 #include "slave.h"
 
-/* s after an abrupt step or a difference: a wheel swings four times, and lands on what its force is held against */
-static const double SPAN = 0.4;
+static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times */
+static const double LATER = 0.5; /* s after a difference in which what it is held against grows: a wheel lands */
 static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on, as a wheel spins; beside them s, and of what was
                                                 * driven: how much is made twice at most */
 static const double AGREED = 0.1; /* of what is wrong: a larger difference may still grow, as of a wheel that spins */
@@ -285,7 +285,7 @@ static slave_status judge(slave *s) {
 /* What can be said by now, or when the run has `ended`. */
 static slave_status tell(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  return t->apart > 0.0 && (ended || now > t->time + SPAN) ? judge(s) : SLAVE_OK;
+  return t->apart > 0.0 && (ended || now > t->time + LATER) ? judge(s) : SLAVE_OK;
 }
 
 /* What is not judged when the run ends, also where the host resets or frees it without a word. */
