@@ -61,7 +61,7 @@ def compared(
         Of those that count.
     """
     names, library = list(judged), load_library()
-    what = (JudgedFields * len(names))(*((JUDGED_UNITS[w.unit], kind_of(w)) for w in judged.values()))
+    what = (JudgedFields * len(names))(*(JudgedFields(JUDGED_UNITS[w.unit], kind_of(w)) for w in judged.values()))
     seen, size = (ComparedFields * len(names))(), np.zeros(len(names))
     rows = [np.column_stack([np.asarray(run[name], float) for name in names]) for run in (coarse, fine)]
     time, *motions = (_doubles(np.ascontiguousarray(a)) for a in (np.arange(float(len(rows[0]))), *rows))
