@@ -24,6 +24,8 @@ from fmu_src.native.table import c_table
 from fmu_src.variables.parameter_file import parameter_set
 from fmu_src.variables.text_variables import TextVariable, road_resources, text_table
 from fmu_src.variables.variables import Variable, table_records
+from mbs.results.comparison import compared_sensors
+from mbs.simulation.prepared_system import length_of
 from mbs.system.text import notices_before
 
 GEOMETRY = "resources/geometry.json"
@@ -105,7 +107,10 @@ class NativeContents:
 
     def table_c(self, identity: str, token: str) -> str:
         """The table of the shell in C, with 32 hexadecimal digits and the GUID or instantiation token."""
-        return c_table(self.table, self.names, identity, token, self.texts, self.followers)
+        sensors, judged = [sensor["name"] for sensor in self.system.meta["sensors"]], compared_sensors(self.system)
+        numbered = {number: judged[name] for number, name in enumerate(sensors) if name in judged}
+        length = length_of(self.system)
+        return c_table(self.table, self.names, identity, token, self.texts, self.followers, numbered, length)
 
     @property
     def parameters(self) -> ParameterSet:

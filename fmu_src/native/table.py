@@ -8,6 +8,8 @@ from itertools import accumulate
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.variables import Variable
+from mbs.results.compared import JUDGED_UNITS, kind_of
+from mbs.results.comparison import Compared
 
 _SOURCES = {
     "input": "SLAVE_INPUT",
@@ -38,6 +40,8 @@ def c_table(
     token: str,
     texts: Sequence[TextVariable] = (),
     followers: Sequence[int] = (-1,),
+    judged: Mapping[int, Compared] | None = None,
+    length: float = 1.0,
 ) -> str:
     """`table.c` of the shell.
 
@@ -55,6 +59,10 @@ def c_table(
         GUID or instantiation token.
     followers : sequence of int
         Per System the number of the one that computes what it leaves out; -1: none.
+    judged : mapping of int to Compared
+        What two motions are compared by: sensors by their numbers.
+    length : float
+        Of the model, m.
     """
     units = ["" if v.unit == "1" else f" {v.unit}" for v in table]
     uncomputed = [sum(1 << k for k in v.uncomputed) for v in table]
@@ -63,7 +71,8 @@ def c_table(
         f"{_number(v.start, '0.0')}, {_number(v.min, '-HUGE_VAL')}, {_number(v.max, 'HUGE_VAL')}, "
         f"{str(v.whole).lower()}, {str(v.variability == 'fixed').lower()}, {str(v.port).lower()}, {v.road}, {bits:#x}, "
         f"{_number((v.works or [None])[0], '-HUGE_VAL')}, {_number((v.works or [None])[-1], 'HUGE_VAL')}, "
-        f"{v.role}, {v.other}, {_number(v.scale, '1.0')}, {{{', '.join(map(repr, v.figures)) or '0.0'}}}}},"
+        f"{v.role}, {v.other}, {_number(v.scale, '1.0')}, {{{', '.join(map(repr, v.figures)) or '0.0'}}}, "
+        f"{_judged(v, judged or {})}}},"
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
@@ -81,8 +90,15 @@ def c_table(
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {known},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
         f"notice, first_notice, {len(names['row'])}, follower,\n"
-        f"    texts, {len(texts)}, {roll}, {ground},\n}};\n"
+        f"    texts, {len(texts)}, {roll}, {ground}, {_number(length, '1.0')},\n}};\n"
     )
+
+
+def _judged(variable: Variable, judged: Mapping[int, Compared]) -> str:
+    what = judged.get(variable.index) if variable.source == "sensor" else None
+    if what is None or what.unit not in JUDGED_UNITS:
+        return "{0, 0}"
+    return f"{{{JUDGED_UNITS[what.unit]:d}, {kind_of(what)}}}"
 
 
 def _texts(texts: Sequence[TextVariable]) -> str:

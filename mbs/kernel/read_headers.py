@@ -28,6 +28,8 @@ ENUMERATIONS = {
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
     "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: why the results of a run may be wrong."),
+    "JudgedUnit": (PUBLIC, "ALI3_JUDGED_M", "ALI3_JUDGED_", "`ali3_judged.unit`."),
+    "JudgedKind": (PUBLIC, "ALI3_JUDGED_PLACE", "ALI3_JUDGED_", "Bits of `ali3_judged.kind`."),
 }
 """Per Python name: header, first item, what its items begin with, docstring."""
 OF_STEPS = {
@@ -43,6 +45,8 @@ LIMITS = {
     "ALI3_POSE": "Numbers of a pose.",
     "ALI3_LONGEST_SETTLING": "Longest time for which a start may settle, s.",
     "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
+    "ALI3_WRONG_ERROR": "Of the size of what is judged: above it a run is wrong.",
+    "ALI3_EVENT_ORDER": "Order of errors behind abrupt events.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",
 }
@@ -63,6 +67,8 @@ STRUCTURES = {
     "control": "ControlFields",
     "record": "RecordFields",
     "lane": "LaneFields",
+    "judged": "JudgedFields",
+    "compared": "ComparedFields",
     "input_table": "InputTable",
     "input_tables": "InputTables",
 }

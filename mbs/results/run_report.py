@@ -58,15 +58,6 @@ class Report:
         what they are off these.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
-    coarse_event, coarse_time : float
-        Where a contact with a road was too quick for the steps: root of the squares of what they missed of ``v + h a``
-        in 0.2 s, over the path of the velocity in that time, 0: never; and when, s.
-    quick_change, quick_time, quick_step : float
-        Where a wheel dropped onto the metal of its rebound stop too hard for the steps: by how much the force of the
-        stop changes in the worst step by its tangent, N, 0: nowhere; when the first began, s; a step that would do, s.
-    quick_load, load_time, load_step : float
-        Where the loads of tyres changed too quickly for the steps: the worst step times its root, times the root of the
-        squares of their changes in a step, over the largest load, s^1.5, 0: nowhere; when, s; a step that would do, s.
     largest_force : float
         Of a tyre, a contact or a spring with end stops in a System with roads, N.
     divisions : int
@@ -120,14 +111,6 @@ class Report:
     rim_time: float = 0.0
     rim_x: float = 0.0
     rim_y: float = 0.0
-    coarse_event: float = 0.0
-    coarse_time: float = 0.0
-    quick_change: float = 0.0
-    quick_time: float = 0.0
-    quick_step: float = 0.0
-    quick_load: float = 0.0
-    load_time: float = 0.0
-    load_step: float = 0.0
     largest_force: float = 0.0
     divisions: int = 0
     branch_changes: int = 0
@@ -188,35 +171,6 @@ class Report:
         left = f"they left at most {1e3 * self.capped_residual:.2g} mm"
         ended = f"{self.capped} of {self.steps} steps ended at the limit of their iterations, or stayed whole for it"
         return f"{ended}; {left}."
-
-    @property
-    def coarse_text(self) -> str:
-        """A sentence about a contact with a road that was too quick for the step; empty where none was."""
-        if self.quick_load > 0.0:
-            return (
-                f"At {self.load_time:.4g} s a wheel swings on its tyre too quickly for the step: its load changes so "
-                "much from step to step that loads may be off by more than 5 %. Run again with a step of "
-                f"{self.load_step:.2g} s."
-            )
-        if self.coarse_event == 0.0:
-            return ""
-        return (
-            f"At {self.coarse_time:.4g} s a contact with the road was too quick for the step: what steps missed of the "
-            f"velocities is {100.0 * self.coarse_event:.2g} % of their change in the 0.2 s from there, and loads may "
-            "be off by more than 5 %. Compare with a run of half the step."
-        )
-
-    @property
-    def quick_text(self) -> str:
-        """A sentence about a rebound stop that was hit too hard for the step; empty where none was."""
-        if self.quick_change == 0.0:
-            return ""
-        return (
-            f"At {self.quick_time:.4g} s a wheel drops onto the metal of its rebound stop too hard for the step: by "
-            f"its tangent the force of the stop changes by {self.quick_change:.0f} N in a step, where the largest "
-            f"force is {self.largest_force:.0f} N, and loads may be off by more than 5 %. Run again with a step of "
-            f"{self.quick_step:.2g} s."
-        )
 
     def __str__(self) -> str:
         text = (

@@ -173,8 +173,6 @@ class _Run:
         driven, told = len(system.arrays["gterm_row"]) > 0, list(self.told_at_start)
         if report is not None and accuracy.balance_says(report, METHOD, driven):
             told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
-        if report is not None:
-            told += [(AccuracyWarning, text) for text in (report.coarse_text, report.quick_text) if text]
         told += [(BranchWarning, run.branch_change)] if run.branch_change else []
         told += [(BendingWarning, self.simulation.bending.message)] if self.simulation.bending.message else []
         wall = self.simulation.road_text
@@ -228,8 +226,7 @@ def simulate_many(
     -----
     AccuracyWarning, BranchWarning, BendingWarning, ParameterWarning, RoadWarning
         As `simulate`, with the number of the variant. Of a run that fails, and of all with ``estimate_error=False``,
-        nothing is known of the error but the energy balance, and `Report.coarse_event`, `Report.quick_load` and
-        `Report.quick_change`, which are warned of.
+        nothing is known of the error but the energy balance.
 
     Raises
     ------

@@ -121,8 +121,8 @@ def test_a_body_that_touches_a_slope_without_force_is_not_spoken_of(
     assert not [m for m in driven.messages if "rests on its body" in m]
     simulation = mbs.Simulation(mbs.compile(prototype_car.build()), parameters={"road.file": road})
     assert simulation.sensors["chassis.ground_force"] == driven.get("chassis.ground_force")
-    with pytest.warns(RoadWarning, match=r"raised by 0\.\d+ m .* Simulation.settle"):
-        assert simulation.run(0.02, 0.002, progress=False).notices == ()
+    (notice,) = simulation.run(0.02, 0.002, progress=False).notices
+    assert re.search(r"raised by 0\.\d+ m .* Simulation.settle", notice)
 
 
 @pytest.mark.parametrize("name", sorted(path.name for path in FOLDER.glob("*.road")))

@@ -1,70 +1,121 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
  * what follows is made a second time, until both agree for 0.4 s or its budget is spent, with half of a short step and
- * down to an eighth of a long one: what both differ by is the error of the step. A run without either, or that has been
- * told of one, pays nothing. The other motion is a snapshot of the same instance; of short steps it makes the dear ones
- * later, in cheaper calls. */
+ * down to an eighth of a long one: what the outputs of both differ by is the error of the step. A run without either, or
+ * that has been told of one, pays nothing. The other motion is a snapshot of the same instance; of short steps it makes
+ * the dear ones later, in cheaper calls. */
 #include <math.h>
 #include <string.h>
 
 #include "slave.h"
 
 static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times */
-static const double START = 2.0; /* s from a start: a wheel that spins grips again as late as after 0.9 s */
-static const double LATER = 0.5; /* s after a difference in which the largest force comes: a wheel lands */
-static const double JUMP = 0.05; /* of its range: an input that jumps */
-static const double WRONG = 0.05; /* of the largest force at communication points */
-static const double AGREED = 0.1; /* of WRONG: a larger difference may still grow, as of a wheel that spins */
+static const double LATER = 0.5; /* s after a difference in which what it is held against grows: a wheel lands */
+static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on, as a wheel spins; beside them s, and of what was
+                                                * driven: how much is made twice at most */
+static const double AGREED = 0.1; /* of what is wrong: a larger difference may still grow, as of a wheel that spins */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 static const int64_t MOST = 8; /* parts of a step */
-static const double SAFE = 0.6; /* of WRONG: what a step that was not tried would do with, by order one as at a kink */
-static const double FREE = 2.0, SHARE = 0.1; /* s, and of the time driven: how much is made twice at most */
+static const double SAFE = 0.6; /* of what is wrong: what an untried step would do with, by order one as at a kink */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* communication steps that may wait */
 
 /* Whether all is made twice that may be of what was driven up to a step. */
 static bool spent(const slave_half_steps *t, const slave_late_step *step) {
-  return t->spent > FREE + SHARE * step->driven;
+  return t->spent > BUDGET + SHARE * step->driven;
+}
+
+/* What is compared: outputs that the System at work computes, see `judged` of the table. */
+static bool is_judged(const slave *s, const slave_variable *v) {
+  return v->source == SLAVE_SENSOR && v->judged.kind != 0 && !(v->uncomputed >> s->fidelity.number & 1);
+}
+
+/* Room for what is compared, in one block. */
+static bool begin_comparison(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  const slave_table *table = &slave_the_table;
+  size_t n = 0;
+  if (t->seen != NULL) return true;
+  for (size_t i = table->n_known; i < table->n_variables; i++) n += is_judged(s, table->variable + i);
+  t->seen = s->memory.allocate(
+      1, n * (sizeof(ali3_compared) + 2 * sizeof(double) + sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)) + 1);
+  if (t->seen == NULL) return false;
+  t->n = (int32_t)n;
+  t->shown = (double *)(t->seen + n);
+  t->size = t->shown + n;
+  t->variable = (size_t *)(t->size + n);
+  t->what = (ali3_judged *)(t->variable + n);
+  t->sensor = (int32_t *)(t->what + n);
+  for (size_t i = table->n_known, k = 0; k < n; i++) {
+    if (!is_judged(s, table->variable + i)) continue;
+    t->variable[k] = i;
+    t->what[k] = table->variable[i].judged;
+    t->sensor[k++] = table->variable[i].index;
+  }
+  return true;
+}
+
+static void forget(slave_half_steps *t) {
+  t->apart = 0.0;
+  for (int32_t i = 0; i < t->n; i++) t->seen[i].gap = 0.0;
+}
+
+/* In the log of a host that asks for all: it is no sign of an error. */
+static void say_unchecked(slave *s, double time, const char *why) {
+  if (s->event_said || s->unchecked_said) return;
+  s->unchecked_said = true;
+  slave_say(s, SLAVE_OK,
+            "From %.4g s on steps are not made a second time, so that their error is not known: %s. This is "
+            "said once.",
+            time, why);
 }
 
 /* From the state that is there now nothing is made twice, but for a start. */
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
-  t->alone = t->alone || t->left > 0.0 || t->n_late > 0 || t->apart > 0.0;
-  t->left = t->apart = 0.0;
+  if (t->left > 0.0 || t->n_late > 0) say_unchecked(s, ali3_time(s->fidelity.kernel), "a state was set");
+  t->left = 0.0;
   t->sure = -HUGE_VAL; /* a run may start at any time */
   t->n_late = 0;
   t->cost = 0;
   t->made = 0;
   t->begins = s->made.n == 0;
+  if (!begin_comparison(s)) return;
+  forget(t);
+  if (t->begins) memset(t->seen, 0, (size_t)t->n * sizeof *t->seen);
+  if (t->begins && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown) == ALI3_OK)
+    ali3_compare(t->what, t->n, 1, NULL, NULL, t->shown, t->seen);
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
   t->abrupt = report.abrupt_steps;
   t->iterations = report.iterations;
 }
 
+/* Ranges of what is compared, at outputs that are looked at. */
+void slave_half_steps_look(slave *s) {
+  slave_half_steps *t = &s->half_steps;
+  for (int32_t i = 0; i < t->n; i++) t->shown[i] = s->sensors[t->sensor[i]];
+  ali3_compare(t->what, t->n, 1, NULL, NULL, t->shown, t->seen);
+}
+
 static size_t inputs_of(const slave *s) { return (size_t)ali3_system_sizes(s->fidelity.system).nu; }
 
-/* How many forces are compared, of tyres all or their loads only. */
-static size_t forces_of(const slave *s, bool all) { return (size_t)ali3_contact_forces(s->fidelity.kernel, all, NULL); }
-
 /* Work of one block: snapshots of this motion at the end of the step and where the other one begins, and of the other,
- * its forces, inputs; of each step that waits inputs, both kinds of forces, parameters. */
+ * its inputs; of each step that waits inputs, what it shows, parameters. */
 static bool allocate(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  const size_t size = ali3_snapshot_size(s->fidelity.system), n = forces_of(s, true), nu = inputs_of(s),
-               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + n + forces_of(s, false) + np;
-  if (t->end != NULL) return true;
-  t->end = s->memory.allocate(1, 3 * size + (n + 2 * nu + MOST_LATE * each) * sizeof(double) +
-                                     MOST_LATE * sizeof(slave_late_step));
+  const size_t size = ali3_snapshot_size(s->fidelity.system), nu = inputs_of(s),
+               np = (size_t)ali3_system_sizes(s->fidelity.system).np, each = nu + (size_t)t->n + np;
+  if (t->end != NULL || t->seen == NULL) return t->end != NULL;
+  t->end =
+      s->memory.allocate(1, 3 * size + (nu + MOST_LATE * each) * sizeof(double) + MOST_LATE * sizeof(slave_late_step));
   if (t->end == NULL) return false;
   t->other = (unsigned char *)t->end + size;
   t->start = (unsigned char *)t->other + size;
   t->late = (slave_late_step *)((unsigned char *)t->start + size);
-  t->force = (double *)(t->late + MOST_LATE);
-  t->input = t->force + n;
+  t->input = (double *)(t->late + MOST_LATE);
   for (size_t i = 0; i < MOST_LATE; i++) {
-    t->late[i].number = t->input + 2 * nu + i * each;
+    t->late[i].number = t->input + nu + i * each;
     t->late[i].parameter = t->late[i].number + each - np;
   }
   ali3_snapshot_take(s->fidelity.kernel, t->other); /* one that can be set, until the other motion begins */
@@ -73,26 +124,15 @@ static bool allocate(slave *s) {
 
 void slave_half_steps_free(slave *s) {
   if (s->half_steps.end != NULL) s->memory.release(s->half_steps.end);
+  if (s->half_steps.seen != NULL) s->memory.release(s->half_steps.seen);
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
-/* Whether an input goes on from the last step by much of its range: tyres then differ for a few steps in what follows
- * it, and only their loads are compared. */
-static bool jumps(const slave *s, const double *input) {
-  const slave_table *t = &slave_the_table;
-  for (size_t i = 0; i < t->n_known; i++) {
-    const slave_variable *v = &t->variable[i];
-    double was;
-    if (v->source != SLAVE_INPUT || ali3_get_input(s->fidelity.kernel, v->index, &was) != ALI3_OK) continue;
-    if (fabs(v->scale * (input[v->index] - was)) > JUMP * (v->max - v->min)) return true;
-  }
-  return false;
-}
-
-/* In how many parts the other motion makes a step. */
-static int64_t parts_of(double h) {
+/* In how many parts the other motion makes a step: of what touches nothing errors are of order two. */
+static int64_t parts_of(const slave *s, double h) {
+  const bool touches = ali3_contact_count(s->fidelity.system) > 0;
   int64_t n = 2;
-  while (n < MOST && h / (double)n > SHORT) n *= 2;
+  while (touches && n < MOST && h / (double)n > SHORT) n *= 2;
   return n;
 }
 
@@ -101,10 +141,9 @@ static int64_t parts_of(double h) {
 static ali3_status make(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const size_t nu = inputs_of(s);
-  const double h = step->h / (double)parts_of(step->h);
+  const double h = step->h / (double)parts_of(s, step->h);
   memcpy(t->input, step->number, nu * sizeof(double));
   if (t->made++ == 0) {
-    t->jumped = t->jumped || jumps(s, t->input);
     const ali3_status status = slave_set_step(s, step->parameter, t->input);
     if (status != ALI3_OK) return status;
   }
@@ -118,13 +157,11 @@ static bool begin(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const bool rests = !(t->left > 0.0);
   t->started = t->started && !step->starts;
-  if (step->span > 0.0 && (spent(t, step) || (rests && !step->starts))) {
-    t->alone = true;
-  } else if (step->span > 0.0) {
+  if (step->span > 0.0 && !spent(t, step) && (!rests || step->starts)) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
-    t->jumped = t->jumped && !rests;
-    t->alone = t->alone && !rests;
     t->left = fmax(t->left, step->span);
+  } else if (step->span > 0.0) {
+    say_unchecked(s, step->end, spent(t, step) ? "the time that may be made twice is spent" : "one of them failed");
   }
   return t->left > 0.0;
 }
@@ -133,17 +170,18 @@ static bool begin(slave *s, const slave_late_step *step) {
 static void compare(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
   const double length = (double)step->n * step->h;
-  const double *own = step->number + inputs_of(s) + (t->jumped ? forces_of(s, true) : 0);
-  const int32_t n = ali3_contact_forces(s->fidelity.kernel, !t->jumped, t->force);
-  double apart = 0.0;
-  for (int32_t i = 0; i < n; i++) apart = fmax(apart, fabs(t->force[i] - own[i]));
+  int32_t worst;
+  ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown);
+  ali3_compare(t->what, t->n, 1, &step->end, step->number + inputs_of(s), t->shown, t->seen);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
+  const double apart = ali3_compared_error(t->n, t->seen, t->size, 1, &worst);
   if (apart > t->apart) {
     t->apart = apart;
     t->time = step->end;
     t->h = step->h;
   }
   t->left -= length;
-  if (apart > AGREED * WRONG * step->largest && !spent(t, step)) t->left = fmax(t->left, SPAN);
+  if (apart > AGREED * ALI3_WRONG_ERROR && !spent(t, step)) t->left = fmax(t->left, SPAN);
   t->spent += length;
 }
 
@@ -162,13 +200,11 @@ static int64_t follow(slave *s) {
     const int64_t before = iterations(s);
     const bool good = make(s, step) == ALI3_OK;
     cost = iterations(s) - before;
-    if (good && t->made < parts_of(step->h) * step->n) return cost;
-    if (good) {
+    if (good && t->made < parts_of(s, step->h) * step->n) return cost;
+    if (good)
       compare(s, step);
-    } else {
+    else
       t->left = 0.0;
-      t->alone = true;
-    }
   }
   t->made = 0;
   t->first = (t->first + 1) % MOST_LATE;
@@ -204,61 +240,59 @@ static void put_off(slave *s, double now, double span) {
   const bool starts = span > 0.0 && !(begin < t->sure - 0.5 * (now - begin)); /* the other clock has other round-off */
   if (starts && t->n_late > 0 && t->started) catch_up(s, 0, 0, 0); /* `start` is still needed */
   slave_late_step *step = t->late + (t->first + t->n_late++) % MOST_LATE;
-  double *own = step->number + inputs_of(s);
   if (starts) memcpy(t->start, s->fidelity.start, ali3_snapshot_size(s->fidelity.system));
   t->started = starts || (t->started && t->n_late > 1);
   if (span > 0.0) t->sure = fmax(t->sure, begin + span);
   slave_look_at_step(s, step->parameter, step->number);
   slave_inputs_at(s, 0.0, step->number);
-  ali3_contact_forces(s->fidelity.kernel, 1, own);
-  ali3_contact_forces(s->fidelity.kernel, 0, own + forces_of(s, true));
+  ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, step->number + inputs_of(s));
   *step = (slave_late_step){.n = s->made.n,
                             .h = s->made.h,
                             .end = now,
                             .span = span,
                             .driven = t->driven,
-                            .largest = t->largest,
                             .number = step->number,
                             .parameter = step->parameter,
                             .sloped = s->made.sloped,
                             .starts = starts};
 }
 
-/* The largest difference, when what comes later has shown how large forces are. */
-static slave_status judge(slave *s, const ali3_report *r) {
+/* The largest difference, when what comes later has shown how large forces and ranges are. */
+static slave_status judge(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  const double n = (double)parts_of(t->h), order_2 = n * n / (n * n - 1.0);
-  const double off = order_2 * t->apart, error = off / t->largest, h = t->h;
-  const bool met = error <= n * WRONG; /* by the step of the other motion, by order one */
-  t->apart = 0.0;
-  if (!(error > WRONG)) return SLAVE_OK;
-  if (slave_event_told(r)) return slave_say_event(s, r);
+  int32_t worst;
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
+  const double n = (double)parts_of(s, t->h), h = t->h, apart = ali3_compared_error(t->n, t->seen, t->size, 0, &worst),
+               error = ali3_error_of(apart, n, ALI3_EVENT_ORDER);
+  const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one */
+  if (!(error > ALI3_WRONG_ERROR)) {
+    forget(t);
+    return SLAVE_OK;
+  }
+  const slave_variable *v = slave_the_table.variable + t->variable[worst];
+  const double off = fabs(v->scale) * error * t->size[worst];
   s->event_said = true;
-  return slave_say(
-      s, SLAVE_WARNING,
-      "At %.4g s a tyre, a contact or a stop had changed a force too quickly for the step: made again with "
-      "1/%.0f of it, forces are off by %s %.0f N, %.2g %% of the largest at communication points. Run again "
-      "with a step_size of %.2g s%s. This is said once.",
-      t->time, n, t->n_late > 0 ? "at least" : "about", off, 100.0 * error, met ? h / n : h * SAFE * WRONG / error,
-      met ? ", as was tried" : ", which was not tried");
+  const bool load = (v->judged.kind & ALI3_JUDGED_LOAD) != 0;
+  return slave_say(s, SLAVE_WARNING,
+                   "At %.4g s the motion was too quick for the step: made again with 1/%.0f of it, %s is off by %s "
+                   "%.*g%s, %.2g %% of "
+                   "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is said once.",
+                   t->seen[worst].time, n, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
+                   load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
+                   met ? h / n : h * SAFE * ALI3_WRONG_ERROR / error, met ? ", as was tried" : ", which was not tried");
 }
 
 /* What can be said by now, or when the run has `ended`. */
-static slave_status tell(slave *s, const ali3_report *r, double now, bool ended) {
+static slave_status tell(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  const bool told = slave_event_told(r), waits = t->n_late > 0;
-  slave_status status = SLAVE_OK;
-  if (t->apart > 0.0 && (ended || told || now > t->time + LATER)) status = judge(s, r);
-  if (s->event_said || !t->alone || !told || ((t->left > 0.0 || waits) && !ended)) return status;
-  return slave_say_event(s, r);
+  return t->apart > 0.0 && (ended || now > t->time + LATER) ? judge(s) : SLAVE_OK;
 }
 
 /* What is not judged when the run ends, also where the host resets or frees it without a word. */
 void slave_half_steps_end(slave *s) {
-  ali3_report report;
   if (s->event_said || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
   if (s->half_steps.n_late > 0) catch_up(s, 0, 0, 0);
-  if (ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK) tell(s, &report, 0.0, true);
+  tell(s, 0.0, true);
 }
 
 /* After a good communication step whose start the fidelity keeps; before slopes are forgotten. */
@@ -266,22 +300,21 @@ slave_status slave_halve_steps(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
-  /* tyres that are driven from the start on slip at once, where long steps miss it */
-  const bool begins = t->begins && parts_of(s->made.h) == MOST && ali3_contact_forces(s->fidelity.kernel, 1, NULL) > 0,
+  /* tyres that are driven from the start on slip at once, what is let go swings: where long steps miss it */
+  const bool begins = t->begins && 2.0 * s->made.h > (double)MOST * SHORT,
              abrupt = report.abrupt_steps > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
   t->abrupt = report.abrupt_steps;
   t->iterations = report.iterations;
   t->begins = false;
-  if (begins && !(t->driven > 0.0)) t->spent = -START; /* beside what abrupt forces may cost */
+  if (begins && !(t->driven > 0.0)) t->spent = -BUDGET; /* beside what abrupt forces may cost */
   t->driven += length;
-  t->largest = fmax(t->largest, ali3_largest_contact_force(s->fidelity.kernel));
-  if (abrupt && !allocate(s)) t->alone = true;
+  if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->left > 0.0 || t->n_late > 0)) {
-    const bool waits = parts_of(s->made.h) == 2 && !s->made.sloped;
-    put_off(s, now, abrupt ? (begins ? START : SPAN) : 0.0);
+    const bool waits = parts_of(s, s->made.h) == 2 && !s->made.sloped;
+    put_off(s, now, abrupt ? (begins ? BUDGET : SPAN) : 0.0);
     catch_up(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->made.n);
   }
-  return tell(s, &report, now, false);
+  return tell(s, now, false);
 }

@@ -62,7 +62,7 @@ static void start_values(slave *s) {
   s->asked.n = 0;
   slave_half_steps_free(s);
   slave_forget_refusal(s);
-  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = false;
+  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = s->unchecked_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->said, 0, t->n_known);
   memset(s->rhythm, 0, t->n_known * sizeof *s->rhythm);

@@ -45,6 +45,7 @@ typedef struct {
       other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
   double scale; /* of inputs and sensors: the value is this times that of the System */
   double figure[4]; /* of a hub, see mbs.model.records.Role */
+  ali3_judged judged; /* how two motions are compared by it; kind 0: not */
 } slave_variable;
 
 typedef struct {
@@ -73,6 +74,7 @@ typedef struct {
   size_t
       roll; /* output that is more than a quarter turn when the vehicle lies upside down; n_variables: there is none */
   size_t ground; /* output that is not 0 at the start of a vehicle that does not stand on its wheels alone; the same */
+  double length; /* of the model, m */
 } slave_table;
 
 extern const slave_table slave_the_table;
@@ -138,8 +140,8 @@ typedef struct { /* a communication step that waits to be made a second time, se
   int64_t n; /* inner steps */
   double h, end; /* s: one of them; time at its end */
   double span; /* s from its start on for which the other motion follows, as it was abrupt; 0: it was not */
-  double driven, largest; /* those of slave_half_steps, then */
-  double *number; /* inputs; forces of tyres and contacts at its end: all, then those that are compared after a jump */
+  double driven; /* that of slave_half_steps, then */
+  double *number; /* inputs; what is compared at its end */
   double *parameter;
   bool sloped, starts; /* inputs have slopes; the other motion starts here from `start` if it rests */
 } slave_late_step;
@@ -147,20 +149,23 @@ typedef struct { /* a communication step that waits to be made a second time, se
 typedef struct { /* of a motion that is made a second time with half the step, see half_steps.c */
   void *end, *other, *start; /* snapshots: this motion after the communication step, the other one, where it starts
                                 next; NULL: not needed yet */
-  double *force, *input; /* work */
+  double *input; /* work */
+  /* what is compared, n: how; what was seen; by which sensor, as which variable; work, what it is held against */
+  int32_t n, *sensor;
+  ali3_judged *what;
+  ali3_compared *seen;
+  size_t *variable;
+  double *shown, *size;
   slave_late_step *late; /* communication steps that wait, a ring of n_late from first on */
   size_t first, n_late;
   double sure; /* s: time up to which the other motion will go at least */
   int64_t made; /* inner steps of the other motion in the one that waits longest */
   int64_t iterations, cost; /* of this motion so far; of the other one in its last step */
   double left, spent, driven; /* s: of the time that is made twice, 0: nothing is; made twice so far; of all steps */
-  double apart, time, h; /* largest difference of forces that is not judged yet, N; when, s; inner step there, s */
-  double largest; /* of the forces at communication points, N: within steps there may be larger ones */
+  double apart, time, h; /* largest difference that is not judged yet, of its size; when, s; inner step there, s */
   int64_t abrupt; /* abrupt steps that were seen */
   bool started; /* a step that waits may need `start` */
   bool begins; /* no step was made since the start */
-  bool jumped; /* an input has, since it began */
-  bool alone; /* not all of an abrupt change was made twice: what steps tell themselves holds */
 } slave_half_steps;
 
 typedef struct { /* when an input at a port was set */
@@ -205,7 +210,7 @@ struct slave {
   bool outputs_fresh, followed; /* followed: with what the follower computes */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
   /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact or a stop was too quick */
-  bool overturned_said, rim_said, event_said;
+  bool overturned_said, rim_said, event_said, unchecked_said; /* and that steps are not made twice */
   double *sensors, *direction; /* work: ns, nu */
   unsigned char *known;
   size_t step_reference, iterations_reference, lead_reference;
@@ -336,6 +341,7 @@ void slave_end_ramps(slave *s);
 /* half_steps.c */
 slave_status slave_halve_steps(slave *s);
 void slave_half_steps_begin(slave *s);
+void slave_half_steps_look(slave *s);
 void slave_half_steps_end(slave *s);
 void slave_half_steps_free(slave *s);
 
@@ -364,8 +370,6 @@ bool slave_wants_end(const slave *s);
 
 /* watch.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);
-bool slave_event_told(const ali3_report *r);
-slave_status slave_say_event(slave *s, const ali3_report *r);
 void slave_watch_outputs(slave *s);
 void slave_watch_start(slave *s);
 

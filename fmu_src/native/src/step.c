@@ -172,7 +172,7 @@ static slave_status try_step(slave *s, double time, double step) {
   s->calls.capped_residual = left;
   slave_forget_refusal(s);
   const slave_status watched = slave_watch(s);
-  if (floor(LOOKS * ali3_time(s->fidelity.kernel)) != floor(LOOKS * now)) slave_outputs(s);
+  if (floor(LOOKS * ali3_time(s->fidelity.kernel)) != floor(LOOKS * now) && slave_outputs(s)) slave_half_steps_look(s);
   return halved > watched ? halved : watched;
 }
 

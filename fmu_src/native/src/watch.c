@@ -63,34 +63,6 @@ static slave_status watch_rims(slave *s, const ali3_report *report) {
                    t->element[t->first_element[s->fidelity.number] + (size_t)element]);
 }
 
-/* What the steps themselves tell of an edge at speed, a fall, or a wheel on the metal of its rebound stop. */
-bool slave_event_told(const ali3_report *r) {
-  return r->coarse_event > 0.0 || r->quick_load > 0.0 || r->quick_change > 0.0;
-}
-
-slave_status slave_say_event(slave *s, const ali3_report *r) {
-  s->event_said = true;
-  if (r->quick_load > 0.0)
-    return slave_say(s, SLAVE_WARNING,
-                     "At %.4g s a wheel swings on its tyre too quickly for the step: its load changes so much from "
-                     "step to step that loads may be off by more than 5 %%. Run again with a step_size of %.2g s. This "
-                     "is said once.",
-                     r->load_time, r->load_step);
-  if (r->quick_change > 0.0)
-    return slave_say(
-        s, SLAVE_WARNING,
-        "At %.4g s a wheel dropped onto the metal of its rebound stop too hard for the step: by its "
-        "tangent the force of the stop changes by %.0f N in a step, where the largest force is %.0f N, and "
-        "loads may be off by more than 5 %%. Run again with a step_size of %.2g s. This is said once.",
-        r->quick_time, r->quick_change, r->largest_force, r->quick_step);
-  return slave_say(
-      s, SLAVE_WARNING,
-      "At %.4g s a contact with the road was too quick for the step: what steps missed of the velocities is %.2g "
-      "%% of their change in the 0.2 s from there, and loads may be off by more than 5 %%. Compare with a "
-      "run of half the step_size, %g s. This is said once.",
-      r->coarse_time, 100.0 * r->coarse_event, 0.5 * s->value[s->step_reference]);
-}
-
 static slave_status larger(slave_status a, slave_status b) { return a > b ? a : b; }
 
 slave_status slave_watch(slave *s) {

@@ -9,7 +9,17 @@ from ctypes import POINTER, c_char_p, c_double, c_int32, c_int64, c_size_t, c_ui
 from pathlib import Path
 from typing import Any
 
-from ..header.structures import STRUCTURES, ControlFields, LaneFields, RecordFields, ReportFields, SettingsFields, Sizes
+from ..header.structures import (
+    STRUCTURES,
+    ComparedFields,
+    ControlFields,
+    JudgedFields,
+    LaneFields,
+    RecordFields,
+    ReportFields,
+    SettingsFields,
+    Sizes,
+)
 
 _DOUBLES = POINTER(c_double)
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
@@ -80,6 +90,14 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_solver_value": (c_double, [c_void_p, c_int32]),
     "ali3_capped_residual": (c_double, [c_void_p]),
     "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
+    "ali3_compare": (
+        None,
+        [POINTER(JudgedFields), c_int32, c_int64, _DOUBLES, _DOUBLES, _DOUBLES, POINTER(ComparedFields)],
+    ),
+    "ali3_compared_sizes": (
+        None,
+        [POINTER(JudgedFields), c_int32, POINTER(ComparedFields), c_double, c_int32, _DOUBLES],
+    ),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_snapshot_size": (c_size_t, [c_void_p]),
     "ali3_snapshot_take": (None, [c_void_p, c_void_p]),

@@ -89,6 +89,27 @@ class Doubt(IntEnum):
     BALANCE = 2
 
 
+class JudgedUnit(IntEnum):
+    """`ali3_judged.unit`."""
+
+    M = 0
+    RAD = 1
+    COORDINATE = 2
+    N = 3
+    M_S = 4
+    RAD_S = 5
+    N_M = 6
+
+
+class JudgedKind(IntEnum):
+    """Bits of `ali3_judged.kind`."""
+
+    PLACE = 1
+    LOAD = 2
+    ALWAYS = 4
+    WRAPPED = 8
+
+
 class SensorType(IntEnum):
     """Types of sensors."""
 

@@ -12,6 +12,10 @@ LONGEST_SETTLING = 10.0
 """Longest time for which a start may settle, s."""
 BALANCE_WRONG = 0.036
 """Energy balance above which, at any time, no run was right that was tried."""
+WRONG_ERROR = 0.05
+"""Of the size of what is judged: above it a run is wrong."""
+EVENT_ORDER = 2
+"""Order of errors behind abrupt events."""
 HALVINGS_SUSPECT = 0.1
 """Halvings per step above which a run is suspect."""
 SYSTEM_VERSION = 1

@@ -67,32 +67,11 @@ class ReportFields(Structure):
         ("rim_x", c_double),
         ("rim_y", c_double),
         ("rim_element", c_int64),
-        ("event_miss", c_double),
-        ("event_squares", c_double),
-        ("event_path", c_double),
-        ("event_left", c_double),
-        ("coarse_event", c_double),
-        ("coarse_time", c_double),
         ("largest_force", c_double),
-        ("quick_change", c_double),
-        ("quick_time", c_double),
-        ("quick_step", c_double),
-        ("hit_change", c_double),
-        ("hit_time", c_double),
-        ("hit_h", c_double),
-        ("hit_left", c_double),
+        ("largest_load", c_double),
         ("abrupt_steps", c_int64),
         ("divisions", c_int64),
         ("change_rate", c_double),
-        ("largest_load", c_double),
-        ("quick_load", c_double),
-        ("load_time", c_double),
-        ("load_step", c_double),
-        ("load_sum", c_double),
-        ("load_squares", c_double),
-        ("load_begin", c_double),
-        ("load_h", c_double),
-        ("load_left", c_double),
         ("branch_changes", c_int64),
         ("branch_time", c_double),
         ("branch_kind", c_int32),
@@ -176,6 +155,32 @@ class LaneFields(Structure):
     )
 
 
+class JudgedFields(Structure):
+    """`ali3_judged`."""
+
+    _fields_ = (
+        ("unit", c_int32),
+        ("kind", c_int32),
+    )
+
+
+class ComparedFields(Structure):
+    """`ali3_compared`."""
+
+    _fields_ = (
+        ("least", c_double),
+        ("most", c_double),
+        ("last", c_double),
+        ("turns", c_double),
+        ("quickest", c_double),
+        ("gap", c_double),
+        ("time", c_double),
+        ("latest", c_double),
+        ("samples", c_int64),
+        ("in_turn", c_int64),
+    )
+
+
 class InputTable(Structure):
     """`ali3_input_table`."""
 
@@ -204,6 +209,8 @@ STRUCTURES = {
     "ali3_control": ControlFields,
     "ali3_record": RecordFields,
     "ali3_lane": LaneFields,
+    "ali3_judged": JudgedFields,
+    "ali3_compared": ComparedFields,
     "ali3_input_table": InputTable,
     "ali3_input_tables": InputTables,
 }

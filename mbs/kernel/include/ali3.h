@@ -149,25 +149,11 @@ typedef struct {
    * and of which element */
   double rim_pressed, rim_time, rim_x, rim_y;
   int64_t rim_element;
-  /* of the quick change of velocity under way: what its worst step missed of v + h a, the squares of all since, the path
-   * of the velocity since, and the time left of it, s */
-  double event_miss, event_squares, event_path, event_left;
-  /* Systems with roads: the largest of these misses over its path that says a step is too long, 0: none; and when, s */
-  double coarse_event, coarse_time;
-  /* Systems with roads: largest force of a tyre, a contact or a spring with end stops, N; where a rebound stop was hit
-   * too hard for the step, by how much its force changes in the worst one by its tangent, N, 0: nowhere; when the first
-   * began, s; a step that would do, s. The same of a hit that is not judged yet, its step and the time left of it, s */
-  double largest_force, quick_change, quick_time, quick_step;
-  double hit_change, hit_time, hit_h, hit_left;
+  /* Systems with roads: largest force of a tyre, a contact or a spring with end stops, and largest load of a tyre, N */
+  double largest_force, largest_load;
   int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest */
   int64_t divisions; /* of steps where such a force changes quickly, a stop is met or left, or at breaks of inputs */
   double change_rate; /* of such a force in the last part of a step, over that from which parts are halved, 1/s */
-  /* Systems with tyres: largest load, N; where loads changed too quickly for the step, the worst h sqrt(h) times the
-   * root of the squares of their changes in a step over the largest load, s^1.5, 0: nowhere; when the first began, s; a
-   * step that would do, s. The sum of the squares now, N^2; largest h^3 times it that is not judged yet, N^2 s^3, when it
-   * began, its step and the time left of it, s */
-  double largest_load, quick_load, load_time, load_step;
-  double load_sum, load_squares, load_begin, load_h, load_left;
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
@@ -361,6 +347,8 @@ ALI3_API ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, 
 /* Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs. */
 ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
+/* The same of n sensors by their numbers. */
+ALI3_API ali3_status ali3_some_sensors(ali3_instance *in, int32_t n, const int32_t *number, double *out);
 /* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it does not belong to the other's: takes over its
  * state and finds accelerations and the forces at the ports, for ali3_sensors. `without` stays as it is. */
 ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without);
@@ -384,6 +372,45 @@ ALI3_API double ali3_energy_balance(const ali3_report *report);
 #define ALI3_DOUBT_FROM 100
 typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;
 ALI3_API ali3_doubt ali3_run_doubt(const ali3_report *report);
+/* Two motions of a System with longer and shorter steps, compared by numbers that they show, each in a unit. What rests
+ * judges nothing: its size is 0. Rates, and forces of motors, are judged where no place moves by itself. */
+enum { /* units */
+       ALI3_JUDGED_M = 0,
+       ALI3_JUDGED_RAD,
+       ALI3_JUDGED_COORDINATE,
+       ALI3_JUDGED_N,
+       ALI3_JUDGED_M_S,
+       ALI3_JUDGED_RAD_S,
+       ALI3_JUDGED_N_M,
+       ALI3_JUDGED_COUNT
+};
+/* Bits: a position, a length or an angle; a force, held against its largest value, all else against its range; judged in
+ * any case, rates and motors are not; an angle from -pi to pi. */
+enum { ALI3_JUDGED_PLACE = 1, ALI3_JUDGED_LOAD = 2, ALI3_JUDGED_ALWAYS = 4, ALI3_JUDGED_WRAPPED = 8 };
+typedef struct {
+  int32_t unit, kind;
+} ali3_judged;
+typedef struct { /* of one of them; zero before the first sample */
+  double least, most; /* of the finer motion, of an angle without its jumps */
+  /* of an angle: the last value, its turns, the largest change between compared samples */
+  double last, turns, quickest;
+  double gap, time, latest; /* the largest difference, when, s, and the last one */
+  int64_t samples, in_turn; /* all of them; those that were compared since one for ranges only */
+} ali3_compared;
+/* Adds n numbers at so many times: of the coarser motion (`one`, NULL: ranges only) and of the finer one, row major. */
+ALI3_API void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one,
+                           const double *other, ali3_compared *seen);
+/* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
+ * the model, m; `guided`: places that are the same in both motions do not move by themselves. */
+ALI3_API void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length,
+                                  int32_t guided, double *size);
+/* The largest difference, or the largest of the last sample, over its size; *worst: whose, -1: none. */
+ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
+                                    int32_t *worst);
+/* The error of the coarser motion by what both differ by: steps are so many times those of the finer one. */
+ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
+#define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
+#define ALI3_EVENT_ORDER 2 /* behind abrupt events, of parts of steps that shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
@@ -425,11 +452,8 @@ ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 /* Per force element (ne) a number of the smooth piece of its law that holds in the present state with the present
  * inputs: where it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
 ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
-/* Loads of tyres, or all of their forces, forces of contacts and of springs with end stops now, N: how many; `force` may
- * be NULL. */
-ALI3_API int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force);
-/* The largest of all of them now, N. */
-ALI3_API double ali3_largest_contact_force(const ali3_instance *in);
+/* How many force elements are tyres, contacts or springs with end stops of a System with roads. */
+ALI3_API int32_t ali3_contact_count(const ali3_system *s);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

@@ -83,7 +83,6 @@ struct ali3_instance {
    * of the System where nothing changes them */
   const double *mass_val, *front_mass, *mass_floor, *mass_floor_inverse, *mass_missing, *gravity_force;
   bool mass_isotropic; /* see ali3_mass_isotropic */
-  double fall; /* what gravity does to the velocities in a second, in the metric of the report */
   double gravity_const;
   ali3_masses own_masses; /* with payloads and armatures; empty where there are none */
   ali3_road *road, *own_road; /* in use: the System's own or from files; the System's own */

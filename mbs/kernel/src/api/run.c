@@ -171,3 +171,12 @@ ali3_status ali3_sensors(ali3_instance *in, double *out) {
   ali3_sensors_evaluate(in, out);
   return ALI3_OK;
 }
+
+ali3_status ali3_some_sensors(ali3_instance *in, int32_t n, const int32_t *number, double *out) {
+  if (in == NULL || (n > 0 && (number == NULL || out == NULL))) return ALI3_BAD_ARGUMENT;
+  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  for (int32_t i = 0; i < n; i++)
+    if (number[i] < 0 || number[i] >= in->system->size.ns) return ALI3_BAD_ARGUMENT;
+  ali3_sensors_some(in, n, number, out);
+  return ALI3_OK;
+}

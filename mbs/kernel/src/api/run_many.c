@@ -6,6 +6,7 @@
 #include "../instance.h"
 #include "../lanes/lanes.h"
 #include "../method.h"
+#include "../methods/abrupt_force.h"
 #include "../methods/contact_event.h"
 #include "../methods/energy_balance.h"
 #include "../methods/energy_watch.h"
@@ -14,7 +15,6 @@
 #include "../methods/input_jump.h"
 #include "../methods/newton.h"
 #include "../methods/predict.h"
-#include "../methods/quick_stop.h"
 #include "../methods/steps.h"
 #include "../methods/stiffness.h"
 #include "../methods/whole_step.h"
@@ -119,7 +119,7 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
   in->t_now = step->t;
-  ali3_balance_motion(in, step->h, square[0], square[g->width], square[2 * g->width]);
+  ali3_balance_motion(in, square[0], square[g->width], square[2 * g->width]);
   return ALI3_OK;
 }
 

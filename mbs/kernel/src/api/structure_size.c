@@ -8,9 +8,9 @@ static const struct {
   const char *name;
   size_t size;
 } structures[] = {
-    ALI3_SIZE(ali3_settings),    ALI3_SIZE(ali3_report),       ALI3_SIZE(ali3_sizes),
-    ALI3_SIZE(ali3_control),     ALI3_SIZE(ali3_record),       ALI3_SIZE(ali3_memory),
-    ALI3_SIZE(ali3_input_table), ALI3_SIZE(ali3_input_tables), ALI3_SIZE(ali3_lane),
+    ALI3_SIZE(ali3_settings), ALI3_SIZE(ali3_report), ALI3_SIZE(ali3_sizes),       ALI3_SIZE(ali3_control),
+    ALI3_SIZE(ali3_record),   ALI3_SIZE(ali3_memory), ALI3_SIZE(ali3_input_table), ALI3_SIZE(ali3_input_tables),
+    ALI3_SIZE(ali3_lane),     ALI3_SIZE(ali3_judged), ALI3_SIZE(ali3_compared),
 };
 #undef ALI3_SIZE
 

@@ -55,10 +55,8 @@ typedef struct ali3_element_type {
    * ud = (u1 - u0) / (2 h), its h being half a step. NULL: evaluate is exact there, or as good. */
   ali3_element_function *discrete;
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
-  /* Of springs with end stops, whose first outputs are length and force: by how much the force of the rebound stop
-   * changes between two lengths by its tangent at the longer one, N. */
-  double (*rebound)(const double *real, int32_t nreal, double from, double to);
-  /* Of springs with end stops: the share of a step of size h at which the first of those with a kink is met or left, from
+  bool stops; /* springs with end stops, whose first outputs are length and force */
+  /* Of these: the share of a step of size h at which the first of those with a kink is met or left, from
    * the outputs at its start and at its end; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
   bool conservative; /* a potential, or a force of inputs alone: steps of order four may be composed of it */

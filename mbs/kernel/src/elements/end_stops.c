@@ -63,16 +63,6 @@ void ali3_end_stops_between(const double *p, int progressive, double l0, double 
   between(&law[1], 1.0, l0 - rebound, l1 - rebound, rate, t);
 }
 
-double ali3_rebound_change(const double *p, int progressive, double l0, double l1) {
-  const double beyond = fmax(l0, l1) - p[ALI3_REBOUND_LENGTH];
-  if (!(beyond > 0.0)) return 0.0;
-  ali3_contact_law law[2];
-  laws(p, progressive, law);
-  double slope = 0.0, energy = 0.0;
-  ali3_contact_force(&law[1], beyond, &slope, &energy);
-  return slope * fabs(l1 - l0);
-}
-
 double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h) {
   double first = 1.0;
   for (int side = ALI3_BUMP_LENGTH; side < ALI3_LINEAR_STOPS; side += ALI3_REBOUND_LENGTH - ALI3_BUMP_LENGTH) {

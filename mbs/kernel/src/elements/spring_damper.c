@@ -52,10 +52,6 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
          (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
-static double rebound(const double *real, int32_t nreal, double from, double to) {
-  return ali3_rebound_change(real + STOPS, progressive(nreal), from, to);
-}
-
 /* Progressive stops have an onset without a kink. */
 static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
   if (progressive(nreal)) return 1.0;
@@ -80,7 +76,7 @@ const ali3_element_type ali3_spring_damper = {
     .discrete = discrete,
     .conservative = true,
     .lossy = lossy,
-    .rebound = rebound,
+    .stops = true,
     .event = event,
     .nsig = -1,
     .nreal = -1,

@@ -97,11 +97,6 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   return (damped && real[DAMPING_FACTOR] != 0.0) || loss[0] != 0.0 || loss[1] != 0.0;
 }
 
-static double rebound(const double *real, int32_t nreal, double from, double to) {
-  (void)nreal;
-  return ali3_rebound_change(real + STOPS, 1, from, to);
-}
-
 /* A damper never gives energy: its force rises through nothing at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
   double slope;
@@ -135,7 +130,7 @@ const ali3_element_type ali3_spring_damper_table = {
     .discrete = discrete,
     .conservative = true,
     .lossy = lossy,
-    .rebound = rebound,
+    .stops = true,
     .nsig = -1,
     .nreal = -1,
     .nint = INTEGERS,

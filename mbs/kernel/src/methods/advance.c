@@ -11,9 +11,9 @@
 #include "../state/road_files.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "abrupt_force.h"
 #include "contact_event.h"
 #include "energy_balance.h"
-#include "quick_stop.h"
 #include "steps.h"
 
 static ali3_status by_method(ali3_instance *in, double t, double h) {

@@ -18,6 +18,7 @@
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
+#include "abrupt_force.h"
 #include "ali3p.h"
 #include "check_method.h"
 #include "contact_event.h"
@@ -29,7 +30,6 @@
 #include "newton.h"
 #include "predict.h"
 #include "projection.h"
-#include "quick_stop.h"
 #include "steps.h"
 
 /* What forces of the present iterate are asked for with. */

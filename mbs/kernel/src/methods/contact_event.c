@@ -7,7 +7,7 @@
 
 #include "../elements/crossing.h"
 #include "../elements/element.h"
-#include "quick_stop.h"
+#include "abrupt_force.h"
 
 enum { EVENTS = 4 }; /* at which a step is parted at most */
 

@@ -7,10 +7,8 @@
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
-#include "coarse_event.h"
+#include "abrupt_force.h"
 #include "energy_balance.h"
-#include "quick_load.h"
-#include "quick_stop.h"
 
 static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its round-off as no error of the energy */
 
@@ -70,17 +68,14 @@ void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const 
 }
 
 /* Squares of the velocity at the end of a step, of its change, and of its distance from v + h a. */
-void ali3_balance_motion(ali3_instance *in, double h, double speed, double change, double miss) {
+void ali3_balance_motion(ali3_instance *in, double speed, double change, double miss) {
   ali3_report *report = &in->report;
   report->speed_peak = fmax(report->speed_peak, sqrt(speed));
   report->velocity_path += sqrt(change);
   report->predictor_path += sqrt(miss);
   report->velocity_squares += change;
   report->predictor_squares += miss;
-  if (in->system->nr == 0) return;
-  ali3_quick_stop(in, h);
-  ali3_quick_load(in, h);
-  ali3_coarse_event(in, h, sqrt(change), sqrt(miss));
+  if (in->system->nr > 0) ali3_abrupt_force(in);
 }
 
 /* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
@@ -119,7 +114,7 @@ ALI3_BY_PROCESSOR(in->system, void, balance_squares,
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1) {
   double square[3];
   ali3_balance_squares(in, h, v0, a, v1, square);
-  ali3_balance_motion(in, h, square[0], square[1], square[2]);
+  ali3_balance_motion(in, square[0], square[1], square[2]);
 }
 
 /* The same where velocities and accelerations of the states tell: what was in->now is in in->next. */
@@ -133,7 +128,7 @@ void ali3_balance_long_step(ali3_instance *in, double h) {
   double square[3], back[3];
   balance_squares(in, h, in->next.qd, in->next.qdd, in->now.qd, square);
   balance_squares(in, h, in->next.qd, in->now.qdd, in->now.qd, back);
-  ali3_balance_motion(in, h, square[0], square[1], fmax(square[2], back[2]));
+  ali3_balance_motion(in, square[0], square[1], fmax(square[2], back[2]));
 }
 
 /* The energy balance as it was before a step that was refused. */
@@ -148,30 +143,9 @@ void ali3_balance_restore(ali3_report *report, const ali3_report *before) {
   report->predictor_path = before->predictor_path;
   report->velocity_squares = before->velocity_squares;
   report->predictor_squares = before->predictor_squares;
-  report->event_miss = before->event_miss;
-  report->event_squares = before->event_squares;
-  report->event_path = before->event_path;
-  report->event_left = before->event_left;
-  report->coarse_event = before->coarse_event;
-  report->coarse_time = before->coarse_time;
   report->largest_force = before->largest_force;
-  report->quick_change = before->quick_change;
-  report->quick_time = before->quick_time;
-  report->quick_step = before->quick_step;
-  report->hit_change = before->hit_change;
-  report->hit_time = before->hit_time;
-  report->hit_h = before->hit_h;
-  report->hit_left = before->hit_left;
   report->abrupt_steps = before->abrupt_steps;
   report->divisions = before->divisions;
   report->change_rate = before->change_rate;
   report->largest_load = before->largest_load;
-  report->quick_load = before->quick_load;
-  report->load_time = before->load_time;
-  report->load_step = before->load_step;
-  report->load_sum = before->load_sum;
-  report->load_squares = before->load_squares;
-  report->load_begin = before->load_begin;
-  report->load_h = before->load_h;
-  report->load_left = before->load_left;
 }

@@ -7,7 +7,7 @@ double ali3_kinetic_energy(ali3_instance *in);
 double ali3_energy(ali3_instance *in);
 void ali3_balance_open(ali3_instance *in, bool balanced);
 void ali3_balance_energy(ali3_instance *in, double error, double kinetic, const double *weight);
-void ali3_balance_motion(ali3_instance *in, double h, double speed, double change, double miss);
+void ali3_balance_motion(ali3_instance *in, double speed, double change, double miss);
 void ali3_balance_change(ali3_instance *in, double h, const double *v0, const double *a, const double *v1);
 void ali3_balance_step(ali3_instance *in, double h);
 void ali3_balance_long_step(ali3_instance *in, double h);

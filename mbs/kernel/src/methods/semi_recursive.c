@@ -243,7 +243,7 @@ static void balance(ali3_instance *in, double h) {
     miss += m * e * e;
     back += m * b * b;
   }
-  ali3_balance_motion(in, h, speed, change, fmax(miss, back));
+  ali3_balance_motion(in, speed, change, fmax(miss, back));
 }
 
 /* From in->now by a step h; in->now changes only when the step is good. */

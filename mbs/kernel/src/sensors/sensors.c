@@ -289,14 +289,25 @@ static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
 #undef ALI3_SENSOR_TYPE
 };
 
-void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
+static double value(const ali3_instance *in, int32_t i) {
   const ali3_system *S = in->system;
-  if (S->n_tabled > 0) {
-    ali3_tabled_prepare(in, in->now.q);
-    ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
-  }
-  for (int32_t i = 0; i < S->size.ns; i++)
-    out[i] = value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->sen_real + S->sen_real_ptr[i]);
+  return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->sen_real + S->sen_real_ptr[i]);
+}
+
+static void prepare(const ali3_instance *in) {
+  if (in->system->n_tabled == 0) return;
+  ali3_tabled_prepare(in, in->now.q);
+  ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
+}
+
+void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
+  prepare(in);
+  for (int32_t i = 0; i < in->system->size.ns; i++) out[i] = value(in, i);
+}
+
+void ali3_sensors_some(const ali3_instance *in, int32_t n, const int32_t *number, double *out) {
+  prepare(in);
+  for (int32_t i = 0; i < n; i++) out[i] = value(in, number[i]);
 }
 
 void ali3_record_row(const ali3_instance *in, int64_t row, double *out, double *positions) {

@@ -5,6 +5,7 @@
 
 /* Values of all sensors at in->now, in the order of the System. */
 void ali3_sensors_evaluate(const ali3_instance *in, double *out);
+void ali3_sensors_some(const ali3_instance *in, int32_t n, const int32_t *number, double *out);
 /* Sensors and coordinates as a row of matrices with a row a record; either matrix may be NULL. */
 void ali3_record_row(const ali3_instance *in, int64_t row, double *out, double *positions);
 /* Unit quaternion, scalar first and not negative, of the body axes whose signals v numbers. */

@@ -31,13 +31,6 @@ void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   in->own_masses.gravity = ali3_pool_array(p, nq);
 }
 
-static double fall(const ali3_instance *in) {
-  double square = 0.0;
-  for (int32_t i = 0; i < in->system->size.nq; i++)
-    if (in->mass_floor[i] > 0.0) square += in->gravity_force[i] * in->gravity_force[i] / in->mass_floor[i];
-  return sqrt(square);
-}
-
 /* Once, for a new instance. */
 void ali3_masses_start(ali3_instance *in) {
   const ali3_system *S = in->system;
@@ -51,7 +44,6 @@ void ali3_masses_start(ali3_instance *in) {
   in->mass_missing = loaded ? own->missing : S->mass_missing;
   in->gravity_force = loaded ? own->gravity : S->gravity_force;
   in->gravity_const = S->gravity_const[0];
-  if (!loaded) in->fall = fall(in);
 }
 
 /* A mass on a signal whose component of gravity is g. */
@@ -161,5 +153,4 @@ void ali3_masses_apply(ali3_instance *in) {
   for (int64_t k = 0; k < S->n_axis_inertia; k++) tilt(in, k);
   in->mass_isotropic = ali3_mass_isotropic(S, own->val);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
-  in->fall = fall(in);
 }

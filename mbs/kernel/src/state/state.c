@@ -89,17 +89,9 @@ static bool branch_valid(const ali3_system *s, const ali3_report *r) {
               s->mode_triad_ptr[r->branch_loop + 1] - s->mode_triad_ptr[r->branch_loop]);
 }
 
-static bool stop_valid(const ali3_report *r) {
-  return magnitude(r->largest_force) && magnitude(r->quick_change) && magnitude(r->quick_step) &&
-         magnitude(r->hit_change) && magnitude(r->hit_h) && r->quick_time - r->quick_time == 0.0 &&
-         r->hit_time - r->hit_time == 0.0 && r->hit_left - r->hit_left == 0.0 && counted(r->abrupt_steps) &&
+static bool forces_valid(const ali3_report *r) {
+  return magnitude(r->largest_force) && magnitude(r->largest_load) && counted(r->abrupt_steps) &&
          counted(r->divisions) && magnitude(r->change_rate);
-}
-
-static bool load_valid(const ali3_report *r) {
-  return magnitude(r->largest_load) && magnitude(r->quick_load) && magnitude(r->load_step) && magnitude(r->load_sum) &&
-         magnitude(r->load_squares) && magnitude(r->load_h) && r->load_time - r->load_time == 0.0 &&
-         r->load_begin - r->load_begin == 0.0 && r->load_left - r->load_left == 0.0;
 }
 
 static bool trend_valid(const ali3_report *r) {
@@ -109,17 +101,15 @@ static bool trend_valid(const ali3_report *r) {
 }
 
 static bool report_valid(const ali3_system *s, const ali3_report *r) {
-  return branch_valid(s, r) && stop_valid(r) && load_valid(r) && trend_valid(r) && magnitude(r->work) &&
-         magnitude(r->kinetic_peak) && magnitude(r->speed_peak) && magnitude(r->velocity_path) &&
-         magnitude(r->predictor_path) && magnitude(r->velocity_squares) && magnitude(r->predictor_squares) &&
-         r->energy - r->energy == 0.0 && r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) &&
-         magnitude(r->rim_pressed) && magnitude(r->event_miss) && magnitude(r->event_squares) &&
-         magnitude(r->event_path) && r->event_left - r->event_left == 0.0 && magnitude(r->coarse_event) &&
-         r->coarse_time - r->coarse_time == 0.0 && r->rim_time - r->rim_time == 0.0 && r->rim_x - r->rim_x == 0.0 &&
-         r->rim_y - r->rim_y == 0.0 && counted(r->rim_element) &&
-         (r->rim_pressed == 0.0 || r->rim_element < s->size.ne) && counted(r->steps) && counted(r->iterations) &&
-         counted(r->factorizations) && counted(r->solves) && counted(r->halvings) && counted(r->failures) &&
-         counted(r->capped) && magnitude(r->capped_residual) && r->energy_error - r->energy_error == 0.0;
+  return branch_valid(s, r) && forces_valid(r) && trend_valid(r) && magnitude(r->work) && magnitude(r->kinetic_peak) &&
+         magnitude(r->speed_peak) && magnitude(r->velocity_path) && magnitude(r->predictor_path) &&
+         magnitude(r->velocity_squares) && magnitude(r->predictor_squares) && r->energy - r->energy == 0.0 &&
+         r->open_power - r->open_power == 0.0 && magnitude(r->energy_floor) && magnitude(r->rim_pressed) &&
+         r->rim_time - r->rim_time == 0.0 && r->rim_x - r->rim_x == 0.0 && r->rim_y - r->rim_y == 0.0 &&
+         counted(r->rim_element) && (r->rim_pressed == 0.0 || r->rim_element < s->size.ne) && counted(r->steps) &&
+         counted(r->iterations) && counted(r->factorizations) && counted(r->solves) && counted(r->halvings) &&
+         counted(r->failures) && counted(r->capped) && magnitude(r->capped_residual) &&
+         r->energy_error - r->energy_error == 0.0;
 }
 
 /* Vectors, inputs and parameters, one after the other. */

@@ -91,7 +91,7 @@ static ali3_contact_forces_of contact_of(const ali3_system *s, int32_t e) {
   enum { LOAD = 2, OF_A_TYRE = 3 }; /* output of a tyre; first outputs of what touches a road that are forces */
   const ali3_element_type *kind = s->el_kind[e];
   const int32_t out = s->el_out_ptr[e], n_out = s->el_out_ptr[e + 1] - out;
-  const bool tyre = kind->depth == ali3_tyre_depth, stop = kind->rebound != NULL;
+  const bool tyre = kind->depth == ali3_tyre_depth, stop = kind->stops;
   const int32_t first = out + (stop ? 1 : 0), n = stop ? 1 : n_out < OF_A_TYRE ? n_out : OF_A_TYRE;
   return (ali3_contact_forces_of){.element = e,
                                   .first = first,
@@ -117,7 +117,7 @@ void ali3_elements_derive(ali3_system *s) {
                                         .integer = s->el_int_ptr[e],
                                         .state = s->el_state_ptr[e],
                                         .out = s->el_out_ptr[e]};
-    if (s->el_kind[e]->depth != NULL || s->el_kind[e]->rebound != NULL) s->contact[s->n_contact++] = contact_of(s, e);
+    if (s->el_kind[e]->depth != NULL || s->el_kind[e]->stops) s->contact[s->n_contact++] = contact_of(s, e);
     s->el_S_off[e + 1] = s->el_S_off[e] + (s->el_front[e] >= 0 ? n * n : 0);
     derive_element(s, e);
   }

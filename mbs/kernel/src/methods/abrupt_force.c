@@ -1,46 +1,20 @@
-/* A wheel that drops onto the metal of its rebound stop within a step: by the tangent of the stop its force would have
- * changed by more in the step than any force there is, so that neither its size nor its time can be right. */
-#include "quick_stop.h"
+/* Forces of tyres, contacts and springs with end stops that change abruptly in a step: it is made in halves, so that a
+ * run and its refinement divide the same stretches. */
+#include "abrupt_force.h"
 
 #include <math.h>
 
 #include "../elements/element.h"
 
-static const double QUICK = 0.047;  /* sqrt(s); calibrated on random drives of two cars over kerbs and drops */
-static const double SAFE = 0.3;     /* of the limit: what a step would do with */
-static const double ABRUPT = 0.1;   /* of the largest force: a change in a step */
+static const double ABRUPT = 0.1; /* of the largest force: a change in a step */
 /* 1/s, times the step that is asked for: of the largest force, a change in a part that halves it, where that is less
- * than ABRUPT. So a run and its refinement divide the same stretches, and the parts shrink with the step: of stops below
- * 2 ms, of contacts below 20 ms. Measured in docs/theory.md. */
+ * than ABRUPT. So the parts shrink with the step: of stops below 2 ms, of contacts below 20 ms. Measured in
+ * docs/theory.md. */
 static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
-static const double SPAN = 0.5;     /* s after a hit in which its wheel lands: the largest force there counts too */
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
-enum { ENOUGH = 4 };    /* iterations of a half that is made without trying the whole, where they are limited */
+enum { ENOUGH = 4 }; /* iterations of a half that is made without trying the whole, where they are limited */
 
-/* The change of a force in a step up to which nothing is said. */
-static double limit(const ali3_report *r, double h) { return QUICK / sqrt(h) * r->largest_force; }
-
-/* A hit whose span is over, against the largest force in it. */
-static void judge(ali3_report *r) {
-  const double most = limit(r, r->hit_h);
-  if (r->hit_change > fmax(most, r->quick_change)) {
-    if (r->quick_change == 0.0) r->quick_time = r->hit_time;
-    r->quick_change = r->hit_change;
-    r->quick_step = r->hit_h * SAFE * most / r->hit_change;
-  }
-  r->hit_change = 0.0;
-}
-
-int32_t ali3_contact_forces(const ali3_instance *in, int32_t all, double *force) {
-  int32_t n = 0;
-  for (int32_t c = 0; c < in->system->n_contact; c++) {
-    const ali3_contact_forces_of *contact = in->system->contact + c;
-    const int32_t first = all != 0 ? contact->first : contact->judged, mine = all != 0 ? contact->n : contact->n_judged;
-    for (int32_t i = 0; force != NULL && i < mine; i++) force[n + i] = in->now.out[first + i];
-    n += mine;
-  }
-  return n;
-}
+int32_t ali3_contact_count(const ali3_system *s) { return s->nr > 0 ? s->n_contact : 0; }
 
 /* The larger one, of one instruction; a NaN in x counts as nothing. */
 static double more(double most, double x) { return x > most ? x : most; }
@@ -49,12 +23,6 @@ static double more(double most, double x) { return x > most ? x : most; }
 static double larger(const ali3_contact_forces_of *contact, const double *out, double most) {
   for (int32_t i = contact->n; i-- > 0;) most = more(most, fabs(out[contact->first + i]));
   return most;
-}
-
-double ali3_largest_contact_force(const ali3_instance *in) {
-  double largest = 0.0;
-  for (int32_t c = 0; c < in->system->n_contact; c++) largest = larger(in->system->contact + c, in->now.out, largest);
-  return largest;
 }
 
 /* Largest change of a contact's judged forces in a step between two of its ends; *largest: of these forces. */
@@ -118,25 +86,6 @@ bool ali3_divides(ali3_instance *in, double h) {
   return divided(in, h, in->report.last_iterations);
 }
 
-/* Forces of a contact after the step, and a hit of its rebound stop. */
-static void look_at(ali3_instance *in, double h, const ali3_contact_forces_of *contact) {
-  const ali3_system *S = in->system;
-  ali3_report *r = &in->report;
-  r->largest_force = larger(contact, in->now.out, r->largest_force);
-  const int32_t e = contact->element;
-  if (S->el_kind[e]->rebound == NULL) return;
-  const double *from = in->next.out + S->el_out_ptr[e], *to = in->now.out + S->el_out_ptr[e];
-  const ali3_element_size *size = S->el_size + e;
-  const double change = S->el_kind[e]->rebound(in->el_real + size->real, size->nreal, from[0], to[0]);
-  if (!(change > fmax(limit(r, h), r->hit_change))) return;
-  if (r->hit_change == 0.0) {
-    r->hit_time = ali3_time(in);
-    r->hit_left = SPAN;
-  }
-  r->hit_change = change;
-  r->hit_h = h;
-}
-
 /* Largest change of a judged force in the step. */
 static double changed(const ali3_instance *in) {
   double most = 0.0, largest = 0.0;
@@ -145,11 +94,14 @@ static double changed(const ali3_instance *in) {
   return most;
 }
 
-/* After a step of size h from in->next to in->now. */
-void ali3_quick_stop(ali3_instance *in, double h) {
+/* After a step from in->next to in->now. */
+void ali3_abrupt_force(ali3_instance *in) {
   ali3_report *r = &in->report;
-  for (int32_t c = 0; c < in->system->n_contact; c++) look_at(in, h, in->system->contact + c);
+  for (int32_t c = 0; c < in->system->n_contact; c++) {
+    const ali3_contact_forces_of *contact = in->system->contact + c;
+    r->largest_force = larger(contact, in->now.out, r->largest_force);
+    if (contact->tyre) /* the start has no step before it */
+      r->largest_load = more(more(r->largest_load, in->next.out[contact->judged]), in->now.out[contact->judged]);
+  }
   if ((in->changed < 0.0 ? changed(in) : in->changed) > ABRUPT * r->largest_force) r->abrupt_steps++;
-  r->hit_left -= h;
-  if (r->hit_change > 0.0 && r->hit_left < 0.5 * h) judge(r);
 }

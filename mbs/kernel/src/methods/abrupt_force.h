@@ -1,9 +1,9 @@
 /* Forces of contacts and end stops that change too quickly for the step. */
-#ifndef ALI3_METHODS_QUICK_STOP_H
-#define ALI3_METHODS_QUICK_STOP_H
+#ifndef ALI3_METHODS_ABRUPT_FORCE_H
+#define ALI3_METHODS_ABRUPT_FORCE_H
 #include "../instance.h"
 
-void ali3_quick_stop(ali3_instance *in, double h);
+void ali3_abrupt_force(ali3_instance *in);
 /* Whether a step that may still be halved so deep is, where a force changes abruptly in it. */
 bool ali3_may_divide(const ali3_instance *in, int32_t depth);
 /* Whether the coming step of size h is to be made in halves, because a force changed as quickly in the last; counted. */
