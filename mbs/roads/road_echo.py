@@ -181,4 +181,4 @@ def file_echo(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POIN
     head = None if Path(road.path).suffix.lower() in TEXTS else road.header
     if head is not None and head.nx * head.ny > most:
         return [start_echo(str(road.path), Place(head.real[:2], head.real[2:4], (head.nx, head.ny)), start)]
-    return [road_echo(str(road.path), read_road(road.path), start)]
+    return [road_echo(str(road.path), read_road(road.path) if head is None else road.read(), start)]

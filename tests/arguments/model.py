@@ -328,7 +328,8 @@ RIGHT: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
 }
 REGISTER = {"remember", "unique", "new_coordinate", "drawn", "owned_coordinate", "expression", "expressions", "owned"}
 REGISTER |= {"anchor", "anchor_axis", "together", "put_off", "look", "draw_before_change"}
-"""What the vocabulary itself calls."""
+REGISTER |= {"summary"}
+"""What the vocabulary itself calls, and what has no arguments."""
 
 
 def method_of(call: str) -> str:

@@ -377,7 +377,7 @@ def test_changes_that_are_no_mapping():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.34}, {"drive.ratios": []}, {"vehicle.mass": 0.597}],
+    [{"front.spring.stifness": 1.0}, {"front.tyre.radius": 0.2}, {"drive.ratios": []}, {"vehicle.mass": 0.597}],
 )
 def test_the_same_through_every_door(changes, copied, capsys):
     """By a file, by `changed` and by the command line."""
