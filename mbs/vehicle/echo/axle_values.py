@@ -102,16 +102,18 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
 
 def _places(axle: Axle, name: str) -> Iterator[Value]:
     """Of points and parts the farthest."""
-    points, centre = drawn_points(axle), axle.wheel.centre
-    near = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if points else set()
+    points, centre, parts = drawn_points(axle), axle.wheel.centre, {p.key("com"): p.com for p in parts_of(axle)}
+    if not axle.suspension.linked:
+        points = parts
+    near = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if axle.suspension.linked else set()
     for quantity, keys in (("carrier", points.keys() & near), ("reach", points.keys() - near)):
         if keys:
             key = max(sorted(keys), key=lambda k: math.dist(points[k], centre))
             yield Value(CAR[quantity], math.dist(points[key], centre), {key: list(points[key])}, name)
     around = np.array([*points.values(), centre])
     beyond = {
-        part.key("com"): float(max((around.min(axis=0) - part.com).max(), (part.com - around.max(axis=0)).max(), 0.0))
-        for part in parts_of(axle)
+        key: float(max((around.min(axis=0) - com).max(), (com - around.max(axis=0)).max(), 0.0))
+        for key, com in parts.items()
     }
     if beyond and axle.suspension.linked:
         key = max(beyond, key=beyond.__getitem__)

@@ -93,7 +93,8 @@ def _of_dimensions(car: CarContent, rest: Rest) -> Iterator[Value]:
 
 
 def _of_points(car: CarContent) -> Iterator[Value]:
-    """Of points of the body the farthest outside of its outline, and of all points the coordinate nearest to 0."""
+    """Of points of the body the farthest outside of its outline and the nearest to the front axle, and of all points
+    the coordinate nearest to 0."""
     points, body = points_of_the_body(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     beyond = {
@@ -102,6 +103,9 @@ def _of_points(car: CarContent) -> Iterator[Value]:
     }
     key = max(beyond, key=beyond.__getitem__)
     yield Value(CAR["outline"], beyond[key], {key: list(points[key])})
+    ahead = {key: abs(point[0]) or math.inf for key, point in points.items()}
+    key = min(ahead, key=ahead.__getitem__)
+    yield Value(CAR["ahead"], ahead[key], {key: list(points[key])})
     points |= drawn_points(car.front) | drawn_points(car.rear) | {p.key("com"): p.com for p in parts_of(car)}
     nearest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
     key = min(nearest, key=nearest.__getitem__)
