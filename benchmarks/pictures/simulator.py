@@ -41,7 +41,7 @@ class Shot:
 SHOTS = {
     "chase": Shot("start", (("", 14.0),), "chase"),
     "map": Shot("slalom", (("", 5.0), *((key, 0.7) for key in ("a", "d", "d", "a", "a", "d"))), "map"),
-    "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("f", "p")),
+    "stress": Shot("kerbs", (("", 5.0),), "orbit", 2, ("b", "f", "p")),
 }
 
 
@@ -106,7 +106,7 @@ def take_all(names: Sequence[str], folder: Path) -> None:
     """Build the car, drive, draw, say where and with which rates."""
     make_folder(folder)
     with TemporaryDirectory() as built:
-        build = [sys.executable, "-m", "ali3", "build", "prototype", "--poses", "all", "--kind", "native"]
+        build = [sys.executable, "-m", "ali3", "build", "prototype", "--kind", "native"]
         subprocess.run([*build, "--out", built], check=True, stdout=subprocess.DEVNULL)
         (fmu,) = Path(built).glob("*.fmu")
         for name in watched(names):
