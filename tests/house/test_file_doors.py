@@ -44,6 +44,7 @@ OWN = {
     "hosts/check/documents.py",
     "hosts/check/instance.py",
     "hosts/check/portability.py",
+    "hosts/check/process_settings.py",
     "hosts/check/process_state.py",
     "hosts/common/program.py",
     "hosts/compare/report.py",
