@@ -17,6 +17,7 @@ from ali3.words import value_words
 _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 
 
+@np.errstate(over="ignore", invalid="ignore")  # products of numbers above 1e154 are no unit vectors and no plane
 def relation_errors(scene: Mapping[str, Any]) -> list[str]:
     """Sentences on a scene whose parts have the right types. `scene`: checked by the types."""
     found = list(_frames(scene))
@@ -64,7 +65,8 @@ def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
             yield from _direction(frame["start"][1], (*path, "start", 1))
         if "points" in frame:
             a, b, c = (np.array(p, float) for p in frame["points"])
-            if np.linalg.norm(np.cross(b - a, c - a)) <= 1e-9 * max(float(np.linalg.norm(b - a)), 1e-12) ** 2:
+            least = 1e-9 * np.maximum(np.linalg.norm(b - a), 1e-12) ** 2
+            if not least < np.linalg.norm(np.cross(b - a, c - a)):
                 yield f"{place((*path, 'points'))} lie on a line; three points of a plane are needed."
     if good:
         yield from _circles(scene)
@@ -106,7 +108,7 @@ def _shape(scene: Mapping[str, Any], shape: Mapping[str, Any], path: tuple[str |
         yield f"{place((*path, 'mesh'))} is {value_words(shape['mesh'])}, which is no mesh; there are {names}."
     if shape.get("axes") is not None:
         axes = np.array(shape["axes"], float)
-        if np.abs(axes @ axes.T - np.eye(3)).max() > _UNIT or np.linalg.det(axes) < 0.0:
+        if not np.abs(axes @ axes.T - np.eye(3)).max() <= _UNIT or np.linalg.det(axes) < 0.0:
             yield f"{place((*path, 'axes'))} must be three unit vectors at right angles, right-handed."
     if shape["kind"] in ("wheel", "steering_wheel") and shape.get("axis") is not None:
         yield from _direction(shape["axis"], (*path, "axis"))

@@ -125,6 +125,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (("shapes", 0, "color"), "red", "shapes[0].color is 'red'; it must be a colour such as '#3366cc'."),
         (("shapes", 0, "axes"), [[1, 0, 0], [1, 0, 0], [0, 0, 1]], "shapes[0].axes must be three unit vectors"),
         (("shapes", 0, "axes"), [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "shapes[0].axes must be three unit vectors"),
+        (("shapes", 0, "axes"), [[1e200, 0, 0], [0, 1, 0], [0, 0, 1]], "shapes[0].axes must be three unit vectors"),
         (("shapes", 8, "rim"), 0.4, "shapes[8].rim is 0.4; it must be below the radius, 0.3."),
         (("shapes", 8, "axis"), [0, 0, 0], "shapes[8].axis is [0, 0, 0]; it must not be zero."),
         (("shapes", 2, "frame"), "arms", "shapes[2].frame is 'arms', which is no frame; there are 'ground', 'body'"),
