@@ -66,7 +66,7 @@ def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
 
 def drive(page: Any, shot: Shot) -> None:
     """Until the picture is to be taken."""
-    page.wait_for_function(f"window.player?.{NEWEST.removeprefix('player.')}?.running")
+    page.wait_for_function("window.player?.frames?.newest?.running")
     if wrong := page.evaluate("name => player.camera(name)", shot.camera):
         raise RuntimeError(wrong)
     page.keyboard.down("w")
