@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from ali3.arrays import read_arrays
 from ali3.errors import reason
 from ali3.extras import missing_package
-from ali3.reading import check_file, open_file
+from ali3.reading import check_file, read_bytes
 from ali3.tables import Row, TextTable, is_number, plain_name
 from ali3.words import brief
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
@@ -183,7 +184,9 @@ def _picture(file: Path, limits: tuple[float, float] | None, what: str) -> Grid:
     if limits is None:
         raise RoadFileError(f"{file} is a picture: say which {what} black and white mean, as in --range 0 0.25.")
     try:
-        with warnings.catch_warnings(), open_file(file, MOST_BYTES, RoadFileError) as stream:
+        # from memory, where what a damaged length asks for beyond the end is not made room for
+        stream = io.BytesIO(read_bytes(file, MOST_BYTES, RoadFileError))
+        with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)  # at 90 million pixels, 3 GB of memory
             image = Image.open(stream)
             white = {"L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I": 65535.0, "1": 1.0}.get(image.mode)
