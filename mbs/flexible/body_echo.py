@@ -60,15 +60,16 @@ def model_echo(
     x, masses = model.positions, model.mass.masses
     free = _lowest(model, RIGID) if modes else None
     supported = _lowest(model, 0, held) if modes and np.size(held) else None
-    values = partial(_values, x, masses, masses @ model.mass.positions, free, supported, model.given, beside)
+    moment, hull = masses @ model.mass.positions, _hull(x)
+    values = partial(_values, x, hull, masses, moment, free, supported, model.given, beside)
     return [_echo(what, values, alone=not modes)]
 
 
 @echo_of.register
 def reduced_echo(body: ReducedBody) -> list[Echo]:
     """What was understood of a reduced body, from its reference node; its frequencies are those of its modes."""
-    moment = body.masses @ body.mass_positions
-    values = partial(_values, body.node_positions, body.masses, moment, _free(body), _supported(body), {}, 0.0)
+    x, moment = body.node_positions, body.masses @ body.mass_positions
+    values = partial(_values, x, _hull(x), body.masses, moment, _free(body), _supported(body), {}, 0.0)
     return [_echo("", values)]
 
 
@@ -87,6 +88,7 @@ def _changed(units: Units) -> Iterator[str]:
 
 def _values(
     x: np.ndarray,
+    hull: float,
     masses: np.ndarray,
     moment: np.ndarray,
     free: float | None,
@@ -101,7 +103,7 @@ def _values(
     found = [Value(QUANTITIES["mass"], total, mass), Value(QUANTITIES["size"], size, nodes)]
     for name, three in (("extent", sides), ("centre", np.round(centre, 9) + 0.0)):
         found += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", three, strict=True)]
-    volume = units.length**3 * _hull(x)
+    volume = units.length**3 * hull
     if volume > 0.0:
         found.append(Value(QUANTITIES["dense"], total / volume, mass | nodes))
     if beside:

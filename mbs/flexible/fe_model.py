@@ -49,6 +49,14 @@ class FiniteElementModel(Understood):
         """Number of degrees of freedom."""
         return int(self.K.shape[0])
 
+    @property
+    def node_of(self) -> np.ndarray:
+        """Shape (n_dof,): number of the node of each degree of freedom."""
+        found = np.full(self.n_dof, -1)
+        nodes, axes = np.nonzero(self.dof >= 0)
+        found[self.dof[nodes, axes]] = nodes
+        return found
+
     def mass_matrix(self) -> sp.csc_array:
         """Mass matrix of the points, shape (n_dof, n_dof)."""
         return self.mass.mass_matrix()

@@ -171,10 +171,7 @@ def check_connected(model: FiniteElementModel, reference: Reference) -> None:
 
 def _island_nodes(model: FiniteElementModel, held: np.ndarray) -> np.ndarray:
     """Nodes without any path of stiffness entries to the reference."""
-    node_of = np.full(model.n_dof, -1)
-    rows, columns = np.nonzero(model.dof >= 0)
-    node_of[model.dof[rows, columns]] = rows
-    K = sp.coo_array(model.K)
+    node_of, K = model.node_of, sp.coo_array(model.K)
     n = len(model.names)
     stiff = np.abs(K.data) > 0
     graph = sp.coo_array((np.ones(int(stiff.sum())), (node_of[K.row[stiff]], node_of[K.col[stiff]])), shape=(n, n))

@@ -89,7 +89,7 @@ def external_model(
         given["asymmetry"]["mass"] = asymmetry(M)
         M = sp.csc_array((M + M.T) / 2)
         given["negative"]["mass"] = check_definite(M, "mass")
-        given |= {"apart": {"mass": _pairs_apart(K, M, table)}, "rigid": {"mass": _rigid_off(M, model)}}
+        given |= {"apart": {"mass": _pairs_apart(M, model)}, "rigid": {"mass": _rigid_off(M, model)}}
         points = lumped_masses(M, x, table)
     else:
         masses = np.array(mass, float)
@@ -113,13 +113,10 @@ def _rigid_off(M: Sparse, model: FiniteElementModel) -> float:
     return float(off / abs(mass)) if mass else np.inf
 
 
-def _pairs_apart(K: Sparse, M: Sparse, table: np.ndarray) -> int:
+def _pairs_apart(M: Sparse, model: FiniteElementModel) -> int:
     """How many pairs of nodes the mass matrix couples and the stiffness does not."""
-    node_of = np.zeros(K.shape[0], int)
-    nodes, axes = np.nonzero(table >= 0)
-    node_of[table[nodes, axes]] = nodes
-    pairs = []
-    for matrix in (K, M):
+    node_of, pairs = model.node_of, []
+    for matrix in (model.K, M):
         entries = sp.coo_array(matrix)
         there = np.abs(entries.data) > SYMMETRY * np.abs(entries.data).max()
         pairs.append({*zip(node_of[entries.row[there]].tolist(), node_of[entries.col[there]].tolist(), strict=True)})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -65,18 +65,19 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
     if not isinstance(road, GridRoad):
         return Echo(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
-    undone = []
+    mistakes = []
     for factor, unit in UNITS.items():
         words, scaled = f"{unit} in place of m in", place.scaled(factor)
-        undone.append((f"{words} coordinates", KEYS, scaled, z))
-        undone.append((f"{words} heights", HEIGHTS, place, factor * z))
-        undone.append((f"{words} coordinates and heights", KEYS | HEIGHTS, scaled, factor * z))
+        for of, keys, at, higher in (
+            ("coordinates", KEYS, scaled, 1.0),
+            ("heights", HEIGHTS, place, factor),
+            ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
+        ):
+            mistakes.append(Mistake(f"{words} {of}", keys, partial(road_values, road, at, z, start, higher)))
     if 0 < (none := z == z.min()).sum() < z.size:
-        filled = np.where(none, z[~none].min(), z)
-        undone.append((f"{z.min():g} in the place of no value in heights", HEIGHTS, place, filled))
-    mistakes = [Mistake(words, keys, partial(road_values, road, p, h, start)) for words, keys, p, h in undone]
-    ratios = replace(_plain(road), frictions=0.01 * np.asarray(road.frictions, float))
-    parts = partial(road_values, ratios, place, z, start)
+        filled = partial(road_values, road, place, np.where(none, z[~none].min(), z), start)
+        mistakes.append(Mistake(f"{z.min():g} in the place of no value in heights", HEIGHTS, filled))
+    parts = partial(road_values, road, place, z, start, rougher=0.01)
     mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
     if start is not None:
         mistakes += start_mistakes(place, start)
@@ -116,9 +117,16 @@ def _sides(place: Place) -> list[Value]:
     return [Value(QUANTITIES["extent"], side, {"spacing": list(place.spacing)}, axis) for axis, side in sides]
 
 
-def road_values(road: GridRoad, place: Place, z: np.ndarray, start: Start | None) -> list[Value]:
-    """Values of all quantities of a grid. `place`, `z`: where it lies, its heights, m."""
-    frictions, spacing = np.asarray(road.frictions, float), {"spacing": list(place.spacing)}
+def road_values(
+    road: GridRoad, place: Place, z: np.ndarray, start: Start | None, higher: float = 1.0, rougher: float = 1.0
+) -> list[Value]:
+    """Values of all quantities of a grid.
+
+    `place`, `z`: where it lies, its heights, m; `higher`, `rougher`: factors of its heights and frictions.
+    """
+    z, frictions = higher * z, rougher * np.asarray(road.frictions, float)
+    spacing = {"spacing": list(place.spacing)}
+    step = height_step(z)
     heights = {"heights": [float(z.min()), float(z.max())]}
     steps = [float(np.abs(np.diff(z, axis=k)).max()) for k in range(2)]
     over = max(max(s - h for s, h in zip(steps, place.spacing, strict=True)), 0.0)
@@ -128,7 +136,7 @@ def road_values(road: GridRoad, place: Place, z: np.ndarray, start: Start | None
         Value(QUANTITIES["spacing"], min(place.spacing), spacing, "least"),
         Value(QUANTITIES["rise"], over, heights | spacing),
         Value(QUANTITIES["steepest"], max(s / h for s, h in zip(steps, place.spacing, strict=True))),
-        Value(QUANTITIES["step"], height_step(z), {"number type of heights": height_step(z)}),
+        Value(QUANTITIES["step"], step, {"number type of heights": step}),
         *_frictions(float(frictions.min()), float(frictions.max()), road.friction_factor),
         *([] if start is None else _away(place, start)),
     ]
@@ -147,10 +155,6 @@ def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
 def _frictions(least: float, largest: float, factor: float) -> list[Value]:
     keys = {"frictions": [least, largest], "friction_factor": factor}
     return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
-
-
-def _plain(road: GridRoad) -> GridRoad:
-    return GridRoad(road.origin, road.spacing, road.heights, road.frictions, road.friction_factor)
 
 
 def height_step(z: np.ndarray) -> float:
@@ -178,7 +182,32 @@ def file_echo(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POIN
 
     `start`: x and y, m; `most`: points; of a file with more its place alone is looked at.
     """
-    head = None if Path(road.path).suffix.lower() in TEXTS else road.header
-    if head is not None and head.nx * head.ny > most:
-        return [start_echo(str(road.path), Place(head.real[:2], head.real[2:4], (head.nx, head.ny)), start)]
-    return [road_echo(str(road.path), read_road(road.path) if head is None else road.read(), start)]
+    made = read_road(road.path) if _is_text(road) else None
+    place = _place_of_header(road) if made is None else place_of(made) if isinstance(made, GridRoad) else None
+    if place is not None and math.prod(place.shape) > most:
+        return [start_echo(str(road.path), place, start)]
+    return [road_echo(str(road.path), road.read() if made is None else made, start)]
+
+
+def place_of_file(road: RoadFile) -> Place | None:
+    """Where the grid of a file lies; None of a plane or a kerb. A table is read once, until it is another."""
+    if not _is_text(road):
+        return _place_of_header(road)
+    file = Path(road.path).absolute()
+    return _place_of_table(file, file.stat().st_mtime_ns)
+
+
+def _is_text(road: RoadFile) -> bool:
+    return Path(road.path).suffix.lower() in TEXTS
+
+
+def _place_of_header(road: RoadFile) -> Place | None:
+    head = road.header
+    return Place(head.real[:2], head.real[2:4], (head.nx, head.ny)) if head.nx * head.ny else None
+
+
+@lru_cache(maxsize=8)
+def _place_of_table(file: Path, changed: int) -> Place | None:
+    """`changed`: when the file was."""
+    made = read_road(file)
+    return place_of(made) if isinstance(made, GridRoad) else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mbs.kernel.header.enumerations import RoadType
-from mbs.roads.road_echo import QUANTITIES, Place, file_echo, start_echo
+from mbs.roads.road_echo import QUANTITIES, Place, place_of_file, start_echo
 from mbs.roads.road_file import RoadFile
 from mbs.roads.steep_faces import RoadWarning
 from mbs.simulation.state import Pose
@@ -19,13 +19,15 @@ def tell_start(system: System, files: Mapping[int, str], pose: Pose | None, stac
     """
     start, arrays = (0.0, 0.0) if pose is None else (pose.x, pose.y), system.arrays
     for number, kind in enumerate(arrays["road_type"]):
+        place: Place | None = None
         if path := files.get(number, ""):
-            (echo,) = file_echo(RoadFile(path), start, most=0)
+            place = place_of_file(RoadFile(path))
         elif kind == RoadType.GRID:
             first = arrays["road_real_ptr"][number]
             nx, ny, x, y, dx, dy = arrays["road_real"][first : first + 6].tolist()
-            echo = start_echo("the road", Place((x, y), (dx, dy), (int(nx), int(ny))), start)
-        else:
+            place = Place((x, y), (dx, dy), (int(nx), int(ny)))
+        if place is None:
             continue
+        echo = start_echo(path or "the road", place, start)
         if any(v.quantity is QUANTITIES["away"] for v in echo.outside):
             echo.warn(RoadWarning, stacklevel + 1)

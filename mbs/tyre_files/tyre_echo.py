@@ -90,8 +90,8 @@ def magic_echo(what: str, tyre: MagicTyre, kind: str = "", prefix: str = "") -> 
     """
     given = {key: v for key, v in tyre.coefficients.items() if v and not (key.startswith("L") and v == 1.0)}
     mistakes = [_undo(tyre, prefix, key, factor, words) for key, factor, words in SCALED if key in given]
-    values, names = partial(_magic_values, prefix=prefix), {f: prefix + key for f, key in VERTICAL.items()}
-    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, names, values)], kind)
+    values = partial(_magic_values, prefix=prefix)
+    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
 def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo:
@@ -107,8 +107,8 @@ def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo
             changed = replace(curve, **{f: tuple(way * v for v in getattr(curve, f)) for f in fields})
             keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
             mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
-    values, names = partial(_tmeasy_values, prefix=prefix), {f: prefix + f for f in VERTICAL}
-    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, names, values)], kind)
+    values = partial(_tmeasy_values, prefix=prefix)
+    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
 def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
@@ -124,8 +124,14 @@ def _undo(tyre: MagicTyre, prefix: str, key: str, factor: float, words: str) -> 
     return Mistake(words, frozenset({prefix + key}), partial(_magic_values, undone, prefix))
 
 
-def _vertical_mistakes(tyre: AnyTyre, names: Mapping[str, str], values: Callable[[Any], list[Value]]) -> list[Mistake]:
-    """Of radii, loads and stiffness. `names`: keys of the fields; `values`: of a tyre."""
+def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
+    """Keys of the fields of `VERTICAL`."""
+    return {f: prefix + (key if isinstance(tyre, MagicTyre) else f) for f, key in VERTICAL.items()}
+
+
+def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[Value]]) -> list[Mistake]:
+    """Of radii, loads and stiffness. `values`: of a tyre."""
+    names = _vertical_names(tyre, prefix)
     found = [
         (f"{unit} in place of newtons in {names[field]}", {field: factor})
         for field in ("nominal_load", "stiffness", "largest_load")
@@ -155,7 +161,6 @@ def _magic_values(tyre: MagicTyre, prefix: str) -> list[Value]:
     given = {**c, "FNOMIN": nominal}
     keys = {name: {prefix + k: given[k] for k in own if k in given} for name, own in OWN.items()}
     curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
-    names = {f: prefix + key for f, key in VERTICAL.items()}
     found = [*_of_curves(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
     slips = tyre.along[0], cornering(tyre, nominal)
     lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
@@ -163,7 +168,7 @@ def _magic_values(tyre: MagicTyre, prefix: str) -> list[Value]:
         if any(c[k] for k in own):
             told = {prefix + k: c[k] for k in own if c[k]}
             found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, told, of))
-    return [*found, *_vertical(tyre, names)]
+    return [*found, *_vertical(tyre, prefix)]
 
 
 def _lateral(tyre: MagicTyre, part: float) -> _Curve:
@@ -218,7 +223,7 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
                 k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
-    return [*_of_curves(curves, keys), *_vertical(tyre, {f: prefix + f for f in VERTICAL})]
+    return [*_of_curves(curves, keys), *_vertical(tyre, prefix)]
 
 
 def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
@@ -244,9 +249,9 @@ def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str,
     return found
 
 
-def _vertical(tyre: AnyTyre, names: Mapping[str, str]) -> Iterator[Value]:
-    """Values of radii, loads and stiffness. `names`: keys of the fields."""
-    load, radius = tyre.nominal_load, tyre.radius
+def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
+    """Values of radii, loads and stiffness."""
+    load, radius, names = tyre.nominal_load, tyre.radius, _vertical_names(tyre, prefix)
     for name, value, fields in (
         ("deflection", load / tyre.stiffness / radius, ("nominal_load", "stiffness", "radius")),
         ("carries", 1e-3 * load / radius**3, ("nominal_load", "radius")),

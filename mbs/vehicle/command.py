@@ -113,7 +113,7 @@ def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | N
     import sys
     import warnings
 
-    from ali3.echo import tables_of
+    from ali3.echo import summary_of, tables_of
     from ali3.files import whole_file, write_text
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
@@ -123,9 +123,10 @@ def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | N
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         loaded = read_car(BuiltCar, car)
-    print(f"{summary(loaded)}\n\n{loaded.summary()}")
+    echoes = loaded.echo()
+    print(f"{summary(loaded)}\n\n{summary_of(echoes)}")
     if json_file is not None:
-        write_text(json_file, json.dumps(tables_of(loaded.echo()), indent=1) + "\n")
+        write_text(json_file, json.dumps(tables_of(echoes), indent=1) + "\n")
     if picture is not None:
         from mbs.vehicle.picture import draw_car
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ali3.chart_words import png_metadata
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.places import contact_points
 from mbs.vehicle.section import sections_of
 
 COLOURS = {"front": "#1c5fd0", "rear": "#e8590c"}
@@ -16,7 +17,7 @@ LABEL = {"facecolor": "white", "alpha": 0.7, "linewidth": 0.0, "pad": 0.3}
 
 def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
     """Every point of a car's file by its key path, m, with the places of masses."""
-    found = {
+    found: dict[str, tuple[float, ...]] = {
         section.key(field): value
         for section in sections_of(car)
         for field in type(section).model_fields
@@ -25,9 +26,7 @@ def points_of(car: CarContent) -> dict[str, tuple[float, ...]]:
         and (q := section.quantity(field)) is not None
         and q.unit == "m"
     }
-    contact = car.chassis.ground_contact
-    drawn = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
-    return found | {f"chassis.ground_contact.points.{k}": tuple(p) for k, p in enumerate(drawn)}
+    return found | contact_points(car)
 
 
 def draw_car(car: CarContent, file: Path) -> None:

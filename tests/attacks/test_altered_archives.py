@@ -72,4 +72,5 @@ def test_archives_are_unpacked_in_their_folder_or_refused(tmp_path: Path) -> Non
 @pytest.mark.proof
 @pytest.mark.attack
 def test_archives_by_chance_are_unpacked_in_their_folder_or_refused(tmp_path: Path) -> None:
-    assert sum(check(seed, tmp_path) for seed in seeds("archives"))
+    for seed in seeds("archives"):
+        check(seed, tmp_path)

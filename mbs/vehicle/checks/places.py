@@ -18,10 +18,7 @@ def place_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault."""
     for axle in (car.front, car.rear):
         yield from _suspension(axle)
-    contact = car.chassis.ground_contact
-    drawn = [(k, p) for k, p in enumerate(contact.points if contact else ()) if not isinstance(p, str)]
-    for k, point in drawn:  # the others are joints of the frame
-        key = f"{contact.key('points')}.{k}" if contact else ""
+    for key, point in contact_points(car).items():
         if point[1] < 0.0:
             yield f"{key} has y = {point[1]:g} m; points are given for the left side and are mirrored: y is 0 or more."
         for axle in (car.front, car.rear):
@@ -48,6 +45,11 @@ def parts_of(section: Section) -> list[Part]:
     return [inner for inner in sections_of(section) if isinstance(inner, Part)]
 
 
+def centres_of(section: Section) -> dict[str, Point]:
+    """Centres of mass of `parts_of`, by key path."""
+    return {part.key("com"): part.com for part in parts_of(section)}
+
+
 def drawn_points(section: Section) -> dict[str, Point]:
     """Points of the left side in the tables ``points`` of a section, by key path."""
     tables = [inner for inner in sections_of(section) if inner.path.endswith(".points")]
@@ -60,7 +62,7 @@ def drawn_points(section: Section) -> dict[str, Point]:
 
 
 def _suspension(axle: Axle) -> Iterator[str]:
-    points = drawn_points(axle) | {part.key("com"): part.com for part in parts_of(axle)}
+    points = drawn_points(axle) | centres_of(axle)
     for key, point in points.items():
         if not point[1] > 0.0:
             yield f"{key} has y = {point[1]:g} m; points are given for the left side, where y is above 0."
@@ -74,9 +76,12 @@ def points_of_the_body(car: CarContent) -> dict[str, Point]:
     points: dict[str, Point] = {chassis.key("com"): chassis.com, chassis.key("reference"): chassis.reference}
     points |= {load.key("point"): load.point for load in car.payload.values()}
     points |= {f"{chassis.key('accelerometers')}.{name}": point for name, point in chassis.accelerometers.items()}
-    if chassis.ground_contact is not None:
-        key = chassis.ground_contact.key("points")
-        points |= {
-            f"{key}.{k}": point for k, point in enumerate(chassis.ground_contact.points) if not isinstance(point, str)
-        }
-    return points
+    return points | contact_points(car)
+
+
+def contact_points(car: CarContent) -> dict[str, Point]:
+    """Points that may touch the ground, by key path; the others that are given are joints of the frame."""
+    contact = car.chassis.ground_contact
+    if contact is None:
+        return {}
+    return {f"{contact.key('points')}.{k}": p for k, p in enumerate(contact.points) if not isinstance(p, str)}

@@ -8,8 +8,6 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 
-GRIPPED = 0.02  # force over the load that a tyre must reach on the road: half of what wet ice gives
-
 
 def tyre_faults(car: CarContent) -> Iterator[str]:
     """A sentence for each fault."""

@@ -12,7 +12,6 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.masses import centre_of, centre_ranges, weighed_points
 from mbs.vehicle.checks.places import parts_of
-from mbs.vehicle.checks.tyres import GRIPPED
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import Section
 from mbs.vehicle.springs import Damper, Spring
@@ -24,6 +23,7 @@ DAMPED = 0.02, 5.0  # of the critical damping of the body on a wheel's spring
 BRAKED = 0.1, 5.0  # g, by the brakes alone at full pedal
 DRIVEN = 0.02, 5.0  # g, by the drive at full throttle from rest, were there grip for it
 FAST = 50.0  # m/s: there the air does not brake with more than 1 g, lift an axle or press it onto its stops
+GRIPPED = 0.02  # force over the load that a tyre must reach on the road: half of what wet ice gives
 DAMPER_SPEED = 0.3  # m/s: where the force of a table is compared with that of a coefficient
 
 Ranges = dict[str, tuple[float, float]]

@@ -13,7 +13,7 @@ from ali3.echo import Value, quantities_of
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
-from mbs.vehicle.checks.places import drawn_points, parts_of
+from mbs.vehicle.checks.places import centres_of, drawn_points
 from mbs.vehicle.checks.working import DAMPER_SPEED, under_load, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
@@ -102,7 +102,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
 
 def _places(axle: Axle, name: str) -> Iterator[Value]:
     """Of points and parts the farthest."""
-    points, centre, parts = drawn_points(axle), axle.wheel.centre, {p.key("com"): p.com for p in parts_of(axle)}
+    points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
     if not axle.suspension.linked:
         points = parts
     near = {axle.suspension.points.key(n) for n in axle.suspension.near_wheel} if axle.suspension.linked else set()
@@ -117,7 +117,7 @@ def _places(axle: Axle, name: str) -> Iterator[Value]:
     }
     if beyond and axle.suspension.linked:
         key = max(beyond, key=beyond.__getitem__)
-        yield Value(CAR["part"], beyond[key], {key: "com"}, name)
+        yield Value(CAR["part"], beyond[key], {key: list(parts[key])}, name)
 
 
 def _points(axle: Axle) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.masses import centre_of, weighed_points
-from mbs.vehicle.checks.places import drawn_points, parts_of, points_of_the_body
+from mbs.vehicle.checks.places import centres_of, drawn_points, parts_of, points_of_the_body
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.echo.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.environment import GRAVITY
@@ -106,7 +106,7 @@ def _of_points(car: CarContent) -> Iterator[Value]:
     ahead = {key: abs(point[0]) or math.inf for key, point in points.items()}
     key = min(ahead, key=ahead.__getitem__)
     yield Value(CAR["ahead"], ahead[key], {key: list(points[key])})
-    points |= drawn_points(car.front) | drawn_points(car.rear) | {p.key("com"): p.com for p in parts_of(car)}
+    points |= drawn_points(car.front) | drawn_points(car.rear) | centres_of(car)
     nearest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
     key = min(nearest, key=nearest.__getitem__)
     yield Value(CAR["nearest"], nearest[key], {key: list(points[key])})
