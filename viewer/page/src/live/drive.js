@@ -345,7 +345,7 @@ class Drive extends Shell {
       const row = session.record.row(Math.round(time / session.step));
       session.held.forEach((v, i) => (v.causality === "input" ? this.inputPanel : this.parameters).show(v.name, row[i]));
     }
-    if (this.sideOpen) this.plots.now();
+    if (this.sideOpen) this.plots.now(!running);
   }
 
   _download() {

@@ -1,6 +1,6 @@
 // One diagram: the signals of one unit over time, of all runs, with a line at the time that is shown.
 import uPlot from "uplot";
-import { el } from "../common/dom.js";
+import { el, write } from "../common/dom.js";
 import { COLOURS, TimePlot } from "../common/time_plot.js";
 import { linear, place } from "../sources/sampler.js";
 import { resampled, values } from "./series.js";
@@ -10,7 +10,7 @@ const SYNCED = "ali3"; // diagrams of the page have one line under the mouse
 const NULL_RETAIN = 1; // of uPlot.join: a gap of a run stays one
 
 /** @param {number} value @returns {string} */
-export const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
+const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
 
 /** A diagram. */
 export class Chart {
@@ -146,7 +146,7 @@ export class Chart {
       const inside = time >= t[0] && time <= t[t.length - 1];
       const [k, share] = place(t, time);
       const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
-      output.textContent = `${shownNumber(value)}${this.unit ? ` ${this.unit}` : ""}`;
+      write(output, `${shownNumber(value)}${this.unit ? ` ${this.unit}` : ""}`);
     }
   }
 
