@@ -108,11 +108,12 @@ export class Session {
     this._hears.moved();
   }
 
-  /** Begin again, and run on if it ran. */
+  /** Begin again, with other start values or another communication step where they are given, and run on if it ran. */
   async again(start = this.start, step = this.step) {
     const { running } = this;
+    Object.assign(this, { start: { ...start }, step, running: false, scrubbed: null });
     try {
-      await this.restart(start, step);
+      await this._ask("started", { do: "restart", start: this.start, step });
     } finally {
       if (running) await this.run();
       this._hears.moved();
@@ -132,15 +133,6 @@ export class Session {
     const inner = this.variables.get("step_size");
     const { step_size: _, ...start } = this.start;
     return inner && step < Number(inner.start) ? { ...start, step_size: Math.max(step, inner.min ?? 0) } : start;
-  }
-
-  /** Begin again, with other start values or another communication step where they are given. */
-  restart(start = this.start, step = this.step) {
-    this.start = { ...start };
-    this.step = step;
-    this.running = false;
-    this.scrubbed = null;
-    return this._ask("started", { do: "restart", start: this.start, step });
   }
 
   /** Go back to a step that was; what came after it is forgotten. */
@@ -220,12 +212,12 @@ export class Session {
     const rows = Number.isFinite(span) ? Math.round(span / this.step) : record.end;
     const from = Math.max(record.first, record.end - rows);
     const stride = Math.max(1, Math.ceil((record.end - from) / MOST_POINTS));
-    const series = (index) => record.series(index, from, stride);
+    const [t] = record.series(0, from, stride); // one list, which tells a diagram that its curves share their times
     return this.prefixes.map((prefix, k) => {
       const at = (name) => record.column(prefix + name); // what is set is in no FMU, or in the first
       const own = names.filter((name) => at(name) >= 0);
-      const columns = Object.fromEntries(own.map((name) => [name, { unit: this.columns.get(name), data: series(at(name))[1] }]));
-      return { name: this.fmus[k].title, t: series(0)[0], columns };
+      const columns = Object.fromEntries(own.map((name) => [name, { unit: this.columns.get(name), data: record.series(at(name), from, stride)[1] }]));
+      return { name: this.fmus[k].title, t, columns };
     });
   }
 
