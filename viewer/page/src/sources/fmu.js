@@ -2,18 +2,14 @@
 import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
+import { paceActs, unitsOf } from "./acts.js";
 import { Blend, turnsOf } from "./blend.js";
 import { clock } from "../live/worker.js";
 
 /** The picture is this much behind the run, so that there is a row on either side of it, s. */
 const BEHIND = 0.03;
-
-/** What L makes of the speed. */
-const SLOW = 0.25;
 /** Points of a curve. */
 const MOST_POINTS = 1000;
-/** Seconds of a rewind, without and with Shift. */
-const REWINDS = [2, 10];
 
 /** A run as the page sees it. */
 export class Session {
@@ -42,16 +38,13 @@ export class Session {
     this._waiting = new Map();
     const inputs = this.held.filter((v) => v.causality === "input").map((v) => v.name);
     const named = [...inputs, ...new Set(descriptions.flatMap((d) => outputNames(d)))];
-    /** Names and units of what can be plotted. */
-    this.columns = new Map(named.map((name) => [name, this.variables.get(name)?.unit ?? ""]).map(([name, unit]) => [name, unit === "1" ? "" : unit]));
+    this.columns = unitsOf(named, (name) => this.variables.get(name)?.unit);
     this.fmus = fmus;
     this.acts = {
+      ...paceActs(this, { speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)), back: (seconds) => this.rewind(seconds) }),
       toggle: () => (this.running ? this.pause() : this.run()),
       step: () => this.advance(),
-      rewind: (event) => this.rewind(event?.shiftKey ? REWINDS[1] : REWINDS[0]),
       reset: () => this.again(),
-      speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)),
-      slow: () => this.acts.speed(this.speed < 1 ? 1 : SLOW),
       seek: (time) => this.scrub(time),
       stepSize: (step) => this.again(this.#fitting(step), step).catch(() => {}), // told by `error`
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
