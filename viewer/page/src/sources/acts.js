@@ -1,28 +1,17 @@
 // What sources have in common: acts on the pace of a run, units of what can be plotted.
 
-/** What L makes of the speed. */
-const SLOW = 0.25;
-/** Seconds of a rewind, without and with Shift. */
-const REWINDS = [2, 10];
+const SLOW = 0.25; // what L makes of the speed
+const REWINDS = [2, 10]; // s, without and with Shift
 
 /**
  * Acts on the pace of a run, by the names of the table of keys.
- * @param {{speed: number}} source
- * @param {{speed: (wish: number) => unknown, back: (seconds: number) => unknown}} means
+ * @param {{speed: number}} source @param {{speed: (wish: number) => unknown, back: (seconds: number) => unknown}} means
  */
-export function paceActs(source, { speed, back }) {
-  return {
-    speed,
-    slow: () => speed(source.speed < 1 ? 1 : SLOW),
-    rewind: (/** @type {Data} */ event) => back(event?.shiftKey ? REWINDS[1] : REWINDS[0]),
-  };
-}
+export const paceActs = (source, { speed, back }) => ({
+  speed,
+  slow: () => speed(source.speed < 1 ? 1 : SLOW),
+  rewind: (/** @type {Data} */ event) => back(REWINDS[event?.shiftKey ? 1 : 0]),
+});
 
-/**
- * Names and units of what can be plotted; what has no unit has an empty one.
- * @param {string[]} names @param {(name: string) => string | undefined} unit
- * @returns {Map<string, string>}
- */
-export function unitsOf(names, unit) {
-  return new Map(names.map((name) => [name, unit(name) ?? ""]).map(([name, found]) => [name, found === "1" ? "" : found]));
-}
+/** Units by name, that of a pure number empty. @param {string[]} names @param {(name: string) => string | undefined} unit */
+export const unitsOf = (names, unit) => new Map(names.map((name) => [name, (unit(name) ?? "").replace(/^1$/, "")]));
