@@ -1,7 +1,6 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
 import { button, el, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
-import { Plots } from "../shell/plots.js";
 import { Shell } from "../shell/shell.js";
 import { decoded } from "../sources/decode.js";
 import { Hands, HANDS_MS } from "./hands.js";
@@ -243,7 +242,7 @@ class Drive extends Shell {
     const wished = this.options.plots ?? PLOTTED.filter((name) => session.columns.has(name));
     const names = [...session.columns.keys()];
     const first = wished.length ? wished : names.slice(this.inputs.length, this.inputs.length + 3);
-    this.plots = new Plots(this.sideBox, this, session, first.slice(0, 4));
+    this.plotted = first.slice(0, 4);
     this.side(true);
   }
 

@@ -7,7 +7,6 @@ import { levers } from "../live/touch.js";
 import { Instruments } from "../instruments/index.js";
 import { WorldMap } from "../instruments/map.js";
 import { SceneView } from "../scene/scene_view.js";
-import { Plots } from "../shell/plots.js";
 import { Shell } from "../shell/shell.js";
 import { Beat } from "../sources/frames.js";
 import { Socket } from "../sources/socket.js";
@@ -194,7 +193,6 @@ export class Cockpit extends Shell {
 
   /** @param {boolean} open */
   side(open) {
-    if (open) this.plots ??= new Plots(this.sideBox, this, this.source, []);
     super.side(open);
     this.link.send({ type: "watch devices", on: open });
     if (open) this.link.send({ type: "report" });
