@@ -233,7 +233,6 @@ class Drive extends Shell {
     const more = {
       csv: () => this._download(),
       ...(instruments.length ? { instruments: () => instruments.forEach((one) => one.toggle()) } : {}),
-      ...(this.isCar ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this._mute() } : {}),
     };
     const driven = this.isCar ? (event) => this.hands.key(event, this.get("speed")) : undefined;
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
@@ -246,10 +245,9 @@ class Drive extends Shell {
     this.side(true);
   }
 
-  _mute() {
-    this._muted = !this._muted;
-    this.stage.mute(this._muted);
-    this.bar.sound(!this._muted);
+  mute(on) {
+    super.mute(on);
+    this.stage.mute(on);
   }
 
   _setSoon(variable, value) {

@@ -103,6 +103,7 @@ export class Shell {
       help: () => this.help.toggle(),
       close: () => (this.settings.toggle(false), this.help.toggle(false)),
       "full screen": () => fullScreen(this.root),
+      ...(drive ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this.mute(!this.muted) } : {}),
       ...more,
     };
     if (source.grows) this.root.dataset.grows = "yes";
@@ -164,6 +165,12 @@ export class Shell {
     const { clientWidth, clientHeight } = this.root;
     this.root.dataset.shape = clientWidth > WIDE * clientHeight ? "wide" : "tall";
     this.dirty = true;
+  }
+
+  /** Sound of a car is heard or not; what sounds is of those who extend this. @param {boolean} on */
+  mute(on) {
+    this.muted = on;
+    this.bar.sound(!on);
   }
 
   /** Say a sentence over the picture. @param {string} sentence */
