@@ -146,8 +146,7 @@ class Drive extends Shell {
     const runs = beside ? (await decoded(beside)).runs : [];
     const recordings = runs.map((run, k) => {
       const sampler = new Sampler(run);
-      const sample = (time) => (sampler.at(time), sampler.lookup);
-      return { title: `${run.name} (recorded)`, scene: run.scene, sample, recording: { ...run, end: ends[k] } };
+      return { title: `${run.name} (recorded)`, scene: run.scene, sample: (time) => sampler.at(time), recording: { ...run, end: ends[k] } };
     });
     const table = script ? await unpackedJson(script) : null;
     this.script = table;

@@ -73,10 +73,7 @@ export class Recordings {
 
   /** Numbers of each run. @param {number} [t] s @returns {import("../shell/shell.js").Lookup[]} */
   sample(t = this.time) {
-    return this.samplers.map((sampler) => {
-      sampler.at(t);
-      return sampler.lookup;
-    });
+    return this.samplers.map((sampler) => sampler.at(t));
   }
 
   /** A recorded time of the first run, so many from the one that is shown; the run then stands. @param {number} steps */
