@@ -1,11 +1,26 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
-import { signalNames } from "../shell/series.js";
 import { paceActs } from "./acts.js";
 import { Clock, SPEEDS } from "./clock.js";
 import { Sampler } from "./sampler.js";
 
 /** Recorded times of a step, without and with Shift. */
 const STEPS = [1, 10];
+
+/**
+ * Names of all signals: those that do not only place bodies come first.
+ * @param {Pick<import("./decode.js").Run, "scene" | "columns">[]} runs
+ * @returns {string[]}
+ */
+export function signalNames(runs) {
+  const poses = new Set();
+  for (const { scene } of runs) {
+    for (const frame of Object.values(scene?.frames ?? {})) {
+      for (const name of [...(frame.position ?? []), ...(frame.quaternion ?? [])]) poses.add(name);
+    }
+  }
+  const all = [...new Set(runs.flatMap(({ columns }) => Object.keys(columns)))];
+  return [...all.filter((name) => !poses.has(name)), ...all.filter((name) => poses.has(name))];
+}
 
 /** Recordings that are shown at one time. */
 export class Recordings {
