@@ -324,11 +324,8 @@ class Drive extends Shell {
     if (shown !== this._drawn || session.running !== this._ran) {
       [this._drawn, this._ran] = [shown, session.running];
       this.draw();
-      return;
-    }
-    this.stage.dirty ||= this.dirty;
+    } else if (this.dirty) this.stage.render();
     this.dirty = false;
-    this.stage.render();
   }
 
   _showPanel() {
