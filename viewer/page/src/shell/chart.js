@@ -105,7 +105,7 @@ export class Chart {
       series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
       cursor: { sync: { key: SYNCED }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
-        draw: [() => this.#place()],
+        draw: [() => this.#putLine()],
         setScale: [(plot, key) => key === "x" && !this.#quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
       },
     };
@@ -146,7 +146,7 @@ export class Chart {
   }
 
   /** The line, where the time that is shown stands now. */
-  #place() {
+  #putLine() {
     const left = this.plot?.valToPos(this.source.time, "x");
     this.line.style.display = left >= 0 && left <= this.plot.over.clientWidth ? "" : "none";
     this.line.style.transform = `translateX(${left}px)`;
@@ -155,7 +155,7 @@ export class Chart {
   /** The line and the values at the time that is shown. */
   now() {
     const { time } = this.source;
-    this.#place();
+    this.#putLine();
     for (const { t, data, output } of this.curves) {
       const inside = time >= t[0] && time <= t[t.length - 1];
       const [k, share] = place(t, time);
