@@ -5,7 +5,8 @@ import { Clock } from "../src/sources/clock.js";
 import { decoded, fromPlanes } from "../src/sources/decode.js";
 import { slerp } from "../src/sources/blend.js";
 import { Sampler, linear, place } from "../src/sources/sampler.js";
-import { byUnit, found, resampled, signalNames } from "../src/shell/series.js";
+import { signalNames } from "../src/sources/recordings.js";
+import { byUnit, found, resampled } from "../src/shell/series.js";
 
 const near = (a, b, tolerance = 1e-12) => assert.ok(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
 

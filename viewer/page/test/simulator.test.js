@@ -10,7 +10,7 @@ import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
 import { useColour, wheelsOf } from "../src/instruments/tyres.js";
 import { besides } from "../src/instruments/map.js";
 import { cameraActs } from "../src/common/views.js";
-import { Wants } from "../src/simulator/wants.js";
+import { Wants } from "../src/sources/wants.js";
 
 const frame = (time, more = {}) => ({ epoch: 1, running: true, speed: 1, count: Math.round(time / 0.002), time, values: [time], ...more });
 

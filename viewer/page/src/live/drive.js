@@ -1,7 +1,6 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
 import { button, el, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
-import { Plots } from "../shell/plots.js";
 import { Shell } from "../shell/shell.js";
 import { decoded } from "../sources/decode.js";
 import { Hands, HANDS_MS } from "./hands.js";
@@ -147,8 +146,7 @@ class Drive extends Shell {
     const runs = beside ? (await decoded(beside)).runs : [];
     const recordings = runs.map((run, k) => {
       const sampler = new Sampler(run);
-      const sample = (time) => (sampler.at(time), sampler.lookup);
-      return { title: `${run.name} (recorded)`, scene: run.scene, sample, recording: { ...run, end: ends[k] } };
+      return { title: `${run.name} (recorded)`, scene: run.scene, sample: (time) => sampler.at(time), recording: { ...run, end: ends[k] } };
     });
     const table = script ? await unpackedJson(script) : null;
     this.script = table;
@@ -234,7 +232,6 @@ class Drive extends Shell {
     const more = {
       csv: () => this._download(),
       ...(instruments.length ? { instruments: () => instruments.forEach((one) => one.toggle()) } : {}),
-      ...(this.isCar ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this._mute() } : {}),
     };
     const driven = this.isCar ? (event) => this.hands.key(event, this.get("speed")) : undefined;
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
@@ -243,14 +240,13 @@ class Drive extends Shell {
     const wished = this.options.plots ?? PLOTTED.filter((name) => session.columns.has(name));
     const names = [...session.columns.keys()];
     const first = wished.length ? wished : names.slice(this.inputs.length, this.inputs.length + 3);
-    this.plots = new Plots(this.sideBox, this, session, first.slice(0, 4));
+    this.plotted = first.slice(0, 4);
     this.side(true);
   }
 
-  _mute() {
-    this._muted = !this._muted;
-    this.stage.mute(this._muted);
-    this.bar.sound(!this._muted);
+  mute(on) {
+    super.mute(on);
+    this.stage.mute(on);
   }
 
   _setSoon(variable, value) {
@@ -328,11 +324,8 @@ class Drive extends Shell {
     if (shown !== this._drawn || session.running !== this._ran) {
       [this._drawn, this._ran] = [shown, session.running];
       this.draw();
-      return;
-    }
-    this.stage.dirty ||= this.dirty;
+    } else if (this.dirty) this.stage.render();
     this.dirty = false;
-    this.stage.render();
   }
 
   _showPanel() {
@@ -345,7 +338,7 @@ class Drive extends Shell {
       const row = session.record.row(Math.round(time / session.step));
       session.held.forEach((v, i) => (v.causality === "input" ? this.inputPanel : this.parameters).show(v.name, row[i]));
     }
-    if (this.sideOpen) this.plots.now();
+    if (this.sideOpen) this.plots.now(!running);
   }
 
   _download() {

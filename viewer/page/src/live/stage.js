@@ -11,7 +11,7 @@ const SURVEYED = 40;
 /** After this a camera stays where a person has put it, s of the run. */
 const SURVEYED_UNTIL = 20;
 
-/** Pictures that are drawn when something has changed. */
+/** Pictures side by side. */
 export class Stage {
   /**
    * @param {Data[]} items - `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
@@ -38,7 +38,6 @@ export class Stage {
       return { ...item, holder, notice, hud, instruments, element };
     });
     this._options = { driven: !options.keep, ...options };
-    this.dirty = true;
   }
 
   /** Make the pictures, once the element stands in the page. */
@@ -47,7 +46,6 @@ export class Stage {
       part.road ??= "";
       part.view = new SceneView(part.holder, part.scene, this._options);
       part.view.set(this._look);
-      new ResizeObserver(() => (this.dirty = true)).observe(part.holder);
     }
     for (const part of this.parts) this._follow(part);
     this.problem = this.parts.map((part) => part.view.problem).find(Boolean) ?? "";
@@ -133,13 +131,10 @@ export class Stage {
       part.instruments?.show(lookup);
       if (part.recording?.end) this.tell(part, time > end ? part.recording.end : "");
     }
-    this.dirty = true;
   }
 
   /** Put the pictures on the screen. */
   render() {
-    if (!this.dirty) return;
-    this.dirty = false;
     for (const part of this.parts) part.view.render();
   }
 

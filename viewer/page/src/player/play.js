@@ -4,7 +4,6 @@ import { el } from "../common/dom.js";
 import { Instruments } from "../instruments/index.js";
 import { SceneView } from "../scene/scene_view.js";
 import { digitsOf } from "../shell/bar.js";
-import { Plots } from "../shell/plots.js";
 import { Shell } from "../shell/shell.js";
 import { extremesOf } from "../sources/extremes.js";
 import { Recordings } from "../sources/recordings.js";
@@ -36,6 +35,7 @@ export class Player extends Shell {
     this.options = { ...options, ...(options.controls === false ? {} : fromHash(location.hash)) };
     this.quality = this.options.quality ?? "auto";
     this.source = new Recordings(runs, this.options);
+    this.plotted = this.options.plots ?? [];
     this.source.changed = (moved) => this.#moved(moved);
     this.clock = this.source.clock;
     const { arrows, arrow_scale: arrowScale, stress, deformation, path, closed } = this.options;
@@ -121,12 +121,6 @@ export class Player extends Shell {
     }
     this.drawnRuns.find(({ sampler }) => sampler === ghost.sampler)?.traces.show(on && this.look.path);
     this.#show();
-  }
-
-  /** Show or hide the diagrams. @param {boolean} open */
-  side(open) {
-    this.plots ??= new Plots(this.sideBox, this, this.source, this.options.plots ?? []);
-    super.side(open);
   }
 
   /** Something that the address of the page tells has changed. */
@@ -216,7 +210,7 @@ export class Player extends Shell {
     const { t } = this.runs[0];
     const instruments = this.instruments ? { instruments: () => this.instruments.toggle() } : {};
     this.controls(this.source, instruments, { digits: digitsOf((t[t.length - 1] - t[0]) / Math.max(1, t.length - 1)) });
-    if (plotsOnly || this.options.plots?.length) this.side(true);
+    if (plotsOnly || this.plotted.length) this.side(true);
   }
 
   /** Names of the runs with the colours of their paths. */

@@ -1,16 +1,25 @@
 // One diagram: the signals of one unit over time, of all runs, with a line at the time that is shown.
 import uPlot from "uplot";
-import { el } from "../common/dom.js";
-import { COLOURS, TimePlot } from "../common/time_plot.js";
+import uplotStyle from "uplot/dist/uPlot.min.css";
+import { el, write } from "../common/dom.js";
 import { linear, place } from "../sources/sampler.js";
+import { styled } from "../styles.js";
 import { resampled, values } from "./series.js";
 
+/** Okabe and Ito's palette: distinguishable with any colour vision. */
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9", "#8a8f94"];
+const FONT = "11px system-ui, sans-serif";
+const FAINT = { stroke: "#8884", width: 1 };
+// A canvas takes the word currentColor for black.
+const INK = (/** @type {uPlot} */ plot) => getComputedStyle(plot.root).color;
+const AXIS = { stroke: INK, grid: FAINT, ticks: FAINT, font: FONT, labelFont: FONT, labelSize: 16 };
+const LINE = "position:absolute;top:0;bottom:0;width:0;border-left:1.5px solid var(--accent, #8888);pointer-events:none;display:none";
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const SYNCED = "ali3"; // diagrams of the page have one line under the mouse
 const NULL_RETAIN = 1; // of uPlot.join: a gap of a run stays one
 
 /** @param {number} value @returns {string} */
-export const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
+const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecision(5)).toString() : "–");
 
 /** A diagram. */
 export class Chart {
@@ -35,8 +44,10 @@ export class Chart {
     this.legend = this.#legend();
     this.box = el("div.a3-chart", {}, this.legend);
     parent.append(this.box);
-    this.timed = new TimePlot(this.box, this.#data(), this.#settings());
-    this.plot = this.timed.plot;
+    this.line = el("div.a3-now", { style: LINE });
+    styled(uplotStyle);
+    this.plot = new uPlot(this.#settings(), this.#data(), this.box);
+    this.plot.over.append(this.line);
     this.plot.over.addEventListener("click", (event) => this.#clicked(event));
   }
 
@@ -78,27 +89,23 @@ export class Chart {
     return [joined[0], ...this.curves.map(({ data }) => at.get(data))];
   }
 
-  /** @returns {import("../common/time_plot.js").PlotOptions} */
+  /** @returns {uPlot.Options} */
   #settings() {
     const [min, max] = this.source.grows ? [] : this.source.range;
     return {
       width: 300,
       height: 140,
       padding: [6, 8, 0, 0],
-      scales: { x: { range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max } },
+      legend: { show: false },
+      scales: { x: { time: false, range: (plot, low, high) => (low === high ? [low - 0.5, high + 0.5] : [low, high]), min, max } },
       axes: [
-        { label: "time, s", size: 26 },
-        { label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
+        { ...AXIS, label: "time, s", size: 26 },
+        { ...AXIS, label: this.unit || "1", size: (plot, labels) => 14 + 6.3 * Math.max(3, ...(labels ?? []).map((text) => text.length)) },
       ],
-      series: this.curves.map(({ label, colour, dash, t }) => ({
-        label,
-        stroke: colour,
-        dash,
-        width: 1.5,
-        points: { show: t.length === 1 ? true : undefined },
-      })),
+      series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
       cursor: { sync: { key: SYNCED }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
+        draw: [() => this.#putLine()],
         setScale: [(plot, key) => key === "x" && !this.#quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
       },
     };
@@ -138,15 +145,22 @@ export class Chart {
     this.#quiet = false;
   }
 
+  /** The line, where the time that is shown stands now. */
+  #putLine() {
+    const left = this.plot?.valToPos(this.source.time, "x");
+    this.line.style.display = left >= 0 && left <= this.plot.over.clientWidth ? "" : "none";
+    this.line.style.transform = `translateX(${left}px)`;
+  }
+
   /** The line and the values at the time that is shown. */
   now() {
     const { time } = this.source;
-    this.timed.at(time);
+    this.#putLine();
     for (const { t, data, output } of this.curves) {
       const inside = time >= t[0] && time <= t[t.length - 1];
       const [k, share] = place(t, time);
       const value = inside && data[k] !== null ? linear(data, k, data[k + 1] === null ? 0 : share) : NaN;
-      output.textContent = `${shownNumber(value)}${this.unit ? ` ${this.unit}` : ""}`;
+      write(output, `${shownNumber(value)}${this.unit ? ` ${this.unit}` : ""}`);
     }
   }
 
@@ -170,7 +184,7 @@ export class Chart {
   }
 
   dispose() {
-    this.timed.dispose();
+    this.plot.destroy();
     this.box.remove();
   }
 }

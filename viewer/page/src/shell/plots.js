@@ -55,7 +55,7 @@ export class Plots {
   }
 
   /** Show the time, and what a run that goes on has been. @param {boolean} [all] at once */
-  now(all = !this.source.running) {
+  now(all = false) {
     if (this.source.grows && (all || performance.now() - this.drawnAt > EVERY)) {
       this.drawnAt = performance.now();
       const runs = this.source.plotted(this.chosen, this.span);

@@ -35,22 +35,6 @@ export function byUnit(names, columns) {
 }
 
 /**
- * Names of all signals: those that do not only place bodies come first.
- * @param {Pick<import("../sources/decode.js").Run, "scene" | "columns">[]} runs
- * @returns {string[]}
- */
-export function signalNames(runs) {
-  const poses = new Set();
-  for (const { scene } of runs) {
-    for (const frame of Object.values(scene?.frames ?? {})) {
-      for (const name of [...(frame.position ?? []), ...(frame.quaternion ?? [])]) poses.add(name);
-    }
-  }
-  const all = [...new Set(runs.flatMap(({ columns }) => Object.keys(columns)))];
-  return [...all.filter((name) => !poses.has(name)), ...all.filter((name) => poses.has(name))];
-}
-
-/**
  * Names that hold all words of a search, in any order.
  * @param {string[]} names @param {string} search
  */

@@ -52,13 +52,17 @@ export class Settings {
       rows.push(el("span", {}, text), range, shown);
       return (value) => player.setLook({ [key]: value });
     };
-    if (player.has.arrows) {
-      this.shown.arrows = check(hint("arrows"), look.arrows, (arrows) => player.setLook({ arrows }), "show arrows");
-      factor("length of the arrows", "arrowScale", 0.1, 10);
-    }
-    if (player.has.path) this.shown.path = check(hint("path"), look.path, (path) => player.setLook({ path }), "show path");
-    if (player.has.closed) this.shown.closed = check(hint("closed"), look.closed, (closed) => player.setLook({ closed }), "show closed");
-    if (player.has.stress) this.shown.stress = check(hint("stress"), look.stress, (stress) => player.setLook({ stress }), "show stress");
+    const shows = (what) => {
+      if (player.has[what]) this.shown[what] = check(hint(what), look[what], (on) => player.setLook({ [what]: on }), `show ${what}`);
+    };
+    const choice = (data, text, names, change, value) => {
+      const box = select(data, text, named(names), change, value);
+      rows.push(el("span", {}, text), box, el("span"));
+      return (now) => (box.value = now);
+    };
+    shows("arrows");
+    if (player.has.arrows) factor("length of the arrows", "arrowScale", 0.1, 10);
+    for (const what of ["path", "closed", "stress"]) shows(what);
     if (player.has.deformation) {
       const deform = factor("deformation", "deformation", 1, 1000);
       const fit = () => deform(player.view.fittingDeformation);
@@ -66,16 +70,8 @@ export class Settings {
     }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
     if (this.source.acts.loop) this.shown.loop = check(hint("loop"), this.source.clock.loop, () => this.source.acts.loop());
-    if (player.view) {
-      const text = "quality of the picture";
-      const quality = select("quality", text, named(QUALITIES), (wish) => player.setLook({ quality: wish }), player.quality);
-      this.shown.quality = (wish) => (quality.value = wish);
-      rows.push(el("span", {}, text), quality, el("span"));
-    }
-    const theme = el("select", { "aria-label": "colours of the page", onchange: () => player.theme(theme.value) });
-    theme.append(...["auto", "light", "dark"].map((name) => el("option", { value: name }, name)));
-    theme.value = player.themeName;
-    rows.push(el("span", {}, "colours of the page"), theme, el("span"));
+    if (player.view) this.shown.quality = choice("quality", "quality of the picture", QUALITIES, (quality) => player.setLook({ quality }), player.quality);
+    choice("theme", "colours of the page", ["auto", "light", "dark"], (name) => player.theme(name), player.themeName);
     const copied = el("span");
     const copy = async () => {
       player.remember();

@@ -6,6 +6,7 @@ import { keys } from "../common/keys.js";
 import { cameraActs } from "../common/views.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
+import { Plots } from "./plots.js";
 import { Settings } from "./settings.js";
 import style from "./style.css";
 
@@ -42,8 +43,12 @@ export class Shell {
   /** @type {Data[]} see-through runs */
   ghosts = [];
   dirty = true;
-  /** Signals over time, made when they are first shown. @type {import("./plots.js").Plots | undefined} */
+  /** What the page shows; see `Source`. @type {any} */
+  source;
+  /** Signals over time, made when they are first shown. @type {Plots | undefined} */
   plots;
+  /** Names of the signals that are plotted at first. @type {string[]} */
+  plotted = [];
   dark = matchMedia("(prefers-color-scheme: dark)");
 
   /** @param {HTMLElement} container an element with a size @param {{theme?: string, kind?: string}} [options] `kind`: a class of the page */
@@ -84,6 +89,7 @@ export class Shell {
    * @param {(event: KeyboardEvent) => boolean} [drive] takes the keys that drive a car
    */
   controls(source, more, bar = {}, drive) {
+    this.source = source;
     const say = (sentence) => sentence && this.tell(sentence);
     const switches = ["arrows", "stress", "closed", "path"].filter((what) => this.has[what]);
     const camera = (name) => say(this.camera(name));
@@ -97,6 +103,7 @@ export class Shell {
       help: () => this.help.toggle(),
       close: () => (this.settings.toggle(false), this.help.toggle(false)),
       "full screen": () => fullScreen(this.root),
+      ...(drive ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this.mute(!this.muted) } : {}),
       ...more,
     };
     if (source.grows) this.root.dataset.grows = "yes";
@@ -138,6 +145,7 @@ export class Shell {
 
   /** Show or hide what stands beside the picture. @param {boolean} open */
   side(open) {
+    if (open) this.plots ??= new Plots(this.sideBox, this, this.source, this.plotted);
     this.sideBox.hidden = !open;
     this.bar?.buttons.panels.setAttribute("aria-pressed", String(open));
     this.shape();
@@ -157,6 +165,12 @@ export class Shell {
     const { clientWidth, clientHeight } = this.root;
     this.root.dataset.shape = clientWidth > WIDE * clientHeight ? "wide" : "tall";
     this.dirty = true;
+  }
+
+  /** Sound of a car is heard or not; what sounds is of those who extend this. @param {boolean} on */
+  mute(on) {
+    this.muted = on;
+    this.bar.sound(!on);
   }
 
   /** Say a sentence over the picture. @param {string} sentence */

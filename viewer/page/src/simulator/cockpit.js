@@ -7,7 +7,6 @@ import { levers } from "../live/touch.js";
 import { Instruments } from "../instruments/index.js";
 import { WorldMap } from "../instruments/map.js";
 import { SceneView } from "../scene/scene_view.js";
-import { Plots } from "../shell/plots.js";
 import { Shell } from "../shell/shell.js";
 import { Beat } from "../sources/frames.js";
 import { Socket } from "../sources/socket.js";
@@ -182,11 +181,7 @@ export class Cockpit extends Shell {
     const said = hello.recording ? `Everything is recorded in ${hello.recording}` : "Nothing is recorded.";
     const recorded = section("Recording", true, el("p", { data: "recording" }, said));
     this.sideBox.append(this._devices.element, section("Report", true, this.report.element), recorded, this.gamepadPanel.element);
-    const more = {
-      mute: () => this._mute(),
-      levers: () => this.root.classList.toggle("a3-touching"),
-      instruments: () => this.instruments.toggle(),
-    };
+    const more = { instruments: () => this.instruments.toggle() };
     const places = (world.places ?? []).map(({ name }) => name);
     this.controls(this.source, more, { places }, (event) => this.hands.key(event, this._speed ?? 0));
     this.camera(this.cameras[0]);
@@ -194,7 +189,6 @@ export class Cockpit extends Shell {
 
   /** @param {boolean} open */
   side(open) {
-    if (open) this.plots ??= new Plots(this.sideBox, this, this.source, []);
     super.side(open);
     this.link.send({ type: "watch devices", on: open });
     if (open) this.link.send({ type: "report" });
@@ -253,10 +247,9 @@ export class Cockpit extends Shell {
     return "";
   }
 
-  _mute() {
-    this._muted = !this._muted;
-    this.effects.sound.mute(this._muted);
-    this.bar.sound(!this._muted);
+  mute(on) {
+    super.mute(on);
+    this.effects.sound.mute(on);
   }
 
   /** @param {string} sentence */

@@ -2,18 +2,14 @@
 import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
+import { paceActs, unitsOf } from "./acts.js";
 import { Blend, turnsOf } from "./blend.js";
 import { clock } from "../live/worker.js";
 
 /** The picture is this much behind the run, so that there is a row on either side of it, s. */
 const BEHIND = 0.03;
-
-/** What L makes of the speed. */
-const SLOW = 0.25;
 /** Points of a curve. */
 const MOST_POINTS = 1000;
-/** Seconds of a rewind, without and with Shift. */
-const REWINDS = [2, 10];
 
 /** A run as the page sees it. */
 export class Session {
@@ -42,16 +38,13 @@ export class Session {
     this._waiting = new Map();
     const inputs = this.held.filter((v) => v.causality === "input").map((v) => v.name);
     const named = [...inputs, ...new Set(descriptions.flatMap((d) => outputNames(d)))];
-    /** Names and units of what can be plotted. */
-    this.columns = new Map(named.map((name) => [name, this.variables.get(name)?.unit ?? ""]).map(([name, unit]) => [name, unit === "1" ? "" : unit]));
+    this.columns = unitsOf(named, (name) => this.variables.get(name)?.unit);
     this.fmus = fmus;
     this.acts = {
+      ...paceActs(this, { speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)), back: (seconds) => this.rewind(seconds) }),
       toggle: () => (this.running ? this.pause() : this.run()),
       step: () => this.advance(),
-      rewind: (event) => this.rewind(event?.shiftKey ? REWINDS[1] : REWINDS[0]),
       reset: () => this.again(),
-      speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)),
-      slow: () => this.acts.speed(this.speed < 1 ? 1 : SLOW),
       seek: (time) => this.scrub(time),
       stepSize: (step) => this.again(this.#fitting(step), step).catch(() => {}), // told by `error`
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
@@ -108,11 +101,12 @@ export class Session {
     this._hears.moved();
   }
 
-  /** Begin again, and run on if it ran. */
+  /** Begin again, with other start values or another communication step where they are given, and run on if it ran. */
   async again(start = this.start, step = this.step) {
     const { running } = this;
+    Object.assign(this, { start: { ...start }, step, running: false, scrubbed: null });
     try {
-      await this.restart(start, step);
+      await this._ask("started", { do: "restart", start: this.start, step });
     } finally {
       if (running) await this.run();
       this._hears.moved();
@@ -132,15 +126,6 @@ export class Session {
     const inner = this.variables.get("step_size");
     const { step_size: _, ...start } = this.start;
     return inner && step < Number(inner.start) ? { ...start, step_size: Math.max(step, inner.min ?? 0) } : start;
-  }
-
-  /** Begin again, with other start values or another communication step where they are given. */
-  restart(start = this.start, step = this.step) {
-    this.start = { ...start };
-    this.step = step;
-    this.running = false;
-    this.scrubbed = null;
-    return this._ask("started", { do: "restart", start: this.start, step });
   }
 
   /** Go back to a step that was; what came after it is forgotten. */
@@ -220,12 +205,12 @@ export class Session {
     const rows = Number.isFinite(span) ? Math.round(span / this.step) : record.end;
     const from = Math.max(record.first, record.end - rows);
     const stride = Math.max(1, Math.ceil((record.end - from) / MOST_POINTS));
-    const series = (index) => record.series(index, from, stride);
+    const [t] = record.series(0, from, stride); // one list, which tells a diagram that its curves share their times
     return this.prefixes.map((prefix, k) => {
       const at = (name) => record.column(prefix + name); // what is set is in no FMU, or in the first
       const own = names.filter((name) => at(name) >= 0);
-      const columns = Object.fromEntries(own.map((name) => [name, { unit: this.columns.get(name), data: series(at(name))[1] }]));
-      return { name: this.fmus[k].title, t: series(0)[0], columns };
+      const columns = Object.fromEntries(own.map((name) => [name, { unit: this.columns.get(name), data: record.series(at(name), from, stride)[1] }]));
+      return { name: this.fmus[k].title, t, columns };
     });
   }
 

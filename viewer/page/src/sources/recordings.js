@@ -1,13 +1,26 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
-import { signalNames } from "../shell/series.js";
+import { paceActs } from "./acts.js";
 import { Clock, SPEEDS } from "./clock.js";
 import { Sampler } from "./sampler.js";
 
-/** What L makes of the speed. */
-const SLOW = 0.25;
-/** Recorded times of a step, and seconds of a rewind, without and with Shift. */
+/** Recorded times of a step, without and with Shift. */
 const STEPS = [1, 10];
-const REWINDS = [2, 10];
+
+/**
+ * Names of all signals: those that do not only place bodies come first.
+ * @param {Pick<import("./decode.js").Run, "scene" | "columns">[]} runs
+ * @returns {string[]}
+ */
+export function signalNames(runs) {
+  const poses = new Set();
+  for (const { scene } of runs) {
+    for (const frame of Object.values(scene?.frames ?? {})) {
+      for (const name of [...(frame.position ?? []), ...(frame.quaternion ?? [])]) poses.add(name);
+    }
+  }
+  const all = [...new Set(runs.flatMap(({ columns }) => Object.keys(columns)))];
+  return [...all.filter((name) => !poses.has(name)), ...all.filter((name) => poses.has(name))];
+}
 
 /** Recordings that are shown at one time. */
 export class Recordings {
@@ -23,21 +36,23 @@ export class Recordings {
     this.clock = new Clock(begin, end, { speed, loop });
     this.clock.seek(time ?? begin);
     this.columns = this.#columns();
-    const far = (/** @type {any} */ event, /** @type {number[]} */ [near, further]) => (event?.shiftKey ? further : near);
+    const far = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
     const toggle = () => this.#pace(() => (this.running ? this.clock.pause() : this.clock.play()));
     const seek = (t) => this.#seek(t);
+    const pace = paceActs(this, {
+      speed: (wish) => this.#pace(() => (this.clock.speed = Math.min(10, Math.max(0.05, wish)))),
+      back: (seconds) => seek(this.time - seconds),
+    });
     this.acts = {
+      ...pace,
       toggle,
       play: toggle,
       seek,
-      step: (event) => seek(this.#beside(far(event, [STEPS[0], STEPS[0]]))),
-      before: (event) => seek(this.#beside(-far(event, STEPS))),
-      after: (event) => seek(this.#beside(far(event, STEPS))),
-      speed: (wish) => this.#pace(() => (this.clock.speed = Math.min(10, Math.max(0.05, wish)))),
-      faster: () => this.acts.speed(this.#next(1)),
-      slower: () => this.acts.speed(this.#next(-1)),
-      slow: () => this.acts.speed(this.speed < 1 ? 1 : SLOW),
-      rewind: (event) => seek(this.time - far(event, REWINDS)),
+      step: () => seek(this.#beside(STEPS[0])),
+      before: (event) => seek(this.#beside(-far(event))),
+      after: (event) => seek(this.#beside(far(event))),
+      faster: () => pace.speed(this.#next(1)),
+      slower: () => pace.speed(this.#next(-1)),
       reset: () => seek(begin),
       end: () => seek(end),
       loop: () => this.#pace(() => (this.clock.loop = !this.clock.loop)),
@@ -73,10 +88,7 @@ export class Recordings {
 
   /** Numbers of each run. @param {number} [t] s @returns {import("../shell/shell.js").Lookup[]} */
   sample(t = this.time) {
-    return this.samplers.map((sampler) => {
-      sampler.at(t);
-      return sampler.lookup;
-    });
+    return this.samplers.map((sampler) => sampler.at(t));
   }
 
   /** A recorded time of the first run, so many from the one that is shown; the run then stands. @param {number} steps */

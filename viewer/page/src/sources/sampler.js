@@ -40,7 +40,7 @@ export class Sampler {
     this.at(run.t[0]);
   }
 
-  /** @param {number} t s */
+  /** @param {number} t s @returns {import("../shell/shell.js").Lookup} `lookup`, which gives the numbers of that time from now on */
   at(t) {
     const { t: times, epoch, columns } = this.run;
     /** Sample before the instant, and the share of the way to the next. @type {[number, number]} */
@@ -49,5 +49,6 @@ export class Sampler {
     if (share > 0 && epoch && epoch[k] !== epoch[k + 1]) this.place[1] = 0; // nothing moves from one epoch to the next
     const row = (i) => (name) => columns[name]?.data[i];
     this.#now = this.#blend.lookup(row(k), row(k + 1), this.place[1]);
+    return this.lookup;
   }
 }

@@ -1,12 +1,9 @@
 // A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames come by a socket.
-import { Wants } from "../simulator/wants.js";
+import { paceActs, unitsOf } from "./acts.js";
 import { Blend, turnsOf } from "./blend.js";
 import { Frames } from "./frames.js";
+import { Wants } from "./wants.js";
 
-/** What L makes of the speed. */
-const SLOW = 0.25;
-/** Seconds of a rewind, without and with Shift. */
-const REWINDS = [2, 10];
 /** Numbers of the frames that diagrams have, in all, and points of a curve. */
 const [KEPT, MOST_POINTS] = [1e7, 1000];
 
@@ -26,8 +23,7 @@ export class Socket {
     const variables = description?.variables ?? [];
     this.index = new Map(columns.map((name, k) => [name, k]));
     const units = new Map(variables.map(({ name, unit }) => [name, unit]));
-    /** Names and units of what can be plotted. */
-    this.columns = new Map(columns.map((name) => [name, units.get(name) ?? ""]).map(([name, unit]) => [name, unit === "1" ? "" : unit]));
+    this.columns = unitsOf(columns, (name) => units.get(name));
     const { quaternions, angles } = turnsOf(scene);
     const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
     this.#blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
@@ -36,11 +32,9 @@ export class Socket {
     const command = (name, value) => link.command(name, value);
     const back = (seconds) => command("rewind", seconds);
     this.acts = {
+      ...paceActs(this, { speed: (wish) => command("speed", wish), back }),
       toggle: () => command(this.running ? "pause" : "run"),
       step: () => command("step", 1),
-      speed: (wish) => command("speed", wish),
-      slow: () => command("speed", this.speed < 1 ? 1 : SLOW),
-      rewind: (event) => back(event?.shiftKey ? REWINDS[1] : REWINDS[0]),
       seek: (time, done) => done && back(this.range[1] - time), // the program goes back once it is told how far
       upright: () => command("upright"),
       reset: () => command("reset"),

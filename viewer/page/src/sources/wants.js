@@ -6,7 +6,7 @@ const rounded = (value) => Math.round(1e3 * value) / 1e3 || 0;
 
 /** The wishes of the sources of a page. */
 export class Wants {
-  /** @param {{want: (source: string, values: Data) => void}} link - Passes on what is new or old enough; see link.js. */
+  /** @param {{want: (source: string, values: Data) => void}} link - Passes on what is new or old enough; see simulator/link.js. */
   constructor(link) {
     this._link = link;
     this._sources = new Map();
