@@ -25,9 +25,8 @@ WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel'
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 SURE_BALANCE = 0.2  # above, no refined run is needed to know
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
-MOST_COST = (
-    48.0  # of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
-)
+# Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
+MOST_COST = 48.0
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
@@ -148,7 +147,7 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
-    """What is known without a repeat."""
+    """What is known without a refined run."""
     known = report.kinetic_peak > 0.0
     return Accuracy(
         report.energy_balance if known else None,

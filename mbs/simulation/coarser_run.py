@@ -1,4 +1,4 @@
-"""CoarserRuns runs by which a run is seen to be right: which ones, and what their differences from it say."""
+"""Coarser runs by which a run is seen to be right: which ones, and what their differences from it say."""
 
 from __future__ import annotations
 
@@ -24,8 +24,6 @@ from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 FEWEST = 6  # instants at which a much coarser run is compared
 AGREED = 0.1  # of what a coarser run may differ by
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-
-
 TIMES = (8, 4, 2)  # the step of a coarser run over that of the run
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
 SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}

@@ -78,7 +78,7 @@ class RefinedRuns:
     tried : float
         Step of the last refined run, s.
     known : Accuracy or None
-        By the last repeat.
+        By the last refined run.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     compared : dict of str to Compared
