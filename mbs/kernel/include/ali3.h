@@ -410,7 +410,7 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
 /* The error of the coarser motion by what both differ by: steps are so many times those of the finer one. */
 ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
-#define ALI3_EVENT_ORDER 2 /* behind abrupt events, of parts of steps that shrink with the step */
+#define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */
