@@ -131,14 +131,15 @@ class CoarserRuns:
         if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
             return None
         run = self.refined.run if thin == 1 else (self.refined.run[0].thinned(thin), [])
-        smooth, watch = self._smooth_from / thin, None
+        smooth, watch = math.inf, None
         if not (coordinates or iterations):  # with one iteration a run is too short to be worth it
+            smooth = self._smooth_from / thin
             watch = self.watch(run[0], most, largest(times), smooth)
         try:
             other = self.refined.again(h, steps, 1.0 / made, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
-        if watch is not None and len(other[0].t) >= smooth:
+        if len(other[0].t) >= smooth:
             other = self._continued(other[0], run[0]), []
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
