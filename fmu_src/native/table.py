@@ -106,7 +106,7 @@ def c_table(
 def _judged(variable: Variable, judged: Mapping[int, Compared]) -> str:
     what = judged.get(variable.index) if variable.source == "sensor" else None
     if what is None or what.unit not in JUDGED_UNITS:
-        return "{0, 0}"
+        return "{-1, 0}"
     return f"{{{JUDGED_UNITS[what.unit]:d}, {kind_of(what)}}}"
 
 
