@@ -13,7 +13,8 @@ import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
 from benchmarks.shared.pages import Row, table
-from mbs.results.accuracy import WRONG_BALANCE, WRONG_ERROR
+from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.results.accuracy import WRONG_BALANCE
 
 LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}

@@ -14,7 +14,7 @@ import mbs
 from benchmarks.methods.families import FAMILIES, Case, Found
 from benchmarks.references.newton_euler import NoReferenceError
 from benchmarks.shared.pages import Row, table
-from mbs.results.accuracy import WRONG_ERROR
+from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.results.comparison import compared_sensors, sizes_of
 from mbs.simulation.prepared_system import length_of
 

@@ -214,7 +214,7 @@ def _compiled(
         print(f"car {car_words(options.car)} ...", flush=True)
         with line.told("compiling the car"):
             car = build_car(options.car, options.poses, options.ports, options.fidelity, tables.append)
-        print("".join(f"{table}\n" for table in tables), end="", flush=True)
+        _tell_tables(tables)
         _tell_grip(car.grip)
         return car.name, car.systems, min(car.systems), car.description, car.files
     from fmu_src.build.car_registry import grip_of
@@ -223,10 +223,14 @@ def _compiled(
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
         compiled = load_fidelities(options.scene, options.poses, tables.append)
-    print("".join(f"{table}\n" for table in tables), end="", flush=True)
+    _tell_tables(tables)
     if (scene_car := car_of_scene(options.scene)) is not None:
         _tell_grip(grip_of(scene_car))
     return (*compiled, "", {})
+
+
+def _tell_tables(tables: Sequence[str]) -> None:
+    print("".join(f"{table}\n" for table in tables), end="", flush=True)
 
 
 def _tell_names(found: Renamed, variables: int) -> None:

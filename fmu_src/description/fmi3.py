@@ -170,11 +170,15 @@ def map_manifest(arrays: Sequence[Array]) -> dict[str, bytes]:
     """Manifest of the layered standard by which terminals are maps, by its path; nothing where there are none."""
     if not tables_of(arrays):
         return {}
-    named = {"name": LS_STRUCT, "version": "1.0.0-rc.1", "description": "Layered standard for structuring of variables"}
+    what = "Layered standard for structuring of variables"
+    found = manifest("fmiLayeredStandardManifest", name=LS_STRUCT, version="1.0.0-rc.1", description=what)
+    return {f"extra/{LS_STRUCT}/fmi-ls-manifest.xml": to_bytes(found)}
+
+
+def manifest(tag: str, **named: str) -> ElementTree.Element:
+    """Root of a manifest of a layered standard; `named`: its attributes, without what all of them begin with."""
     ElementTree.register_namespace("fmi-ls", LS_NAMESPACE)
-    attributes = {f"{{{LS_NAMESPACE}}}fmi-ls-{name}": value for name, value in named.items()}
-    manifest = ElementTree.Element("fmiLayeredStandardManifest", attributes)
-    return {f"extra/{LS_STRUCT}/fmi-ls-manifest.xml": to_bytes(manifest)}
+    return ElementTree.Element(tag, {f"{{{LS_NAMESPACE}}}fmi-ls-{name}": value for name, value in named.items()})
 
 
 _FORCE = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")

@@ -19,7 +19,7 @@ import mbs
 from ali3.parameter_set import ParameterSet
 from ali3.write_parameter_set import parameter_set_bytes
 from fmu_src.description.description import number, to_bytes
-from fmu_src.description.fmi3 import LS_NAMESPACE
+from fmu_src.description.fmi3 import manifest
 from fmu_src.variables.variables import Variable
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
@@ -149,21 +149,17 @@ def reference_files(
     `runs`: as `reference_runs` gives them; `stop_time`, `step`: default experiment, s; `parameters`: their values.
     Result: by path in the FMU.
     """
-    ElementTree.register_namespace("fmi-ls", LS_NAMESPACE)
-    manifest = ElementTree.Element(
+    references = manifest(
         "fmiReferences",
-        {
-            f"{{{LS_NAMESPACE}}}fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
-            f"{{{LS_NAMESPACE}}}fmi-ls-version": "1.0.0-alpha.1",
-            f"{{{LS_NAMESPACE}}}fmi-ls-description": "Layered Standard providing information on related files included "
-            "in an FMU.",
-        },
+        name="org.fmi-standard.fmi-ls-ref",
+        version="1.0.0-alpha.1",
+        description="Layered Standard providing information on related files included in an FMU.",
     )
     experiments = ElementTree.Element("Experiments", name=f"Default experiment of {name}")
     files = {}
 
     def related(source: str, kind: str, role: str, words: str) -> None:
-        ElementTree.SubElement(manifest, "Related", source=source, type=kind, role=role, description=words)
+        ElementTree.SubElement(references, "Related", source=source, type=kind, role=role, description=words)
 
     related(EXPERIMENTS, "application/x-ma-hs-experiments", "experiment/smoke-test", "The experiments")
     given_parameters = f"{name}.ssv"
@@ -190,7 +186,7 @@ def reference_files(
         related(source, "text/csv", "result", f"Outputs of the default experiment, {words}")
         files[f"{FOLDER}/{source}"] = _csv(run.t, run.columns)
     return {
-        f"{FOLDER}/fmi-ls-manifest.xml": to_bytes(manifest),
+        f"{FOLDER}/fmi-ls-manifest.xml": to_bytes(references),
         f"{FOLDER}/{EXPERIMENTS}": to_bytes(experiments),
         **files,
     }

@@ -8,8 +8,8 @@ from itertools import accumulate
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.variables import Variable
-from mbs.results.compared import JUDGED_UNITS, kind_of
-from mbs.results.comparison import Compared
+from mbs.kernel.header.enumerations import JudgedKind, JudgedUnit
+from mbs.results.comparison import COORDINATES, Compared
 
 _SOURCES = {
     "input": "SLAVE_INPUT",
@@ -25,6 +25,15 @@ _SOURCES = {
     "capped_residual": "SLAVE_CAPPED_RESIDUAL",
     "ahead": "SLAVE_AHEAD",
     "constant": "SLAVE_CONSTANT",
+}
+JUDGED_UNITS = {
+    "m": JudgedUnit.M,
+    "rad": JudgedUnit.RAD,
+    COORDINATES: JudgedUnit.COORDINATE,
+    "N": JudgedUnit.N,
+    "m/s": JudgedUnit.M_S,
+    "rad/s": JudgedUnit.RAD_S,
+    "N m": JudgedUnit.N_M,
 }
 
 ROLL = "chassis.roll"
@@ -97,8 +106,19 @@ def c_table(
 def _judged(variable: Variable, judged: Mapping[int, Compared]) -> str:
     what = judged.get(variable.index) if variable.source == "sensor" else None
     if what is None or what.unit not in JUDGED_UNITS:
-        return "{0, 0}"
+        return "{-1, 0}"
     return f"{{{JUDGED_UNITS[what.unit]:d}, {kind_of(what)}}}"
+
+
+def kind_of(what: Compared) -> int:
+    """`ali3_judged.kind`."""
+    bits = {
+        JudgedKind.PLACE: what.place,
+        JudgedKind.LOAD: what.load,
+        JudgedKind.ALWAYS: what.always,
+        JudgedKind.WRAPPED: what.wrapped,
+    }
+    return sum(bit for bit, is_set in bits.items() if is_set)
 
 
 def _texts(texts: Sequence[TextVariable]) -> str:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT
+from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT, WRONG_ERROR
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import is_open_tree
@@ -19,15 +19,13 @@ from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
-WRONG_ERROR = 0.05  # of the largest range in a unit
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 SURE_BALANCE = 0.2  # above, no refined run is needed to know
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
-MOST_COST = (
-    48.0  # of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved
-)
+# Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
+MOST_COST = 48.0
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
@@ -148,7 +146,7 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
-    """What is known without a repeat."""
+    """What is known without a refined run."""
     known = report.kinetic_peak > 0.0
     return Accuracy(
         report.energy_balance if known else None,

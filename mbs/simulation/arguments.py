@@ -56,14 +56,14 @@ def check_end(t0: float, t_end: float) -> float:
 
 
 def check_estimate(value: object) -> bool | float | None:
-    """Whether a run is to be repeated, or what that may cost, or one sentence."""
+    """Whether a run is checked by refined runs, or what they may cost, or one sentence."""
     most = float(value) if is_finite(value) else 0.0  # type: ignore[arg-type]
     if 0.0 < most <= MOST_RUNS:
         return most
     if value is not None and not isinstance(value, (bool, np.bool_)):
         raise ValueError(
             f"estimate_error = {shown(value)}; it must be True, False or None (suspects only), or a number above 0, up "
-            f"to {MOST_RUNS:g}: what repeats may cost, in runs."
+            f"to {MOST_RUNS:g}: what refined runs may cost, in runs."
         )
     return None if value is None else bool(value)
 

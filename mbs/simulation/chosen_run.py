@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
-from mbs.results.accuracy import WRONG_ERROR, AccuracyWarning
+from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.results.accuracy import AccuracyWarning
 from mbs.results.comparison import STILL, Compared, compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory

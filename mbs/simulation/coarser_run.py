@@ -1,4 +1,4 @@
-"""CoarserRuns runs by which a run is seen to be right: which ones, and what their differences from it say."""
+"""Coarser runs by which a run is seen to be right: which ones, and what their differences from it say."""
 
 from __future__ import annotations
 
@@ -24,8 +24,6 @@ from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 FEWEST = 6  # instants at which a much coarser run is compared
 AGREED = 0.1  # of what a coarser run may differ by
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-
-
 TIMES = (8, 4, 2)  # the step of a coarser run over that of the run
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
 SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}
@@ -133,14 +131,15 @@ class CoarserRuns:
         if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
             return None
         run = self.refined.run if thin == 1 else (self.refined.run[0].thinned(thin), [])
-        smooth, watch = self._smooth_from / thin, None
+        smooth, watch = math.inf, None
         if not (coordinates or iterations):  # with one iteration a run is too short to be worth it
+            smooth = self._smooth_from / thin
             watch = self.watch(run[0], most, largest(times), smooth)
         try:
             other = self.refined.again(h, steps, 1.0 / made, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
-        if watch is not None and len(other[0].t) >= smooth:
+        if len(other[0].t) >= smooth:
             other = self._continued(other[0], run[0]), []
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):

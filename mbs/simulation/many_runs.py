@@ -165,8 +165,7 @@ class _Run:
             if run.accuracy is not None and run.accuracy.message:
                 told.append((AccuracyWarning, run.accuracy.message))
             return told
-        bent, rim = self.simulation.bending.message, self.simulation.road_text
-        return told + [(kind, text) for kind, text in ((BendingWarning, bent), (RoadWarning, rim)) if text]
+        return told + self._remarks()
 
     def _told(self, run: Trajectory) -> Warned:
         system, report = self.simulation.system, run.report
@@ -174,10 +173,12 @@ class _Run:
         if report is not None and accuracy.balance_says(report, METHOD, driven):
             told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
         told += [(BranchWarning, run.branch_change)] if run.branch_change else []
-        told += [(BendingWarning, self.simulation.bending.message)] if self.simulation.bending.message else []
-        wall = self.simulation.road_text
-        told += [(RoadWarning, wall)] if wall else []
-        return told
+        return told + self._remarks()
+
+    def _remarks(self) -> Warned:
+        """Of what the model holds for, at the end of the run."""
+        bent, rim = self.simulation.bending.message, self.simulation.road_text
+        return [(kind, text) for kind, text in ((BendingWarning, bent), (RoadWarning, rim)) if text]
 
 
 def simulate_many(

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.kernel.header.limits import EVENT_ORDER
 from mbs.results import accuracy
 from mbs.results.accuracy import FAR, MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.comparison import (
@@ -33,7 +34,6 @@ from mbs.system.system import System
 
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
 Watch = Callable[[NDArray[np.float64]], bool]
-EVENT_ORDER = 2.0  # behind abrupt events: of ALi3-P, where stops are located and parts of steps shrink with the step
 
 
 class TooDearError(Exception):
@@ -78,7 +78,7 @@ class RefinedRuns:
     tried : float
         Step of the last refined run, s.
     known : Accuracy or None
-        By the last repeat.
+        By the last refined run.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     compared : dict of str to Compared

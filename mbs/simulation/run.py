@@ -99,7 +99,7 @@ def simulate(
     Returns
     -------
     Trajectory
-        Sensor values at t0, t0 + every h, ...; of the steps asked for, also after a repeat.
+        Sensor values at t0, t0 + every h, ...; of the steps asked for, also after a refined run.
 
     Raises
     ------

@@ -10,8 +10,6 @@ from mbs.simulation.prepared_system import prepared
 from mbs.simulation.system_instance import SystemInstance
 from mbs.system.system import System
 
-UNEVEN = 1e-3  # m: of a start on a road that is not level, as an FMU says it
-
 
 class SteppedSystem(SystemInstance):
     """An instance of the kernel, and what runs and error messages read of it.
@@ -48,14 +46,11 @@ class SteppedSystem(SystemInstance):
     @property
     def start_text(self) -> str:
         """A sentence about a start on a road that is not level; empty where there is nothing to say."""
-        lift, uneven = self.instance.start_lift()
-        if not uneven > UNEVEN:
-            return ""
-        return (
-            f"The road is not level where this starts: the start is raised by {lift:.3g} m so that nothing is in the "
-            f"road, and the part that hangs highest above its place of rest sinks by {uneven:.3g} m. With "
-            "Simulation.settle(3.0, h) before the first step it begins at rest in the road, or in its motion along it."
+        remedy = (
+            " With Simulation.settle(3.0, h) before the first step it begins at rest in the road, or in its motion "
+            "along it."
         )
+        return text + remedy if (text := self.instance.start_text()) else ""
 
     def change_settings(self, settings: Settings) -> None:
         """Solve the steps from now on in another way."""

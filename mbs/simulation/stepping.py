@@ -52,7 +52,7 @@ from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
 MOST_ITERATIONS = 10**6
-FEWEST_CHECKED = 10  # steps of a run that is repeated to check it
+FEWEST_CHECKED = 10  # steps of a run that is checked by refined runs
 
 
 class Simulation(SteppedSystem):

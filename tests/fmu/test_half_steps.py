@@ -214,14 +214,15 @@ def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable
     assert float(said.split("At ")[1].split(" s")[0]) < 2.7
 
 
+@pytest.mark.parametrize("scene", ["double_pendulum", "double_pendulum_rates"])
 @pytest.mark.parametrize(("h", "span"), [(0.02, 1.6), (0.01, 0.6)])
-def test_places_are_compared_where_nothing_touches_and_outputs_at_rest_judge_nothing(
-    h: float, span: float, build: Callable[..., Path], host: HostMaker
+def test_places_or_rates_are_compared_where_nothing_touches_and_outputs_at_rest_judge_nothing(
+    h: float, span: float, scene: str, build: Callable[..., Path], host: HostMaker
 ) -> None:
     """A double pendulum in long steps: its tip goes elsewhere, or is right; its pin is open by round-off."""
     ends, names = [], ["tip.x", "tip.y"]
     for step in (2e-4, h):
-        driven, rows = host(build("double_pendulum")).start({"step_size": step}), []
+        driven, rows = host(build(scene)).start({"step_size": step}), []
         for k in range(round(span / h)):
             driven.step(k * h, h)
             rows.append([driven.get(name) for name in names])
@@ -232,6 +233,19 @@ def test_places_are_compared_where_nothing_touches_and_outputs_at_rest_judge_not
     assert nothing == []
     assert len(said) == (error > 0.05)
     assert all(re.search(r"1/2 of it, tip\.[xy] is off", m) for m in said)
+
+
+@pytest.mark.parametrize(("scene", "times"), [("double_pendulum", 1), ("double_pendulum_accelerations", 0)])
+def test_nothing_is_made_twice_where_no_output_is_compared(
+    scene: str, times: int, build: Callable[..., Path], host: HostMaker
+) -> None:
+    """Else a state that is set ends a second motion, which the log tells."""
+    driven = host(build(scene)).start({"step_size": 0.02})
+    driven.slave.setDebugLogging(True, ["logAll"])
+    for k in range(5):
+        driven.step(k * 0.02, 0.02)
+    driven.slave.setFMUstate(driven.slave.getFMUstate())
+    assert len([m for m in driven.messages if "second time" in m]) == times
 
 
 def test_a_host_that_sets_a_state_before_each_step_is_told_that_nothing_is_checked(

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from ctypes import POINTER, c_double
+from typing import Any
+
 import numpy as np
 import pytest
 
+from fmu_src.native.table import JUDGED_UNITS, kind_of
+from mbs.kernel.binding import load_library
+from mbs.kernel.header.structures import ComparedFields, JudgedFields
 from mbs.results import comparison
-from mbs.results.compared import compared
-from mbs.results.comparison import Compared, compared_in
+from mbs.results.comparison import Array, Compared, compared_in
 
 LENGTH = 2.0
 KINDS = {
@@ -54,3 +60,41 @@ def test_an_angle_that_is_not_followed_judges_nothing_and_is_no_size_of_others()
     gaps, sizes = compared(coarse, fine, {name: KINDS[name] for name in fine}, LENGTH, False)
     assert sizes == pytest.approx({"turning": 0.3})
     assert gaps == pytest.approx({"turning": 0.01})
+
+
+def compared(
+    coarse: Mapping[str, Array], fine: Mapping[str, Array], judged: Mapping[str, Compared], length: float, guided: bool
+) -> tuple[dict[str, float], dict[str, float]]:
+    """What two motions differ by at their samples, and what that is held against.
+
+    Parameters
+    ----------
+    coarse, fine : mapping of str to array of shape (n,)
+        By name, at the same samples; sizes are those of the finer one.
+    judged : mapping of str to Compared
+        What is compared.
+    length : float
+        Of the model, m.
+    guided : bool
+        Whether places that are the same in both do not move by themselves.
+
+    Returns
+    -------
+    gaps : dict of str to float
+        Largest differences.
+    sizes : dict of str to float
+        Of those that count.
+    """
+    names, library = list(judged), load_library()
+    what = (JudgedFields * len(names))(*(JudgedFields(JUDGED_UNITS[w.unit], kind_of(w)) for w in judged.values()))
+    seen, size = (ComparedFields * len(names))(), np.zeros(len(names))
+    rows = [np.column_stack([np.asarray(run[name], float) for name in names]) for run in (coarse, fine)]
+    time, *motions = (_doubles(np.ascontiguousarray(a)) for a in (np.arange(float(len(rows[0]))), *rows))
+    library.ali3_compare(what, len(names), len(rows[0]), time, *motions, seen)
+    library.ali3_compared_sizes(what, len(names), seen, length, guided, _doubles(size))
+    sizes = {name: float(of) for name, of in zip(names, size, strict=True) if of > 0.0}
+    return {name: s.gap for name, s in zip(names, seen, strict=True) if name in sizes}, sizes
+
+
+def _doubles(values: Array) -> Any:
+    return values.ctypes.data_as(POINTER(c_double))

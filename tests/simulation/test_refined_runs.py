@@ -10,9 +10,10 @@ import pytest
 
 import mbs
 from mbs.kernel.header.enumerations import Status
+from mbs.kernel.header.limits import EVENT_ORDER
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.comparison import Compared
-from mbs.simulation.refined_run import EVENT_ORDER, RefinedRuns, Run, extrapolated, unsure
+from mbs.simulation.refined_run import RefinedRuns, Run, extrapolated, unsure
 
 T = np.linspace(0.0, 1.0, 101)
 FORCE = 1000.0 * np.cos(3.0 * T)

@@ -27,18 +27,19 @@ static bool spent(const slave_half_steps *t, const slave_late_step *step) {
 
 /* What is compared: outputs that the System at work computes, see `judged` of the table. */
 static bool is_judged(const slave *s, const slave_variable *v) {
-  return v->source == SLAVE_SENSOR && v->judged.kind != 0 && !(v->uncomputed >> s->fidelity.number & 1);
+  return v->judged.unit >= 0 && !(v->uncomputed >> s->fidelity.number & 1);
 }
 
-/* Room for what is compared, in one block. */
+/* Room for what is compared, in one block; false where that is nothing. */
 static bool begin_comparison(slave *s) {
   slave_half_steps *t = &s->half_steps;
   const slave_table *table = &slave_the_table;
   size_t n = 0;
   if (t->seen != NULL) return true;
   for (size_t i = table->n_known; i < table->n_variables; i++) n += is_judged(s, table->variable + i);
+  if (n == 0) return false;
   t->seen = s->memory.allocate(
-      1, n * (sizeof(ali3_compared) + 2 * sizeof(double) + sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)) + 1);
+      1, n * (sizeof(ali3_compared) + 2 * sizeof(double) + sizeof(ali3_judged) + sizeof(size_t) + sizeof(int32_t)));
   if (t->seen == NULL) return false;
   t->n = (int32_t)n;
   t->shown = (double *)(t->seen + n);

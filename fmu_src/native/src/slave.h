@@ -45,7 +45,7 @@ typedef struct {
       other; /* variable: of an answer the x of the wheel it is for, of a hub its velocity, ahead: the rate; or -1 */
   double scale; /* of inputs and sensors: the value is this times that of the System */
   double figure[4]; /* of a hub, see mbs.model.records.Role */
-  ali3_judged judged; /* how two motions are compared by it; kind 0: not */
+  ali3_judged judged; /* how two motions are compared by it; unit -1: not */
 } slave_variable;
 
 typedef struct {

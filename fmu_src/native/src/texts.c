@@ -95,14 +95,10 @@ static const double STILL = 0.01; /* m/s */
 
 /* What is worth a word about a start: on a road from a file, or that settles. */
 void slave_texts_remark(slave *s) {
-  double uneven;
-  const double lift = ali3_start_lift(s->fidelity.kernel, &uneven);
-  if (uneven > 1e-3)
+  char text[SLAVE_TEXT / 2];
+  if (ali3_start_text(s->fidelity.kernel, text, sizeof text) == ALI3_OK && text[0] != 0)
     slave_say(s, SLAVE_WARNING,
-              "The road is not level where this starts: the start is raised by %.3g m so that nothing is in the road, "
-              "and the part that hangs highest above its place of rest sinks by %.3g m. With 'initial.settling' of 3 "
-              "it begins at rest in the road, or in its motion along it.",
-              lift, uneven);
+              "%s With 'initial.settling' of 3 it begins at rest in the road, or in its motion along it.", text);
   if (ali3_unsettled(s->fidelity.kernel) > STILL)
     slave_say(s, SLAVE_WARNING,
               "The start has not settled: parts still move at %.1g m/s; 'initial.settling' should be longer.",

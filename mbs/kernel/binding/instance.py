@@ -179,10 +179,9 @@ class Instance(StandingInstance):
         self._start(self._library.ali3_settle(self._handle, duration, h))
         return float(self._library.ali3_unsettled(self._handle))
 
-    def start_lift(self) -> tuple[float, float]:
-        """How far the start was raised onto the road of a file, m, and how far the highest part hangs above it, m."""
-        uneven = c_double()
-        return float(self._library.ali3_start_lift(self._handle, byref(uneven))), uneven.value
+    def start_text(self) -> str:
+        """A sentence on a start on a road of a file that is not level; empty where there is nothing to say."""
+        return self._text(self._library.ali3_start_text)
 
     def start_excess(self) -> tuple[float, int, str]:
         """Why a start was refused with `START_REFUSED`.

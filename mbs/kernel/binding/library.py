@@ -54,7 +54,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_get_switch": (c_int32, [c_void_p, c_int32, POINTER(c_int32)]),
     "ali3_initialise": (c_int32, [c_void_p, c_double]),
     "ali3_settle": (c_int32, [c_void_p, c_double, c_double]),
-    "ali3_start_lift": (c_double, [c_void_p, _DOUBLES]),
+    "ali3_start_text": (c_int32, [c_void_p, c_char_p, c_size_t]),
     "ali3_unsettled": (c_double, [c_void_p]),
     "ali3_start_excess": (c_double, [c_void_p, POINTER(c_int32), POINTER(c_char_p)]),
     "ali3_method_excludes": (c_char_p, [c_void_p]),

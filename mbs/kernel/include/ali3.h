@@ -280,10 +280,10 @@ ALI3_API double ali3_unsettled(const ali3_instance *in);
 /* After ALI3_START_REFUSED: how much higher, m, the scene must start so that it is out of the way of all elements.
  * Which element refuses the start most (-1: none), and its words after the element's name; NULL: not asked for. */
 ALI3_API double ali3_start_excess(const ali3_instance *in, int32_t *element, const char **words);
-/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: how much the last
- * start was raised for that, m; *uneven: how far the part that is highest above its place of rest has to sink, m, 0
- * after ali3_settle; NULL: not asked for. */
-ALI3_API double ali3_start_lift(const ali3_instance *in, double *uneven);
+/* A scene that a pose may place starts on a road of a file at the height at which it rests on its own: a sentence on how
+ * much the last start was raised for that and how far the part that is highest above its place of rest has to sink;
+ * empty up to 1 mm, and after ali3_settle. */
+ALI3_API ali3_status ali3_start_text(const ali3_instance *in, char *text, size_t size);
 /* What is no force in the System: 1e-6 of the largest force of gravity on a coordinate, N. */
 ALI3_API double ali3_no_force(const ali3_instance *in);
 /* After ALI3_WRONG_METHOD: what the method of the settings takes no System with, in words; "" if it takes all. */
@@ -410,7 +410,7 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
 /* The error of the coarser motion by what both differ by: steps are so many times those of the finer one. */
 ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
-#define ALI3_EVENT_ORDER 2 /* behind abrupt events, of parts of steps that shrink with the step */
+#define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */

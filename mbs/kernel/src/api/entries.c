@@ -64,7 +64,7 @@ ENTRY(ali3_status, ali3_settle, (ali3_instance *in, double duration, double h), 
 PROCEDURE(ali3_count_work, (ali3_instance *in, int64_t *left), (in, left), in)
 ENTRY(double, ali3_unsettled, (const ali3_instance *in), (in), NULL)
 ENTRY(double, ali3_start_excess, (const ali3_instance *in, int32_t *element, const char **words), (in, element, words), NULL)
-ENTRY(double, ali3_start_lift, (const ali3_instance *in, double *uneven), (in, uneven), NULL)
+ENTRY(ali3_status, ali3_start_text, (const ali3_instance *in, char *text, size_t size), (in, text, size), NULL)
 ENTRY(double, ali3_no_force, (const ali3_instance *in), (in), NULL)
 ENTRY(const char *, ali3_method_excludes, (const ali3_instance *in), (in), NULL)
 ENTRY(ali3_status, ali3_static_equilibrium, (ali3_instance *in, double t0, double tolerance, int32_t max_iterations), (in, t0, tolerance, max_iterations), in)

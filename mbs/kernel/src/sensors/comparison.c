@@ -1,5 +1,5 @@
 /* Two motions of a System, compared at samples by what they show: ranges, differences, and what a difference is held
- * against. What is compared of a System is said by mbs/results/judged.py. */
+ * against. What is compared of a System is said by mbs/results/comparison.py. */
 #include <math.h>
 #include <stdbool.h>
 

@@ -3,6 +3,7 @@
 #include "start_on_road.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../elements/element.h"
@@ -13,6 +14,7 @@
 
 static const double LEVEL = 1e-10; /* m: a height that needs no lift, and the error of one */
 static const double TOUCHING = 1e-6; /* m: depth of what is lowered */
+static const double UNEVEN = 1e-3; /* m: a start that sinks by less is level */
 static const double WAY = 0.01; /* m, along which a slope is measured */
 enum { MOST_MOVES = 100 };
 
@@ -111,9 +113,15 @@ double ali3_climb(const ali3_instance *in, const double *rate, double *q, double
   return sum / touching;
 }
 
-double ali3_start_lift(const ali3_instance *in, double *uneven) {
-  if (uneven != NULL) *uneven = in != NULL ? in->uneven : 0.0;
-  return in != NULL ? in->lift : 0.0;
+ali3_status ali3_start_text(const ali3_instance *in, char *text, size_t size) {
+  if (in == NULL || text == NULL || size == 0) return ALI3_BAD_ARGUMENT;
+  text[0] = 0;
+  if (in->uneven > UNEVEN)
+    snprintf(text, size,
+             "The road is not level where this starts: the start is raised by %.3g m so that nothing is in the road, "
+             "and the part that hangs highest above its place of rest sinks by %.3g m.",
+             in->lift, in->uneven);
+  return ALI3_OK;
 }
 
 void ali3_contacts(const ali3_instance *in, unsigned char *touching) {
