@@ -6,13 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from benchmarks.car import manoeuvres, trajectories
-from benchmarks.car.accuracy import BEFORE, TITLES, start_of_fmu
+from benchmarks.car.accuracy import TITLES, run_of_fmu
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, table
-from hosts.fmu.fmu import Fmu
 
 MANOEUVRES = ("double_lane_change_replay", "step_steer_given_throttle")
 STEPS = (0.002, 0.005, 0.01, 0.02, 0.04)
@@ -28,26 +25,10 @@ WAYS = {
 
 def error(fmu: Path, name: str, step: float, follow: bool) -> float:
     """Largest error of the place at communication points, over the length of the path."""
-    manoeuvre, inputs = manoeuvres.load(name), list(manoeuvres.load(name).inputs)
-    t, values, length = trajectories.read(name)
-    wanted, places = np.array([values[n] for n in trajectories.POSITION]), []
-    every = max(1, round(manoeuvres.sampling(name) / step))
-    with Fmu(fmu) as car:
-        set_inputs, set_slopes = car.setter(inputs), car.slope_setter(inputs)
-        get = car.getter(trajectories.POSITION)
-        car.initialise(start_of_fmu(name) | manoeuvre.at(0.0) | {"step_size": INNER})
-        for k in range(round(manoeuvre.stop_time / step)):
-            now, then = manoeuvre.at(k * step), manoeuvre.at((k + 1) * step - BEFORE)
-            set_inputs(list(now.values()))
-            if follow:
-                set_slopes([(then[n] - now[n]) / (step - BEFORE) for n in inputs])
-            car.step(k * step, step)
-            if (k + 1) % every == 0:
-                places.append(((k + 1) * step, get()))
-    rows = np.searchsorted(t, [time - 0.25 * step for time, _ in places])
-    assert np.allclose(t[rows], [time for time, _ in places], atol=1e-9)
-    gaps = np.array([place for _, place in places]).T - wanted[:, rows]
-    return float(np.linalg.norm(gaps, axis=0).max()) / length
+    _, values, length = trajectories.read(name)
+    found = run_of_fmu(fmu, name, step, follow, inner=INNER)
+    every = max(1, round(step / manoeuvres.sampling(name)))
+    return trajectories.path_error(found, {n: values[n][::every] for n in trajectories.POSITION}) / length
 
 
 def measured(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[dict[str, Any]]:

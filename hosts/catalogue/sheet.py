@@ -21,6 +21,8 @@ from hosts.measures.measure import Limit, Measure
 from hosts.measures.scope import Scope
 
 _FUNCTIONS: Mapping[str, Callable[..., Any]] = {"steering_input": lambda car: SteeringInput.of(car.facts)}
+_NAMES = {"is_angle": "steering_input(car).is_angle"}
+"""Expressions by names that all files have: whether angles of the steering wheel are known."""
 
 
 class _Typed(BaseModel):
@@ -95,7 +97,7 @@ class TestTables(_Typed):
 
     def scope(self, car: TestedCar, settings: Mapping[str, float]) -> Scope:
         """Names of settings, and `car`."""
-        return Scope({**settings, "car": car}, self.names, _FUNCTIONS)
+        return Scope({**settings, "car": car}, {**_NAMES, **self.names}, _FUNCTIONS)
 
     def why_not(self, car: TestedCar, settings: Mapping[str, float]) -> str | None:
         """See `StandardTest.why_not`."""
@@ -135,8 +137,8 @@ class Sheet:
         """Evaluate a part of the file.
 
         `names`: that its expressions read beside settings and `car`. Among them `why_none` and `should_be`, of all its
-        measures that have no number; `is_angle`, whether angles of the steering wheel are known; mappings as `left` and
-        `right`, of measures of both sides. A `HostError` in place of a value says why measures that read it have none.
+        measures that have no number; mappings as `left` and `right`, of measures of both sides. A `HostError` in place
+        of a value says why measures that read it have none.
         """
         scope = self._scope(names)
         sides = {side: scope.inner(x) for side in ("left", "right") if isinstance(x := names.get(side), Mapping)}
@@ -154,9 +156,7 @@ class Sheet:
         return self._scope(names).evaluate(expression)
 
     def _scope(self, names: Mapping[str, Any]) -> Scope:
-        return self._tables.scope(self.car, self.settings).inner(
-            {"is_angle": True, "why_none": "", "should_be": True, **names}
-        )
+        return self._tables.scope(self.car, self.settings).inner({"why_none": "", "should_be": True, **names})
 
     def record(self) -> TestRecord:
         """All of it."""
@@ -180,7 +180,7 @@ def _number(scope: Scope, expression: str, side: str = "") -> tuple[float, str]:
 
 def _measure(name: str, line: _MeasureLine, scope: Scope) -> Measure:
     why, exists = scope["why_none"], scope["should_be"]
-    unit = scope.words(line.unit if scope["is_angle"] or not line.unit_of_input else line.unit_of_input)
+    unit = scope.words(line.unit if not line.unit_of_input or scope["is_angle"] else line.unit_of_input)
     text = scope.words(line.text)
     if line.sides:
         (left, lost), (right, _) = (_number(scope, line.value, side) for side in ("left", "right"))

@@ -147,6 +147,13 @@ def inside(v: ScalarVariable, share: float) -> float:
     return start + share * change
 
 
+def near_start(v: ScalarVariable) -> float:
+    """A value of a variable beside its start, not above its max."""
+    start, high = float(v.start or 0.0), float(v.max or math.inf)
+    change = 1e-3 * max(1.0, abs(start))
+    return start + change if start + change <= high else start - change
+
+
 class Instance(instance.Instance):
     """One instance of the FMU under check, with the values of all its outputs."""
 
@@ -203,6 +210,11 @@ class Instance(instance.Instance):
             return bool(self.slave.getBooleanStatus(_TERMINATED))
         except FMICallException:
             return False
+
+    def end(self) -> None:
+        """Terminate the simulation where the FMU has not ended it."""
+        if not self.ended:
+            self.slave.terminate()
 
     def reset(self) -> None:
         """Back to before `start`."""

@@ -120,7 +120,7 @@ def _settings(subject: Subject) -> Finding:
         ("initialisation", instance.start),
         ("a step", lambda: instance.run(3)),
         ("a read", lambda: instance.get(subject.outputs)),
-        ("the end", lambda: None if instance.ended else instance.slave.terminate()),
+        ("the end", instance.end),
         ("fmiFreeInstance", instance.free),
     ]
     for what, call in calls:

@@ -54,6 +54,11 @@ _COSTS: dict[str, tuple[Callable[[], int], float, str, str]] = {
 }
 
 
+def _costs() -> list[int]:
+    """What each of them is now."""
+    return [read() for read, *_ in _COSTS.values()]
+
+
 def costs_of_steps(subject: Subject) -> Finding:
     """Memory, threads and descriptors do not grow with steps."""
     instance, rows = Instance(subject).start(), list[list[int]]()
@@ -62,7 +67,7 @@ def costs_of_steps(subject: Subject) -> Finding:
         if not instance.advance(k * subject.step, subject.step):
             break
         if k >= _LONG // 3 and (k - _LONG // 3) % 10 == 0:
-            rows.append([read() for read, *_ in _COSTS.values()])
+            rows.append(_costs())
         made = k + 1
         if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
             break
@@ -91,7 +96,7 @@ def costs_of_states(subject: Subject) -> Finding:
     begin = time.perf_counter()
     for k in range(100):
         if k % 10 == 0:
-            rows.append([read() for read, *_ in _COSTS.values()])
+            rows.append(_costs())
             if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
                 break
         state = instance.state()
@@ -117,7 +122,7 @@ def costs_of_instances(subject: Subject) -> Finding:
         if k % 5 == 4:
             del instance
             gc.collect()  # what Python holds of them
-            marks.append([read() for read, *_ in _COSTS.values()])
+            marks.append(_costs())
     for column, (name, (_, most, unit, _r)) in zip(zip(*marks, strict=True), _COSTS.items(), strict=True):
         rate = (column[-1] - column[0]) / (_INSTANCES - 5)
         if rate > max(most, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
@@ -193,8 +198,7 @@ def outside(subject: Subject) -> Finding:
     with _captured() as printed:
         instance = Instance(subject).start()
         instance.run(min(subject.steps, 10))
-        if not instance.ended:
-            instance.slave.terminate()
+        instance.end()
         instance.free()
     after = files_around(subject)
     changed = [name for name in after if after[name] != before.get(name)]

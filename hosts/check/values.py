@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ScalarVariable
 
-from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject, inside
+from hosts.check.instance import REAL, WHOLE, Check, Finding, Instance, Subject, inside, near_start
 
 _BEGIN = 10.0  # s
 _ROUND = 1e-9  # of a value: round-off of who writes and who reads it
@@ -55,9 +56,7 @@ def set_values(subject: Subject) -> Finding:
     for v in _scalars(subject, "input", "parameter"):
         if v.type not in REAL or v.variability == "constant":
             continue
-        start, high = float(v.start or 0.0), float(v.max or math.inf)
-        value = start + 1e-3 * max(1.0, abs(start))
-        value = value if value <= high else start - 1e-3 * max(1.0, abs(start))
+        value = near_start(v)
         try:
             instance.set({subject.places[v.name]: value})
         except FMICallException:  # it may refuse a value
@@ -66,9 +65,8 @@ def set_values(subject: Subject) -> Finding:
         found, count = instance.get([v])[0], count + 1
         if found != value:
             words = f"{v.name} was set to {value:.9g} without a message and reads {found:.9g}; take it or refuse it"
-            if instance.messages:
-                return Finding("set values", "note", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
-            return Finding("set values", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+            verdict: Literal["note", "bad"] = "note" if instance.messages else "bad"
+            return Finding("set values", verdict, f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
     return _kept_inputs(subject) or Finding("set values", "good", f"{count} are read back")
 
 

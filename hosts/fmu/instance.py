@@ -255,9 +255,10 @@ class Instance:
             write = self.slave.fmi3SerializeFMUState if self.three else self.slave.fmi2SerializeFMUstate
             block = ctypes.cast(room, ctypes.POINTER(fmi3Byte)) if self.three else room
             write(self.slave.component, state, block, size)
-            if room.raw[size.value :] != _GUARD:
+            written = room.raw
+            if written[size.value :] != _GUARD:
                 raise HostError(f"The FMU writes more than the {size.value} bytes that it says its state has.")
-            return room.raw[: size.value]
+            return written[: size.value]
         finally:
             self.free_state(state)
 

@@ -35,15 +35,14 @@ def _wheels(result: Result, quantity: str) -> NDArray[np.float64]:
     return values
 
 
-def _reduced(python: Callable[..., float], numpy: Callable[[Any], Any]) -> Callable[..., float]:
-    """A function of several numbers as Python has it, or of one array; NaN of an empty one."""
+def _of_array(numpy: Callable[[Any], Any]) -> Callable[[Any], float]:
+    """A function of one array; NaN of an empty one."""
+    return lambda values: float(numpy(values)) if np.size(values) else math.nan
 
-    def reduce(*values: Any) -> float:
-        if len(values) > 1:
-            return float(python(*values))
-        return float(numpy(values[0])) if np.size(values[0]) else math.nan
 
-    return reduce
+def _of_several(python: Callable[[Any], float], numpy: Callable[[Any], Any]) -> Callable[..., float]:
+    """The same, and of several numbers as Python has it."""
+    return lambda *values: float(python(values)) if len(values) > 1 else _of_array(numpy)(*values)
 
 
 LIBRARY: Mapping[str, Callable[..., Any]] = {
@@ -51,7 +50,6 @@ LIBRARY: Mapping[str, Callable[..., Any]] = {
     "all": np.all,
     "any": np.any,
     "argmax": np.argmax,
-    "bool": bool,
     "cos": math.cos,
     "degrees": np.degrees,
     "derivative": lambda x, time: np.gradient(x, time) if len(time) > 1 else np.zeros(1),
@@ -64,11 +62,11 @@ LIBRARY: Mapping[str, Callable[..., Any]] = {
     "join": ", ".join,
     "leading": lambda flags: int(np.cumprod(flags).sum()),
     "len": len,
-    "max": _reduced(max, np.max),
+    "max": _of_several(max, np.max),
     "maximum": np.maximum,
-    "mean": _reduced(lambda *x: sum(x) / len(x), np.mean),
-    "min": _reduced(min, np.min),
-    "range": _reduced(math.nan.__add__, np.ptp),
+    "mean": _of_array(np.mean),
+    "min": _of_several(min, np.min),
+    "range": _of_array(np.ptp),
     "radians": math.radians,
     "round": round,
     "row_at": lambda time, t: min(int(np.searchsorted(time, t)), len(time) - 1),

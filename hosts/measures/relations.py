@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.echo import Value, quantities_of
+from hosts.common import wheels
 from hosts.measures.signal import Signal
 
 Array: TypeAlias = NDArray[np.float64]
@@ -29,7 +30,7 @@ COARSE, FINE, CLEAR = 0.1, 0.02, 0.03  # s between delays that are tried; gain o
 LATEST = 1.0  # s: delay that is looked for
 QUANTITIES = quantities_of("log")
 SPEEDS = ("speed", "chassis.vx")
-WHEELS = tuple(f"wheel_{w}.omega" for w in ("FL", "FR", "RL", "RR"))
+WHEELS = tuple(f"wheel_{w}.omega" for w in wheels.WHEELS)
 PATH = ("chassis.x", "chassis.y")
 RELATIONS: dict[str, dict[str, int]] = {  # exponents of signals and times in the ratio of a relation
     "turn": {"speed": 1, "chassis.wz": 1, "chassis.ay": -1},
@@ -48,7 +49,7 @@ def log_values(signals: Signals) -> list[Value]:
     found: list[Value] = []
     v = speed_of(signals)
     if v is not None:
-        found += [*_turning(signals), *_steering(signals)]
+        found += [*_turning(signals, v), *_steering(signals)]
         found += _rates(signals, "accelerate", signals[v], "chassis.ax", LEAST["accelerate"])
         found += _way(signals, v)
         if (direction := _direction(signals)) is not None:
@@ -104,10 +105,9 @@ def _steering(signals: Signals) -> Iterator[Value]:
         yield Value(QUANTITIES["steer_alike"], alike, keys_of(signals, "steering.angle", "chassis.wz"))
 
 
-def _turning(signals: Signals) -> Iterator[Value]:
+def _turning(signals: Signals, v: str) -> Iterator[Value]:
     """Speed times yaw rate against lateral acceleration."""
-    v = speed_of(signals)
-    if v is None or not {"chassis.wz", "chassis.ay"} <= signals.keys():
+    if not {"chassis.wz", "chassis.ay"} <= signals.keys():
         return
     ay = signals["chassis.ay"]
     product = on_times(signals[v], ay.time) * on_times(signals["chassis.wz"], ay.time)
@@ -190,7 +190,7 @@ def _delay(one: Array, late: Callable[[float], Array]) -> float:
 
 
 def _way(signals: Signals, v: str) -> Iterator[Value]:
-    if not {"chassis.x", "chassis.y"} <= signals.keys():
+    if not set(PATH) <= signals.keys():
         return
     x = signals["chassis.x"]
     y, speed = on_times(signals["chassis.y"], x.time), np.abs(on_times(signals[v], x.time))

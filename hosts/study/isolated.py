@@ -9,7 +9,7 @@ from ali3.isolated import Lost
 from hosts.common.closing import Closing
 from hosts.common.road import tell_starts
 from hosts.experiment.pool import Pool
-from hosts.fmu.own_process import PATIENCE, files_of_drives
+from hosts.fmu.own_process import PATIENCE, files_of
 from hosts.study.one_run import Bench
 from hosts.study.work import FAILED, Outcome, Run, Work
 
@@ -20,7 +20,7 @@ class RunProcesses(Closing):
     def __init__(self, work: Work, path: Path, jobs: int = 1) -> None:
         self._limit = work.time_limit
         started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
-        reads = files_of_drives(path, started)
+        reads = [path, *(file for start in started for file in files_of(start))]
         limit = PATIENCE if work.time_limit is None else work.time_limit
         self._started = started or [{}]
         self._pool: Pool[Run, Outcome] = Pool(Bench(work, path.absolute()), Outcome, jobs, reads, limit)

@@ -28,7 +28,7 @@ SET = "start"
 """Name of the parameter set of each part: Ecos applies those of one name, which it is asked for."""
 
 
-VERSIONS = ("1.0", "2.0")
+_VERSIONS = ("1.0", "2.0")
 
 
 def write_ssp(
@@ -70,8 +70,8 @@ def write_ssp(
         raise HostError(f"{file}: the name of an SSP ends in .ssp.")
     if not isinstance(name, str) or not name.isprintable():
         raise HostError(f"The name of the system is {brief(name)}; it must be a text that can be printed.")
-    if version not in VERSIONS:
-        raise HostError(f"The version of SSP is {brief(version)}; it must be {' or '.join(VERSIONS)}.")
+    if version not in _VERSIONS:
+        raise HostError(f"The version of SSP is {brief(version)}; it must be {' or '.join(_VERSIONS)}.")
     check_writable(file)
     with ExitStack() as stack:
         folder = stack.enter_context(temporary_folder())

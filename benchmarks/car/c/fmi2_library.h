@@ -1,20 +1,9 @@
 /* The library of an FMI 2.0 co-simulation FMU, opened at run time, for one source file that drives it. */
 #ifndef FMI2_LIBRARY_H
 #define FMI2_LIBRARY_H
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#if defined(_WIN32)
-#include <windows.h>
-static void *open_library(const char *path) { return (void *)LoadLibraryA(path); }
-static void *find(void *library, const char *name) { return (void *)GetProcAddress((HMODULE)library, name); }
-#else
-#include <dlfcn.h>
-static void *open_library(const char *path) { return dlopen(path, RTLD_NOW | RTLD_LOCAL); }
-static void *find(void *library, const char *name) { return dlsym(library, name); }
-#endif
-
+#include "../../../hosts/c/library.h"
 #include "fmi2.h"
 
 typedef struct {
@@ -56,21 +45,16 @@ static fmi2_library load_library(const char *path) {
                    {&fmu.from_bytes, "fmi2DeSerializeFMUstate"},
                    {&fmu.release, "fmi2FreeInstance"}};
   void *library = open_library(path);
+  if (library == NULL) stop(2, "%s cannot be loaded", path);
   for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
-    void *found = library != NULL ? find(library, functions[i].name) : NULL;
-    if (found == NULL) {
-      fprintf(stderr, "%s cannot be loaded\n", path);
-      exit(2);
-    }
+    void *found = function(library, functions[i].name);
     memcpy(functions[i].place, &found, sizeof found);
   }
   return fmu;
 }
 
 static void good(fmi2Status status, const char *what) {
-  if (status <= fmi2Warning) return;
-  fprintf(stderr, "%s: status %d\n", what, (int)status);
-  exit(4);
+  if (status > fmi2Warning) stop(4, "%s: status %d", what, (int)status);
 }
 
 /* From setup to the end of initialisation. */

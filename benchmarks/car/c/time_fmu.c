@@ -46,10 +46,7 @@ static char **argument;
 
 static fmi2Component started(void) {
   fmi2Component c = fmu.instantiate("timed", fmi2CoSimulation, argument[3], argument[2], &callbacks, 0, 0);
-  if (c == NULL) {
-    fprintf(stderr, "no instance\n");
-    exit(3);
-  }
+  if (c == NULL) stop(3, "no instance");
   initialise(&fmu, c);
   return c;
 }

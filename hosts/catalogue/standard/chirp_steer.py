@@ -14,7 +14,6 @@ from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
-from hosts.catalogue.steering import SteeringInput
 from hosts.measures.bandwidth import bandwidth
 from hosts.measures.frequency_response import FrequencyResponse, frequency_response
 from hosts.measures.second_order import NOTHING, fit_second_order
@@ -32,7 +31,7 @@ _QUANTITIES: Mapping[str, tuple[str, str, str, int | None]] = {
 
 def drive(sheet: Sheet) -> None:
     """A slow ramp, then the chirp."""
-    settings, is_angle = sheet.settings, SteeringInput.of(sheet.car.facts).is_angle
+    settings = sheet.settings
     low, high = settings["lowest_frequency"], settings["highest_frequency"]
     ramp = driven_ramp(sheet, settings["lateral_acceleration"])
     sheet.progress(0.3)
@@ -41,16 +40,14 @@ def drive(sheet: Sheet) -> None:
     run = steer(sheet.car, "chirp", ramp.speed, *table, Pedals.HOLD_SPEED)
     sheet.runs["chirp"] = run.thinned()
     sheet.progress(0.95)
-    sheet.add("run", run=run, speed=ramp.speed, amplitude=amplitude, is_angle=is_angle)
+    sheet.add("run", run=run, speed=ramp.speed, amplitude=amplitude)
     found: list[dict[str, Any]] = []
     for name, (signal, word, unit, zeros) in _QUANTITIES.items():
         response = _response(run, getattr(run, signal), low, high)
         none = "" if len(response.frequency) else f"The run does not show the {word}."
         names = {"name": name, "word": word, "unit": unit, "response": response, "found": bandwidth(response)}
         why = none or "Not within the range of frequencies."
-        sheet.add(
-            "quantity", why_none=why, should_be=bool(none), is_angle=is_angle, frequency=response.frequency, **names
-        )
+        sheet.add("quantity", why_none=why, should_be=bool(none), frequency=response.frequency, **names)
         found += [] if none else [{**names, "zeros": zeros}]
     fitted = [q for q in found if q["zeros"] is not None]
     fits = fit_second_order([q["response"] for q in fitted], [q["zeros"] for q in fitted]) or [NOTHING]

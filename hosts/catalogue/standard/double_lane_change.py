@@ -33,11 +33,10 @@ class _Layout:
     """A course and how it is driven."""
 
     name: str
-    course: str
     release: float  # m into the first lane
 
 
-_LAYOUTS = (_Layout("iso_3888_1", "iso_3888_1", math.inf), _Layout("iso_3888_2", "iso_3888_2", RELEASED_AFTER))
+_LAYOUTS = (_Layout("iso_3888_1", math.inf), _Layout("iso_3888_2", RELEASED_AFTER))
 
 DRIVERS: dict[str, tuple[float, float, float]] = {
     "least curvature, close": (0.2, 0.3, 0.3),
@@ -153,7 +152,7 @@ def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) ->
     """
     constants, wanted = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]
-    course = course_of(layout.course, width, RUN_UP + 0.5 * length)
+    course = course_of(layout.name, width, RUN_UP + 0.5 * length)
     run_up = RunUp(car, wanted)
     pilot = CourseFromHere(
         steering_of(driver, course, constants, wanted),

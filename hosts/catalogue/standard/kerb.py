@@ -30,7 +30,7 @@ def drive(sheet: Sheet) -> None:
     inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "selector": 0.0}
     stop_time = ahead / settings["speed"] * 3.6 + AFTER
     for way, (start, rise) in ways.items():
-        run = sheet.keep(f"{way}", car.drive(held(car, f"kerb_{way}", stop_time, inputs, start)))
+        run = sheet.keep(way, car.drive(held(car, f"kerb_{way}", stop_time, inputs, start)))
         sheet.progress(len(sheet.runs) / len(ways))
         gauges = [n for n in run.names if n.startswith("stress.") and n != "stress.computed"]
         if "stress.computed" in run and not (run["stress.computed"] == 1.0).all():

@@ -11,7 +11,6 @@ from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
-from hosts.catalogue.steering import SteeringInput
 from hosts.measures.one_period import NOTHING, OnePeriod, one_period
 
 _AFTER = 2.0
@@ -30,16 +29,15 @@ def drive(sheet: Sheet) -> None:
         sides[side] = steer(sheet.car, f"sine {side}", ramp.speed, time, sign * amplitude * sine, Pedals.FIXED)
         sheet.runs[f"sine_{side}"] = sides[side].thinned()
         sheet.progress(0.4 + 0.3 * len(sides))
-    is_angle = SteeringInput.of(sheet.car.facts).is_angle
     short = sorted(set(filter(None, [run.shortfall(amplitude) for run in sides.values()])))
-    sheet.add("run", speed=ramp.speed, amplitude=amplitude, is_angle=is_angle, **sides)
+    sheet.add("run", speed=ramp.speed, amplitude=amplitude, **sides)
     sheet.notes += short
     for name, signal, units in (
         ("yaw_rate", "yaw_rate", ("1/s", "rad/s")),
         ("lateral_acceleration", "acceleration", ("m/(s2.rad)", "m/s2")),
     ):
         found = {side: {"period": _one_period(run, getattr(run, signal), period)} for side, run in sides.items()}
-        sheet.add("quantity", name=name, word=name.replace("_", " "), units=units, is_angle=is_angle, **found)
+        sheet.add("quantity", name=name, word=name.replace("_", " "), units=units, **found)
 
 
 TEST = load_test("sine_steer", drive)

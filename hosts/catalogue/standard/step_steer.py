@@ -36,8 +36,7 @@ def drive(sheet: Sheet) -> None:
             sides = _both_sides(sheet, ramp, wanted, 0.2 + 0.8 * k / len(levels), 0.8 / len(levels))
             sheet.runs |= {f"{level}_{side}": found["run"].thinned() for side, found in sides.items()}
             driven.append({"wanted": wanted, "run": sides["left"]["run"]})
-        is_angle = SteeringInput.of(sheet.car.facts).is_angle
-        sheet.add("level", level=level, wanted=wanted, is_angle=is_angle, **sides)
+        sheet.add("level", level=level, wanted=wanted, **sides)
     sheet.add("pictures", driven=driven)
 
 

@@ -11,7 +11,8 @@ typedef struct {
   const fmi2CallbackFunctions *functions;
 } face;
 
-static void say(const face *f, const char *text) {
+static void say(const void *c, const char *text) {
+  const face *f = c;
   f->functions->logger(f->functions->componentEnvironment, "planted", fmi2OK, PLANT == NO_CATEGORY ? NULL : "log",
                        text);
 }
@@ -23,9 +24,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
   (void)type, (void)visible, (void)logging;
   if (!*name || strcmp(guid, "{small}") || !takes_path(resources) || !may_begin()) return NULL;
   face *f = calloc(1, sizeof *f);
-  planted *made = new_planted();
-  f->p = *made, f->functions = functions;
-  free(made);
+  f->p = new_planted(), f->functions = functions;
   return f;
 }
 
@@ -39,9 +38,7 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerant, fmi2Real t
 }
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
-  at_start();
-  if (PLANT == NO_CATEGORY) say(c, "it begins");
-  if (PLANT == FORMAT) say(c, "the mass is 100 %s %n");
+  at_start(c);
   return c ? fmi2OK : fmi2Error;
 }
 fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return c ? fmi2OK : fmi2Error; }
@@ -98,8 +95,6 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean forward) {
   (void)forward;
   if (!takes_time(&((face *)c)->p, time)) return fmi2Error;
-  if (PLANT == CHATTER) say(c, "a step");
-  for (int k = 0; k < 100 && PLANT == FLOOD; k++) say(c, "a step is made");
-  step_planted(&((face *)c)->p, step);
+  step_planted(c, &((face *)c)->p, step);
   return PLANT == WARNS ? fmi2Warning : fmi2OK;
 }

@@ -10,7 +10,8 @@ typedef struct {
   void *environment;
 } face;
 
-static void say(const face *f, const char *text) {
+static void say(const void *c, const char *text) {
+  const face *f = c;
   f->log(f->environment, fmi3OK, PLANT == NO_CATEGORY ? NULL : "log", text);
 }
 
@@ -31,9 +32,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
   (void)visible, (void)logging, (void)events, (void)early, (void)needed, (void)n, (void)update;
   if (!*name || strcmp(token, "{small}") || !takes_path(resources) || !may_begin()) return NULL;
   face *f = calloc(1, sizeof *f);
-  planted *made = new_planted();
-  f->p = *made, f->log = log, f->environment = environment;
-  free(made);
+  f->p = new_planted(), f->log = log, f->environment = environment;
   return f;
 }
 
@@ -43,9 +42,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerant, fmi
                                        fmi3Boolean ends, fmi3Float64 stop) {
   (void)tolerant, (void)tolerance, (void)ends, (void)stop;
   ((face *)c)->p.time = begin_planted(start);
-  at_start();
-  if (PLANT == NO_CATEGORY) say(c, "it begins");
-  if (PLANT == FORMAT) say(c, "the mass is 100 %s %n");
+  at_start(c);
   return fmi3OK;
 }
 
@@ -125,9 +122,7 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 step, fmi3Bo
                       fmi3Boolean *ends, fmi3Boolean *early, fmi3Float64 *last) {
   (void)no_return;
   if (!takes_time(&((face *)c)->p, time)) return fmi3Error;
-  if (PLANT == CHATTER) say(c, "a step");
-  for (int k = 0; k < 100 && PLANT == FLOOD; k++) say(c, "a step is made");
-  step_planted(&((face *)c)->p, step);
+  step_planted(c, &((face *)c)->p, step);
   *event = *ends = *early = false;
   *last = time + step;
   return PLANT == WARNS ? fmi3Warning : fmi3OK;

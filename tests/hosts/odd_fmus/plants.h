@@ -113,7 +113,12 @@ static void at_instance(void) {
   if (PLANT == BUSY && !works_already) a_thread(works), works_already = true;
 }
 
-static void at_start(void) {
+/* Gives a text to the logger; of each face. */
+static void say(const void *face, const char *text);
+
+static void at_start(const void *face) {
+  if (PLANT == NO_CATEGORY) say(face, "it begins");
+  if (PLANT == FORMAT) say(face, "the mass is 100 %s %n");
   if (PLANT == TIMER) alarm(1000);
   if (PLANT == LIMITS)
     setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0}), setrlimit(RLIMIT_NOFILE, &(struct rlimit){300, 300});
@@ -122,10 +127,16 @@ static void at_start(void) {
   if (PLANT == IGNORES) signal(SIGINT, SIG_IGN);
 }
 
-static void at_step(double time) {
+static void at_step(const void *face, double time) {
   sigset_t set;
   cpu_set_t one;
   switch (PLANT) {
+  case CHATTER:
+    say(face, "a step");
+    break;
+  case FLOOD:
+    for (int k = 0; k < 100; k++) say(face, "a step is made");
+    break;
   case LEAK:
     leak(100000);
     break;
@@ -194,19 +205,16 @@ typedef struct {
 static double shared;
 static _Thread_local double own; /* of the thread that makes an instance */
 
-static planted *new_planted(void) {
-  planted *s = calloc(1, sizeof *s);
+static planted new_planted(void) {
   at_instance();
-  if (s && PLANT == START_VALUE) s->u = 3.0;
   own = 1.0;
-  return s;
+  return (planted){.u = PLANT == START_VALUE ? 3.0 : 0.0};
 }
 
 static void reset_planted(planted *s) {
-  planted *made = new_planted();
-  if (PLANT == RESET_KEEPS) made->y = s->y;
-  *s = *made;
-  free(made);
+  const double y = PLANT == RESET_KEEPS ? s->y : 0.0;
+  *s = new_planted();
+  s->y = y;
 }
 
 enum { STATE_SIZE = PLANT == STATE_LEAK ? 100000 : sizeof(planted), SPILL = PLANT == OVERRUN ? 8 : 0 };
@@ -258,8 +266,8 @@ static void set_planted(planted *s, double u) {
   if (PLANT != NOT_SET) s->u = u;
 }
 
-static void step_planted(planted *s, double step) {
-  at_step(s->time);
+static void step_planted(const void *face, planted *s, double step) {
+  at_step(face, s->time);
   s->last = step;
   s->y += (PLANT == ONE_LENGTH ? 0.01 : step) * (s->u + 0.5);
   s->time += step, s->steps++;

@@ -5,9 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from hosts.common.road import road_value
+from hosts.driving.manoeuvre import Manoeuvre
 from hosts.study.campaign import run_study
+from hosts.study.isolated import RunProcesses
+from hosts.study.job import Job
+from hosts.study.work import Run, Work
 
 
 @pytest.mark.slow
@@ -28,3 +34,17 @@ def test_the_plan_tells_its_workers(
 ) -> None:
     run_study(study_file(), tmp_path / "out", None, workers, dry=True)
     assert words in capsys.readouterr().out
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("x", "told"), [(550.0, 0), (0.0, 1)])
+def test_a_start_is_told_where_a_run_has_it(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], x: float, told: int
+) -> None:
+    (tmp_path / "far.csv").write_text("x,-5,0,5\n500,0,0,0\n550,0,0,0\n600,0,0,0\n")
+    start = {"road.file": road_value(str(tmp_path / "far.csv"), tmp_path)}
+    job = Job("far", Manoeuvre("far", np.zeros(1), {}, 1.0, start))
+    work = Work("none.fmu", "", "", "", (job,), ("initial.x",), (), (), ())
+    with RunProcesses(work, tmp_path / "none.fmu") as processes:
+        assert "none.fmu" in processes.run(Run(0, {"initial.x": x})).reason
+    assert capfd.readouterr().err.count("warning: ") == told
