@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
-from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.kernel.header.limits import STILL, WRONG_ERROR
 from mbs.results.accuracy import AccuracyWarning
-from mbs.results.comparison import STILL, Compared, compared_sensors
+from mbs.results.comparison import COORDINATES, Compared, compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -194,7 +194,7 @@ def _gaps(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> di
     found = dict[str, float]()
     for name in tolerance.sensors:
         one, other = (made.values[:, names.index(name)] for made in (run, before))
-        found[name] = float(known.get(name, Compared("")).apart(one, other).max())
+        found[name] = known.get(name, Compared(COORDINATES)).gap(one, other)
     return found
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.steps import BranchKind
+from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
 from mbs.results.run_report import Report
@@ -42,7 +43,7 @@ def fixed_step_run(
     every: int,
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | float | None,
-    before: dict[str, NDArray[np.float64]] | None = None,
+    before: dict[str, ComparedFields] | None = None,
     divisor: int = 0,
     warned: Warned | None = None,
 ) -> Trajectory:
