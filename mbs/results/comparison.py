@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from ctypes import POINTER, c_double
 from dataclasses import dataclass
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,7 @@ UNITS = {
 """In which two motions are compared."""
 WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
 ANGLES = (SensorType.ANGLE, SensorType.ANGLE_ABOUT)  # from -pi to pi
+_COMPARED: WeakKeyDictionary[System, dict[str, Compared]] = WeakKeyDictionary()
 REACTIONS = (SensorType.REACTION, SensorType.REACTION_PRODUCTS, SensorType.REACTION_BY_TABLE)
 
 
@@ -135,12 +137,18 @@ class Comparison:
         return {name: float(of) for name, of in zip(self.compared, size, strict=True) if of > 0.0}
 
 
-def compared_sensors(system: System) -> dict[str, Compared]:
+def compared_sensors(system: System) -> Mapping[str, Compared]:
     """What can be judged of the sensors that the System computes, by name.
 
     Gears, energies and accelerations change in jumps, or change sign, where a small shift in time is a large
     difference: they say nothing.
     """
+    if system not in _COMPARED:
+        _COMPARED[system] = _sensors_of(system)
+    return _COMPARED[system]
+
+
+def _sensors_of(system: System) -> dict[str, Compared]:
     arrays, found = system.arrays, dict[str, Compared]()
     driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):

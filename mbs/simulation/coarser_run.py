@@ -154,7 +154,7 @@ class CoarserRuns:
         report = self.refined.run[0].report
         assert report is not None
         for samples, at in self.refined.path:
-            rest = replace(report, **{name: getattr(report, name) - getattr(at, name) for name in COUNTED})
+            rest = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
             if not accuracy.doubt(rest, rest.steps, rest.halvings, self.refined.method):
                 return samples
         return math.inf

@@ -24,7 +24,6 @@ from mbs.results.comparison import (
     shows_motion,
     sizes_of,
 )
-from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
@@ -69,8 +68,8 @@ class RefinedRuns:
         Those that follow time.
     most : float
         What all refined runs may cost, in first runs.
-    path : sequence of tuple of int and Report
-        Numbers of samples of the first run on its way, and what it had counted there; none where no coarser run may end
+    path : sequence of tuple of int and mapping
+        Numbers of samples of the first run on its way, and the kernel's report there; none where no coarser run may end
         before it.
 
     Attributes
@@ -104,7 +103,7 @@ class RefinedRuns:
     divisor: int = 0
     inputs: Mapping[str, Signal] | None = None
     most: float = MOST_COST
-    path: Sequence[tuple[int, Report]] = ()
+    path: Sequence[tuple[int, Mapping[str, float]]] = ()
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
