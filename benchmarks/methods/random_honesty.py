@@ -82,7 +82,7 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     size = sizes_of(case.truth, sensors, length_of(case.system))
 
     def of_range(values: Mapping[str, Array]) -> float:
-        return max((float(sensors[n].apart(values[n], case.truth[n]).max()) / s for n, s in size.items()), default=0.0)
+        return max((sensors[n].gap(values[n], case.truth[n]) / s for n, s in size.items()), default=0.0)
 
     def of_length(values: Mapping[str, Array]) -> float:
         places = [np.abs(values[n] - true).max() for n, true in case.truth.items() if sensors[n].unit == "m"]

@@ -8,8 +8,7 @@ from itertools import accumulate
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.variables import Variable
-from mbs.kernel.header.enumerations import JudgedKind, JudgedUnit
-from mbs.results.comparison import COORDINATES, Compared
+from mbs.results.comparison import Compared
 
 _SOURCES = {
     "input": "SLAVE_INPUT",
@@ -26,16 +25,6 @@ _SOURCES = {
     "ahead": "SLAVE_AHEAD",
     "constant": "SLAVE_CONSTANT",
 }
-JUDGED_UNITS = {
-    "m": JudgedUnit.M,
-    "rad": JudgedUnit.RAD,
-    COORDINATES: JudgedUnit.COORDINATE,
-    "N": JudgedUnit.N,
-    "m/s": JudgedUnit.M_S,
-    "rad/s": JudgedUnit.RAD_S,
-    "N m": JudgedUnit.N_M,
-}
-
 ROLL = "chassis.roll"
 """Output that is more than a quarter turn when a vehicle lies upside down."""
 GROUND = "chassis.ground_force"
@@ -105,20 +94,7 @@ def c_table(
 
 def _judged(variable: Variable, judged: Mapping[int, Compared]) -> str:
     what = judged.get(variable.index) if variable.source == "sensor" else None
-    if what is None or what.unit not in JUDGED_UNITS:
-        return "{-1, 0}"
-    return f"{{{JUDGED_UNITS[what.unit]:d}, {kind_of(what)}}}"
-
-
-def kind_of(what: Compared) -> int:
-    """`ali3_judged.kind`."""
-    bits = {
-        JudgedKind.PLACE: what.place,
-        JudgedKind.LOAD: what.load,
-        JudgedKind.ALWAYS: what.always,
-        JudgedKind.WRAPPED: what.wrapped,
-    }
-    return sum(bit for bit, is_set in bits.items() if is_set)
+    return "{-1, 0}" if what is None else f"{{{what.fields.unit:d}, {what.fields.kind}}}"
 
 
 def _texts(texts: Sequence[TextVariable]) -> str:

@@ -1,29 +1,40 @@
-"""Two motions of a System compared at samples: what of a run is compared, what errors are held against, and gaps."""
+"""Two motions of a System compared at samples by the kernel: what of a run is compared, sizes, and differences."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
+from ctypes import POINTER, c_double
 from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d, uniform_filter1d
 
-from mbs.kernel.header.enumerations import SensorType
+from mbs.kernel.binding import load_library
+from mbs.kernel.header.enumerations import JudgedKind, JudgedUnit, SensorType
+from mbs.kernel.header.structures import ComparedFields, JudgedFields
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
 INSTANTS = 50  # intervals at whose ends two runs of many samples are compared
 WHOLE = 200  # intervals of a record that is compared at all its samples: they are too far apart for means of loads
-STILL = 1e-4  # of the largest value in the unit, or of `_size_in`: a smaller range is rest
-NO_TURN = 1e-3  # rad: a smaller turn counts only where nothing else moves, 1 mm at 1 m; what stands sways by as much
-STANDS = 0.01  # the same of coordinates: rates and forces of what moves less are those of rest
 WIDTH = 3  # samples: of the means of loads that are compared, and by how many one run may be late
-ALIKE = 1e-6  # of the range: places that differ by less do not move by themselves, or both runs are exact
 COORDINATES = "1"
+UNITS = {
+    "m": JudgedUnit.M,
+    "rad": JudgedUnit.RAD,
+    COORDINATES: JudgedUnit.COORDINATE,
+    "N": JudgedUnit.N,
+    "m/s": JudgedUnit.M_S,
+    "rad/s": JudgedUnit.RAD_S,
+    "N m": JudgedUnit.N_M,
+}
+"""In which two motions are compared."""
 WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.NORM)  # their first integer
 ANGLES = (SensorType.ANGLE, SensorType.ANGLE_ABOUT)  # from -pi to pi
+_COMPARED: WeakKeyDictionary[System, dict[str, Compared]] = WeakKeyDictionary()
 REACTIONS = (SensorType.REACTION, SensorType.REACTION_PRODUCTS, SensorType.REACTION_BY_TABLE)
 
 
@@ -41,22 +52,103 @@ class Compared:
     wrapped: bool = False
     """An angle from -pi to pi."""
 
-    def apart(self, one: Array, other: Array) -> Array:
-        """Differences at samples, (n,); of angles the smaller arc."""
-        gap = np.abs(one - other)
-        return np.asarray(np.abs((gap + math.pi) % (2.0 * math.pi) - math.pi) if self.wrapped else gap)
+    @property
+    def fields(self) -> JudgedFields:
+        """For the kernel."""
+        bits = {
+            JudgedKind.PLACE: self.place,
+            JudgedKind.LOAD: self.load,
+            JudgedKind.ALWAYS: self.always,
+            JudgedKind.WRAPPED: self.wrapped,
+        }
+        return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set))
 
-    def whole(self, values: Array) -> Array:
-        """Values at samples without jumps from pi to -pi, (n,)."""
-        return np.unwrap(values) if self.wrapped else values
+    def gap(self, one: Array, other: Array) -> float:
+        """Largest difference at samples, (n,); of angles the smaller arc."""
+        found = Comparison({"": self}, 1.0)
+        found.add({"": other}, {"": one})
+        return found.gaps[""]
 
 
-def compared_sensors(system: System) -> dict[str, Compared]:
+class Comparison:
+    """Two motions at samples, in the kernel, which FMUs ask too: ranges, differences, and what counts.
+
+    Parameters
+    ----------
+    compared : mapping of str to Compared
+        What is compared, by name.
+    length : float
+        Of the model, m: a smaller range than 1e-4 of it is rest, wherever the model lies.
+    before : mapping of str to ComparedFields, optional
+        `ends` of the runs before.
+    """
+
+    def __init__(
+        self, compared: Mapping[str, Compared], length: float, before: Mapping[str, ComparedFields] | None = None
+    ) -> None:
+        self.compared, self.length, n = compared, length, len(compared)
+        self._what = (JudgedFields * n)(*(what.fields for what in compared.values()))
+        self._seen = (ComparedFields * n)(*((before or {}).get(name, ComparedFields()) for name in compared))
+
+    def add(self, fine: Mapping[str, Array], coarse: Mapping[str, Array] | None = None, forces: Any = None) -> None:
+        """Samples of the finer motion, and of the coarser one at the same times, each of shape (n,) by name; NaN where
+        something is not known. `forces`: numbers of the samples at which these are compared, by default all.
+        """
+        if not self.compared:
+            return
+        mine, other = self._rows(fine), None
+        if coarse is not None:
+            theirs, other = self._rows(coarse)[: len(mine)], np.full_like(mine, np.nan)
+            loads = np.array([what.load for what in self.compared.values()])
+            other[: len(theirs), ~loads] = theirs[:, ~loads]
+            some = np.ix_(np.arange(len(theirs)) if forces is None else forces, np.flatnonzero(loads))
+            other[some] = theirs[some]
+        pointers = (None if rows is None else rows.ctypes.data_as(POINTER(c_double)) for rows in (other, mine))
+        load_library().ali3_compare(self._what, len(self._what), len(mine), None, *pointers, self._seen)
+
+    def _rows(self, motion: Mapping[str, Array]) -> Array:
+        return np.column_stack([np.asarray(motion[name], float) for name in self.compared])
+
+    def widen(self, gaps: Mapping[str, float]) -> None:
+        """Differences that were found otherwise."""
+        for name, seen in zip(self.compared, self._seen, strict=True):
+            seen.gap = max(seen.gap, gaps.get(name, 0.0))
+
+    @property
+    def gaps(self) -> dict[str, float]:
+        """Largest difference of each."""
+        return {name: seen.gap for name, seen in zip(self.compared, self._seen, strict=True)}
+
+    @property
+    def ends(self) -> dict[str, ComparedFields]:
+        """Ranges without differences, for a comparison of what follows."""
+        ends = dict(zip(self.compared, map(ComparedFields.from_buffer_copy, self._seen), strict=True))
+        for seen in ends.values():
+            seen.gap = 0.0
+        return ends
+
+    def sizes(self, guided: bool = True) -> dict[str, float]:
+        """What differences of those that count are held against: the largest range in the unit, of forces the largest
+        value. `guided`: places that are the same in both motions do not move by themselves.
+        """
+        size = np.zeros(len(self._what))
+        pointer = size.ctypes.data_as(POINTER(c_double))
+        load_library().ali3_compared_sizes(self._what, len(size), self._seen, self.length, guided, pointer)
+        return {name: float(of) for name, of in zip(self.compared, size, strict=True) if of > 0.0}
+
+
+def compared_sensors(system: System) -> Mapping[str, Compared]:
     """What can be judged of the sensors that the System computes, by name.
 
     Gears, energies and accelerations change in jumps, or change sign, where a small shift in time is a large
     difference: they say nothing.
     """
+    if system not in _COMPARED:
+        _COMPARED[system] = _sensors_of(system)
+    return _COMPARED[system]
+
+
+def _sensors_of(system: System) -> dict[str, Compared]:
     arrays, found = system.arrays, dict[str, Compared]()
     driven = set(np.asarray(arrays["gterm_row"]).tolist())
     for i, sensor in enumerate(system.meta["sensors"]):
@@ -74,7 +166,7 @@ def compared_sensors(system: System) -> dict[str, Compared]:
             found[sensor["name"]] = Compared(unit, load=True)
         elif rate and unit in ("m/s", "rad/s"):
             found[sensor["name"]] = Compared(unit, always=False)
-        elif kind in REACTIONS and driven.intersection(_rows(kind, integers)):
+        elif kind in REACTIONS and unit in UNITS and driven.intersection(_rows(kind, integers)):
             found[sensor["name"]] = Compared(unit, load=True, always=False)
     return found
 
@@ -89,30 +181,18 @@ def compared_in(
     values: Mapping[str, Array],
     compared: Mapping[str, Compared],
     length: float,
-    before: Mapping[str, Array] | None = None,
+    before: Mapping[str, ComparedFields] | None = None,
     stands: bool = False,
     guided: bool = False,
 ) -> dict[str, Compared]:
-    """What of a run is compared, by name: places and forces that move, and where no place moves, rates and forces of
-    motors, unless the coordinates say that all `stands`. `length`, `before`: as of `sizes_of`.
+    """What of a run is compared, by name: what the kernel says to count, unless the coordinates say that all `stands`:
+    rates and forces of motors do not count then. `length`, `before`: as of `Comparison`.
 
-    What rests judges nothing, and switches nothing off; nor does an angle that turns by more than a quarter from one
-    sample to the next, as where roll and yaw jump, nor turns below `NO_TURN` beside anything else. Where something is
-    `guided` two motions say whether a place moves by itself, see `differences`.
+    Where something is `guided` two motions say whether a place moves by itself, see `differences`.
     """
-    sizes = sizes_of(values, compared, length, before)
-    moving = {name: compared[name] for name in sizes if _is_followed(values, name, compared)}
-    if any(what.always and what.unit != "rad" for what in moving.values()):
-        moving = {name: what for name, what in moving.items() if what.unit != "rad" or sizes[name] > NO_TURN}
-    free = stands or (not guided and any(what.place for what in moving.values()))
-    if free or all(what.load for what in moving.values()):
-        return {name: what for name, what in moving.items() if what.always}
-    return moving
-
-
-def _is_followed(values: Mapping[str, Array], name: str, compared: Mapping[str, Compared]) -> bool:
-    turns = np.abs(np.diff(compared[name].whole(values[name])))
-    return not compared[name].wrapped or bool(turns.max(initial=0.0) <= 0.5 * math.pi)
+    found = Comparison({n: what for n, what in compared.items() if what.always or not stands}, length, before)
+    found.add(values, values)
+    return {name: compared[name] for name in found.sizes(guided)}
 
 
 def is_open(compared: Mapping[str, Compared]) -> bool:
@@ -136,65 +216,26 @@ def instants(samples: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, last, (last if last <= WHOLE else INSTANTS) + 1).round().astype(int))
 
 
-def compared_rows(what: Compared, samples: int) -> NDArray[np.int_]:
-    """Numbers of the samples at which a sensor is compared: a force at `instants`, all else at all."""
-    return instants(samples) if what.load else np.arange(samples)
-
-
 def sizes_of(
     values: Mapping[str, Array],
     compared: Mapping[str, Compared],
     length: float,
-    before: Mapping[str, Array] | None = None,
+    before: Mapping[str, ComparedFields] | None = None,
 ) -> dict[str, float]:
-    """What errors are held against, by name: the largest range in the unit, of forces the largest value.
-
-    Without those of a unit in which nothing moves in a model with this length, m, wherever it lies.
-
-    `before`: ends of what moved in the runs before these.
-    """
-    found, groups = dict[str, float](), dict[tuple[str, bool, bool], list[str]]()
-    for name, what in compared.items():
-        groups.setdefault((what.unit, what.load, what.always), []).append(name)
-    for (unit, load, _), names in groups.items():
-        seen = [_seen(values[name], (before or {}).get(name), compared[name]) for name in names]
-        largest, moved = [float(np.abs(v).max()) for v in seen], [float(np.ptp(v)) for v in seen]
-        rest = (STANDS if unit == COORDINATES else STILL) * min(max(largest), _size_in(unit, length))
-        if max(moved) <= rest:
-            continue
-        found |= dict.fromkeys(names, max(largest if load else moved))
-    return found
-
-
-def _size_in(unit: str, length: float) -> float:
-    """Beyond this a value tells where something is, not how large it is: of a model with this length, m."""
-    return {"m": length, "rad": 1.0, COORDINATES: max(length, 1.0)}.get(unit, math.inf)
-
-
-def _seen(values: Array, before: Array | None, what: Compared) -> Array:
-    """Values and the ends of those before; angles that are wrapped go on from the nearest turn."""
-    mine = what.whole(values)
-    if before is None:
-        return mine
-    turn = 2.0 * math.pi * round(float(mine[0] - before[1]) / (2.0 * math.pi)) if what.wrapped else 0.0
-    return np.append(mine, before + turn)
-
-
-def add_ends(ends: dict[str, Array], run: Mapping[str, Array], compared: Mapping[str, Compared]) -> None:
-    """Widen the least and the largest value of what is compared by those of a run."""
-    for name, what in compared.items():
-        values = _seen(run[name], ends.get(name), what)
-        ends[name] = np.array([values.min(), values.max()])
+    """`Comparison.sizes` of one motion."""
+    found = Comparison(compared, length, before)
+    found.add(values)
+    return found.sizes()
 
 
 def differences(
     coarse: Mapping[str, Array],
     fine: Mapping[str, Array],
     compared: Mapping[str, Compared],
-    before: Mapping[str, Array] | None,
+    before: Mapping[str, ComparedFields] | None,
     length: float,
 ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
-    """Largest differences of two runs at samples, and of loads between them.
+    """Largest differences of two runs at samples, of loads at `instants` and between them.
 
     Rates and the forces of motors count where no place moves by itself: those that guides prescribe are the same to
     round-off in both.
@@ -206,23 +247,16 @@ def differences(
     sensors : dict of str to float
         Largest difference per sensor.
     sizes : dict of str to float
-        See `sizes_of`, of the finer run.
+        See `Comparison.sizes`, of the finer run.
     """
-    sizes = sizes_of(fine, compared, length, before)
-    gaps = {name: _gap(coarse[name], fine[name], compared[name]) for name in sizes}
-    if is_open(compared) and any(compared[name].place and gaps[name] > ALIKE * size for name, size in sizes.items()):
-        sizes = {name: size for name, size in sizes.items() if compared[name].always}
-        gaps = {name: gaps[name] for name in sizes}
-    units: dict[str, float] = {}
+    found, samples = Comparison(compared, length, before), [len(run[n]) for n in compared for run in (fine, coarse)]
+    found.add(fine, coarse, instants(min(samples, default=0)))
+    found.widen({name: missed_load(coarse[name], fine[name]) for name, what in compared.items() if what.load})
+    sizes, units = found.sizes(), dict[str, float]()
+    gaps = {name: gap for name, gap in found.gaps.items() if name in sizes}
     for name, size in sizes.items():
         units[compared[name].unit] = max(gaps[name] / size, units.get(compared[name].unit, 0.0))
     return units, gaps, sizes
-
-
-def _gap(one: Array, other: Array, what: Compared) -> float:
-    rows = compared_rows(what, len(one))
-    gap = float(what.apart(one[rows], other[rows]).max())
-    return max(gap, missed_load(one, other)) if what.load else gap
 
 
 def missed_load(one: Array, other: Array) -> float:

@@ -58,8 +58,6 @@ class Report:
         what they are off these.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
-    largest_force : float
-        Of a tyre, a contact or a spring with end stops in a System with roads, N.
     divisions : int
         Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
         changed abruptly in them; and parts of steps that ended where a table of inputs jumps.
@@ -111,7 +109,6 @@ class Report:
     rim_time: float = 0.0
     rim_x: float = 0.0
     rim_y: float = 0.0
-    largest_force: float = 0.0
     divisions: int = 0
     branch_changes: int = 0
     branch_time: float = 0.0

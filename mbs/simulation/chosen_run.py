@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
-from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.kernel.header.limits import STILL, WRONG_ERROR
 from mbs.results.accuracy import AccuracyWarning
-from mbs.results.comparison import STILL, Compared, compared_sensors
+from mbs.results.comparison import COORDINATES, INSTANTS, Compared, compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -64,7 +64,6 @@ DEFAULT_TOLERANCE = 1e-3
 """Of runs in equal steps that are chosen."""
 RECORDED = 200  # intervals where none is said
 LOOKED_AHEAD = 1e-3  # of the run: how far behind the place where steps end a drive may lead loops no further
-CHECKED = 50  # instants beside those that are recorded at which runs are compared
 
 
 def to_tolerance(
@@ -84,7 +83,7 @@ def to_tolerance(
     if t_end <= t0:
         values = np.array([list(first.instance.sensors())])
         return _trajectory(first, times, values, None, 0.0, settings, first.state.q[None]), first
-    grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED)
+    grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task, coarse, made = Task(t0, t_end, grid, inputs), min(COARSE * tolerance.share, COARSEST), _Made()
     if method != "auto":
@@ -194,7 +193,7 @@ def _gaps(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> di
     found = dict[str, float]()
     for name in tolerance.sensors:
         one, other = (made.values[:, names.index(name)] for made in (run, before))
-        found[name] = float(known.get(name, Compared("")).apart(one, other).max())
+        found[name] = known.get(name, Compared(COORDINATES)).gap(one, other)
     return found
 
 
@@ -247,7 +246,7 @@ def equal_steps(
     check_end(t0, t_end)
     reason, wall, runs, error = "", 0.0, 0, math.nan
     if method == "auto" and t_end > t0:
-        grid = t0 + (t_end - t0) * np.arange(1, CHECKED + 1) / CHECKED
+        grid = t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS
         task = Task(t0, t_end, grid, inputs)
         choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, COARSEST)
         method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs

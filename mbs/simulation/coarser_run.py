@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy, missed_share, summed_miss
-from mbs.results.comparison import ALIKE, WHOLE, Compared, compared_rows, has_loads, is_open, sizes_of
+from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import OPEN
@@ -154,7 +154,7 @@ class CoarserRuns:
         report = self.refined.run[0].report
         assert report is not None
         for samples, at in self.refined.path:
-            rest = replace(report, **{name: getattr(report, name) - getattr(at, name) for name in COUNTED})
+            rest = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
             if not accuracy.doubt(rest, rest.steps, rest.halvings, self.refined.method):
                 return samples
         return math.inf
@@ -172,26 +172,32 @@ class CoarserRuns:
         It ends it where `smooth` samples are made, and what both differ by in the last tenth of the whole is at most
         `AGREED` of `right`, and as it grew in that tenth comes to no more than `right` in the end.
         """
+        compared, samples, tenth = self.refined.compared, len(run.t), len(run.t) / WATCHED
         column = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
-        sizes = sizes_of(run, self.refined.compared, self.refined.length, self.refined.before)
-        tenth = len(run.t) / WATCHED
-        rows = {name: compared_rows(self.refined.compared[name], len(run.t)) for name in sizes}
-        unknown = is_open(self.refined.compared)
-        sizes = {name: size for name, size in sizes.items() if self.refined.compared[name].always or not unknown}
+        whole = Comparison(compared, self.refined.length, self.refined.before)
+        whole.add(run)
+        sizes = {name: of for name, of in whole.sizes().items() if compared[name].always or not is_open(compared)}
+        forces = instants(samples)
+
+        def off(values: NDArray[np.float64], begin: float, end: float) -> float:
+            first, last = (max(math.ceil(at), 0) for at in (begin, end))
+            part = Comparison({name: compared[name] for name in sizes}, self.refined.length)
+            there = {name: values[first:last, column[name]] for name in sizes}
+            at = forces[(forces >= first) & (forces < last)] - first
+            part.add({name: run[name][first:last] for name in sizes}, there, at)
+            whole.widen(part.gaps)
+            return max((gap / sizes[name] for name, gap in part.gaps.items()), default=0.0)
 
         def look(values: NDArray[np.float64]) -> bool:
-            agreed, left, same = len(values) >= smooth, (len(run.t) - len(values)) / tenth, unknown
-            for name, size in sizes.items():
-                there = rows[name][rows[name] < len(values)]
-                gaps = self.refined.compared[name].apart(values[there, column[name]], run[name][there]) / size
-                if gaps.max() > most:
-                    raise TooFarError
-                same = same and not (self.refined.compared[name].place and gaps.max() > ALIKE)
-                old = there < len(values) - 1 - tenth
-                last, before = gaps[~old].max(), gaps[old & (there >= len(values) - 1 - 2 * tenth)].max(initial=0.0)
-                growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
-                ahead = left * growth + math.log(last / right) if last > 0.0 else -math.inf
-                agreed = agreed and last <= AGREED * right and ahead <= 0.0
-            return agreed and not same
+            end = len(values)
+            old = end - 1 - tenth
+            so_far, last, before = off(values, 0.0, end), off(values, old, end), off(values, old - tenth, old)
+            if so_far > most:
+                raise TooFarError
+            growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
+            ahead = (samples - end) / tenth * growth + math.log(last / right) if last > 0.0 else -math.inf
+            # where two motions are still to say what guides prescribe, both must have differed
+            differ = all(compared[name].always or not is_open(compared) for name in whole.sizes())
+            return differ and end >= smooth and last <= AGREED * right and ahead <= 0.0
 
         return look

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.steps import BranchKind
+from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
-from mbs.results.run_report import Report
+from mbs.results.comparison import compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
@@ -23,7 +24,7 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import CoarserRuns, rest_of
+from mbs.simulation.coarser_run import CoarserRuns, one_iteration, rest_of
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
@@ -42,7 +43,7 @@ def fixed_step_run(
     every: int,
     progress: bool | Callable[[float], None] | None,
     estimate_error: bool | float | None,
-    before: dict[str, NDArray[np.float64]] | None = None,
+    before: dict[str, ComparedFields] | None = None,
     divisor: int = 0,
     warned: Warned | None = None,
 ) -> Trajectory:
@@ -50,11 +51,11 @@ def fixed_step_run(
 
     What it warns of beside `Accuracy.message` is added to `warned` where that is given, also where the run fails.
     """
-    made, path = list[SteppedSystem](), list[tuple[int, Report]]()
+    made, path = list[SteppedSystem](), list[tuple[int, Mapping[str, float]]]()
     found: Accuracy | None = None
 
     def note(values: NDArray[np.float64]) -> bool:
-        path.append((len(values), made[0].report))
+        path.append((len(values), made[0].instance.report()))
         return False
 
     def march_from_start(
@@ -69,8 +70,10 @@ def fixed_step_run(
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
         made.append(simulation)
-        if len(made) == 1 and checked and before is None:
-            watch = note
+        if len(made) == 1 and checked and before is None:  # a coarser run that may be watched asks for it
+            guided, states = (len(system.arrays[name]) > 0 for name in ("gterm_row", "y0"))
+            some = {name: what for name, what in compared_sensors(system).items() if what.always or guided}
+            watch = None if one_iteration(simulation.settings, some, states) else note
         return march(simulation, t_end, step, inputs, every, progress, look, wanted, watch)
 
     checked = estimate_error is not False

@@ -10,19 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.header.limits import EVENT_ORDER
+from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import FAR, MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.comparison import (
     COORDINATES,
     Compared,
-    add_ends,
+    Comparison,
     compared_in,
     compared_sensors,
     differences,
+    instants,
     shows_motion,
     sizes_of,
 )
-from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
@@ -58,7 +59,7 @@ class RefinedRuns:
         Its steps from one sample to the next.
     update : callable
         Takes the progress of all runs, from 0 to 1.
-    before : dict of str to ndarray, optional
+    before : dict of str to ComparedFields, optional
         The ends of what moved in the runs before this one, by name.
     divisor : int
         By what the step is divided for the refined run that goes on from that of the run before, which is the only one;
@@ -67,8 +68,8 @@ class RefinedRuns:
         Those that follow time.
     most : float
         What all refined runs may cost, in first runs.
-    path : sequence of tuple of int and Report
-        Numbers of samples of the first run on its way, and what it had counted there; none where no coarser run may end
+    path : sequence of tuple of int and mapping
+        Numbers of samples of the first run on its way, and the kernel's report there; none where no coarser run may end
         before it.
 
     Attributes
@@ -98,11 +99,11 @@ class RefinedRuns:
     h: float
     every: int
     update: Callable[[float], None]
-    before: dict[str, NDArray[np.float64]] | None = None
+    before: dict[str, ComparedFields] | None = None
     divisor: int = 0
     inputs: Mapping[str, Signal] | None = None
     most: float = MOST_COST
-    path: Sequence[tuple[int, Report]] = ()
+    path: Sequence[tuple[int, Mapping[str, float]]] = ()
 
     def __post_init__(self) -> None:
         self.cost, self.tried, self.left_alone = 0.0, self.h, False
@@ -232,7 +233,9 @@ class RefinedRuns:
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
         if self.before is not None:
-            add_ends(self.before, self._table(self.run), self.compared)
+            seen = Comparison(self.compared, self.length, self.before)
+            seen.add(self._table(self.run))
+            self.before |= seen.ends
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
@@ -272,9 +275,12 @@ class RefinedRuns:
         return {name: run[0][name] for name, what in self.compared.items() if what.load} | self._coordinates(run)
 
     def _coordinates(self, run: Run) -> dict[str, NDArray[np.float64]]:
-        """Of a run at the instants, by name; none where they are not kept."""
-        q = np.array(run[1])
-        return {name: q[:, i] for name, i in self._columns.items()} if len(q) else {}
+        """Of a run at its samples, by name, NaN between the instants; none where they are not kept."""
+        if not run[1]:
+            return {}
+        q = np.full((len(run[0].t), self.system.nq), np.nan)
+        q[instants(len(q))[: len(run[1])]] = run[1]
+        return {name: q[:, i] for name, i in self._columns.items()}
 
     def estimated(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
         """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
@@ -311,13 +317,13 @@ def extrapolated(
     known: Accuracy,
     tables: Sequence[Mapping[str, NDArray[np.float64]]],
     compared: Mapping[str, Compared],
-    before: Mapping[str, NDArray[np.float64]] | None,
+    before: Mapping[str, ComparedFields] | None,
     length: float,
 ) -> Accuracy:
     """The error against what refined runs tend to, by Richardson's extrapolation with `EVENT_ORDER`.
 
     `tables`: of the run and of the last two refined ones, of which the last has half the step, samples of shape (n,) by
-    name; `before`, `length`: as of `sizes_of`.
+    name; `before`, `length`: as of `Comparison`.
     """
     run, coarse, fine = tables
     more = 1.0 / (2.0**EVENT_ORDER - 1.0)

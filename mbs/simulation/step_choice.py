@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.progress import Progress
+from mbs.results.comparison import INSTANTS
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -21,7 +22,6 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
-CHECKED = 50  # instants at which runs are compared, and steps of the first run
 MOST_STEPS = 3_000_000  # of a run
 LEAST_ORDER = 0.5  # measured: below, differences do not yet show the error
 EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
@@ -51,7 +51,7 @@ def choose_step(
     """
     simulation = start()
     system, method = simulation.system, simulation.settings.method
-    h = (t_end - simulation.time) / CHECKED
+    h = (t_end - simulation.time) / INSTANTS
     runs: list[Array | None] = []
     differences: list[float] = []
     last: tuple[float, float] | None = None
@@ -98,9 +98,9 @@ def _positions(
     simulation = start()
     t0 = simulation.time
     found = []
-    for k in range(1, CHECKED + 1):
+    for k in range(1, INSTANTS + 1):
         try:
-            march(simulation, t0 + (t_end - t0) * k / CHECKED, h, inputs, 1, False)
+            march(simulation, t0 + (t_end - t0) * k / INSTANTS, h, inputs, 1, False)
         except SimulationError:
             if strict:
                 raise

@@ -9,14 +9,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.limits import LONGEST_SETTLING
+from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
@@ -95,7 +93,7 @@ class Simulation(SteppedSystem):
         self._warned = self._rim_told = False
         self._refined: SteppedSystem | None = None
         self._parts = 0  # of a step, that it makes
-        self._ends: dict[str, NDArray[np.float64]] = {}  # of what moved in runs so far
+        self._ends: dict[str, ComparedFields] = {}  # of what moved in runs so far
         self._limits = InputSignals({}, self._meta["inputs"])
         self._road_files = {entry["name"]: entry for entry in self._meta.get("road_files", ())}
         self._started = False

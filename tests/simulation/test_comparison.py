@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import PPoly
 
 import mbs
-from mbs.results.comparison import Compared, compared_in, differences, sizes_of
+from mbs.results.comparison import Compared, Comparison, compared_in, differences, sizes_of
 
 RATE, PLACE = Compared("rad/s", always=False), Compared("m", place=True)
 T = np.linspace(0.0, 1.0, 101)
@@ -89,6 +89,33 @@ def test_angles_from_minus_pi_to_pi_are_compared_as_angles() -> None:
     assert units["rad"] == pytest.approx(0.015)
     assert set(compared_in({"a": wrapped}, {"a": angle}, 1.0)) == {"a"}
     assert set(compared_in({"a": wrapped[::10]}, {"a": angle}, 1.0)) == set()
+    turning = {"a": wrapped[::10], "turning": 0.1 * T[::10]}  # one that is not followed is no size of others
+    assert differences(turning, turning, {"a": angle, "turning": Compared("rad", place=True)}, None, 1.0)[2] == {
+        "turning": pytest.approx(0.1)
+    }
+
+
+def test_an_angle_goes_on_from_the_turns_of_the_runs_before() -> None:
+    angle = {"a": Compared("rad", place=True, wrapped=True)}
+    first = Comparison(angle, 1.0)
+    for begin, end in ((0.0, 10.0), (10.0, 16.0)):
+        second = Comparison(angle, 1.0, first.ends)
+        turns = {"a": (begin + (end - begin) * T + np.pi) % (2.0 * np.pi) - np.pi}
+        second.add(turns, {"a": turns["a"] + 0.2})
+        assert second.gaps["a"] == pytest.approx(0.2)
+        first = second
+    assert first.sizes()["a"] == pytest.approx(16.0)
+    assert {name: seen.gap for name, seen in first.ends.items()} == {"a": 0.0}
+
+
+def test_forces_are_compared_at_their_samples_and_what_is_not_known_nowhere() -> None:
+    both = {"x": PLACE, "load": Compared("N", load=True)}
+    fine = {"x": 1.0 * np.arange(6.0), "load": 10.0 + np.arange(6.0)}
+    coarse = {"x": fine["x"] + np.array([0.0, 0.1, np.nan, 0.0, 0.0, 9.0]), "load": fine["load"] + np.arange(6.0)}
+    found = Comparison(both, 1.0)
+    found.add(fine, {name: values[:5] for name, values in coarse.items()}, [0, 3])
+    assert found.gaps == pytest.approx({"x": 0.1, "load": 3.0})
+    assert found.sizes() == pytest.approx({"x": 5.0, "load": 15.0})
 
 
 def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:

@@ -12,6 +12,8 @@ LONGEST_SETTLING = 10.0
 """Longest time for which a start may settle, s."""
 BALANCE_WRONG = 0.036
 """Energy balance above which, at any time, no run was right that was tried."""
+STILL = 1e-4
+"""Of the largest value in a unit, or of the length: a smaller range is rest."""
 WRONG_ERROR = 0.05
 """Of the size of what is judged: above it a run is wrong."""
 EVENT_ORDER = 2

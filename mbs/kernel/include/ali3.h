@@ -397,7 +397,8 @@ typedef struct { /* of one of them; zero before the first sample */
   double gap, time, latest; /* the largest difference, when, s, and the last one */
   int64_t samples, in_turn; /* all of them; those that were compared since one for ranges only */
 } ali3_compared;
-/* Adds n numbers at so many times: of the coarser motion (`one`, NULL: ranges only) and of the finer one, row major. */
+/* Adds n numbers at so many times (NULL: no matter): of the coarser motion (`one`, NULL: ranges only; NaN: that number is
+ * not compared) and of the finer one, row major. */
 ALI3_API void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one,
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
@@ -409,6 +410,7 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
                                     int32_t *worst);
 /* The error of the coarser motion by what both differ by: steps are so many times those of the finer one. */
 ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
+#define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
 #define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */

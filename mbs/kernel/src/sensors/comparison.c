@@ -6,7 +6,6 @@
 #include "../../include/ali3.h"
 
 static const double PI = 3.141592653589793;
-static const double STILL = 1e-4;   /* of the largest value, or of the length: a smaller range is rest */
 static const double STANDS = 0.01; /* the same of coordinates: rates and forces of what moves less are those of rest */
 static const double NO_TURN = 1e-3; /* rad: a smaller turn counts only where nothing else moves, 1 mm at 1 m */
 static const double ALIKE = 1e-6; /* of the size: places that differ by less do not move by themselves */
@@ -46,7 +45,7 @@ void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double
       seen[i].latest = apart(what + i, one[row * n + i], other[row * n + i]);
       if (!(seen[i].latest > seen[i].gap)) continue;
       seen[i].gap = seen[i].latest;
-      seen[i].time = time[row];
+      if (time != NULL) seen[i].time = time[row];
     }
 }
 
@@ -75,7 +74,7 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
                         : unit == ALI3_JUDGED_RAD        ? 1.0
                         : unit == ALI3_JUDGED_COORDINATE ? fmax(length, 1.0)
                                                          : HUGE_VAL,
-                 rest = (unit == ALI3_JUDGED_COORDINATE ? STANDS : STILL) * fmin(largest[group], most);
+                 rest = (unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most);
     size[i] = !(moved[group] > rest) || !follows(seen + i) ? 0.0
               : what[i].kind & ALI3_JUDGED_LOAD            ? largest[group]
                                                            : moved[group];
