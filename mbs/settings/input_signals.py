@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding.instance import Instance
+from mbs.settings.input_breaks import Table, input_breaks, jumps, sampled
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
-Table: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def unit_text(unit: str) -> str:
@@ -30,7 +30,8 @@ class InputSignals:
     signals : mapping of str to signal
         Per input a constant, a function of time in s, or a pair (times, values) of equal length: linear in between,
         held outside. A time given twice is a jump; at that very instant the value before it counts, because the step
-        that ends there lies before it. An input of whole numbers keeps each value of a table until the next one.
+        that ends there lies before it. A function depends on time alone, because `breaks` asks it ahead. An input of
+        whole numbers keeps each value of a table until the next one.
     declared : sequence of mapping
         Entries `name`, `unit`, `min`, `max` (None: open), `whole` of every input of the System, in order.
     """
@@ -42,6 +43,7 @@ class InputSignals:
         self._max = np.array([np.inf if d["max"] is None else d["max"] for d in declared], float)
         self._whole = np.array([bool(d.get("whole")) for d in declared])
         self._signals: dict[int, Signal] = {}
+        self._jumps: dict[int, list[tuple[float, float]]] = {}
         for name, signal in signals.items():
             if not isinstance(name, str) or name not in self._names:
                 known = ", ".join(self._names) or "none"
@@ -57,9 +59,20 @@ class InputSignals:
         """Numbers of the inputs that have a signal."""
         return list(self._signals)
 
-    def tables(self) -> list[Table]:
-        """Times and values of those that are tables, as they are followed."""
-        return [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
+    def breaks(self, t0: float, t_end: float, h: float) -> NDArray[np.float64]:
+        """Times, s, at which steps of `h` from `t0` are parted; what is attached jumps where functions do."""
+        tables = []
+        for i, signal in self._signals.items():
+            if callable(signal):
+                tables.append(sampled(signal, t0, t_end, h))
+                self._jumps[i] = jumps(tables[-1], h)
+            elif isinstance(signal, tuple):
+                tables.append(_table(signal))
+        return input_breaks(tables, t0, t_end, h)
+
+    def jumps(self) -> list[float]:
+        """When functions jump, as `breaks` has found, s."""
+        return [before for found in self._jumps.values() for before, _ in found]
 
     def check(self, index: int, t: float, value: float) -> None:
         """A `ValueError` where an input is not finite, not whole as it must be or beyond its limits at time `t`, s."""
@@ -113,8 +126,13 @@ class InputSignals:
         """Value of one signal at a time, before or behind a jump."""
         low, high, whole = float(self._min[i]), float(self._max[i]), bool(self._whole[i])
         if callable(signal):
+            jumping = self._jumps.get(i, [])
+            before = [jump[0] for jump in jumping]
 
             def of_function(t: float, after: bool) -> float:
+                k = bisect_left(before, t - tolerance)
+                if k < len(before) and before[k] <= t + tolerance:
+                    t = jumping[k][after]
                 value = _value_of(self._names[i], signal, t)
                 if not low <= value <= high or math.isinf(value) or (whole and value != math.floor(value)):
                     self._check(i, np.array([t]), np.array([value]))

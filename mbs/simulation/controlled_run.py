@@ -19,6 +19,7 @@ from mbs.simulation.stepped_system import SteppedSystem
 Array = NDArray[np.float64]
 CHUNK_SECONDS, FIRST_CHUNK = 0.1, 64
 LONGEST, LONGEST_WITH_FUNCTIONS = 0.1, 0.02  # steps, in parts of the run
+PARTED = 1e-3  # of the run: steps beside which functions are looked at for jumps and peaks
 ROWS, BALANCE = 1e-7, 1e-6  # tolerances of Newton's loop in parts of that of the run, both times the length
 MOST_FORCED, MOST_FORCED_SHARE = 300, 0.05  # steps that may err too much
 MOST_OVER_SHARE, MOST_OVER_SHARE_PART = 3000, 0.3  # steps that err more than their share
@@ -41,11 +42,11 @@ class Task:
         """Duration, s."""
         return self.t_end - self.t0
 
-    def stops(self) -> list[float]:
-        """Ends of steps: the points of the tables, and the end."""
+    def stops(self, signals: InputSignals) -> list[float]:
+        """Ends of steps: the points of the tables, jumps and peaks of functions, and the end."""
         tables = [np.asarray(s[0], float) for s in self.inputs.values() if isinstance(s, tuple)]
-        inside = {float(t) for table in tables for t in table if self.t0 < t < self.t_end}
-        return [*sorted(inside), self.t_end]
+        found = [*tables, signals.breaks(self.t0, self.t_end, PARTED * self.span), signals.jumps()]
+        return [*sorted({float(t) for times in found for t in times if self.t0 < t < self.t_end}), self.t_end]
 
 
 class StalledError(RuntimeError):
@@ -91,8 +92,8 @@ class ControlledRun:
         self.positions = np.empty((n, nq))
         self.done = 0
         self.wall = 0.0
-        self._stops = task.stops()
         self._signals = InputSignals(task.inputs, meta["inputs"])
+        self._stops = task.stops(self._signals)
         self._columns = self._signals.columns()
 
     @property

@@ -65,8 +65,9 @@ def simulate(
     inputs : mapping of str to signal, optional
         Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
         use the value at the end of a step, the other methods those at the times of their stages; parts of a step end
-        where a table jumps or peaks, with the value before the jump, and begin with the one behind it. With a tolerance
-        the points of tables are ends of steps; a function is taken as smooth.
+        where one jumps or peaks, with the value before the jump, and begin with the one behind it. With a tolerance the
+        points of tables, jumps and peaks are ends of steps. A function must depend on time alone: it is asked ahead, 16
+        times a step.
     settings : Settings, optional
         How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional

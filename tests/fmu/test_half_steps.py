@@ -215,7 +215,7 @@ def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable
 
 
 @pytest.mark.parametrize("scene", ["double_pendulum", "double_pendulum_rates"])
-@pytest.mark.parametrize(("h", "span"), [(0.02, 1.6), (0.01, 0.6)])
+@pytest.mark.parametrize(("h", "span"), [(0.02, 1.6), (0.01, 0.6), (0.005, 2.0)])
 def test_places_or_rates_are_compared_where_nothing_touches_and_outputs_at_rest_judge_nothing(
     h: float, span: float, scene: str, build: Callable[..., Path], host: HostMaker
 ) -> None:

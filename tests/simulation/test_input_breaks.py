@@ -1,8 +1,9 @@
-"""Tables of inputs that jump or peak within steps, and repeats of runs whose first repeats are off alike."""
+"""Inputs that jump or peak within steps, and repeats of runs whose first repeats are off alike."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,8 +11,8 @@ import pytest
 import mbs
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
+from mbs.settings.input_breaks import input_breaks, sampled
 from mbs.settings.input_signals import InputSignals
-from mbs.simulation.input_breaks import input_breaks
 from tests.simulation.drawn import drawn
 
 H, SPAN = 0.02, 1.0
@@ -80,7 +81,7 @@ def test_a_whole_number_holds_until_the_next() -> None:
     lever = table((0.0, 0.0), (0.305, 1.0), (0.315, 0.0))
     declared = [{"name": n, "unit": "1", "min": None, "max": None, "whole": n == "lever"} for n in ("lever", "other")]
     signals = InputSignals({"lever": lever, "other": 3.0}, declared)
-    assert input_breaks(signals.tables(), 0.0, SPAN, H) == pytest.approx([0.305, 0.315])
+    assert signals.breaks(0.0, SPAN, H) == pytest.approx([0.305, 0.315])
 
 
 @pytest.mark.parametrize("lasting", [0.3, 2.4, 4.6, 6.8])
@@ -101,6 +102,87 @@ def test_a_push_that_begins_and_ends_within_steps(lasting: float, method: str, b
     assert run["x"] - 1.0 == pytest.approx(12.5 * (behind[0] ** 2 - behind[1] ** 2), abs=1e-9)
     assert run.report is not None
     assert run.report.divisions == 2
+
+
+def by_many(system: mbs.System, inputs: dict[str, Any]) -> mbs.Trajectory:
+    found = mbs.simulate_many(system, [mbs.Variant(inputs=inputs)], SPAN, H, progress=False).trajectories[0]
+    assert found is not None
+    return found
+
+
+RUNS: dict[str, Callable[[mbs.System, dict[str, Any]], mbs.Trajectory]] = {
+    "simulate": lambda system, inputs: mbs.simulate(system, SPAN, H, inputs, progress=False),
+    "by hand": lambda system, inputs: mbs.Simulation(system).run(SPAN, H, inputs=inputs, progress=False),
+    "many": by_many,
+}
+
+
+FUNCTIONS: dict[str, Callable[[float, float], tuple[Callable[[float], float], float]]] = {
+    "rectangle": lambda begin, end: (lambda t: float(begin <= t < end), 1.0),
+    "rectangle, open before": lambda begin, end: (lambda t: float(begin < t <= end), 1.0),
+    "triangle": lambda begin, end: (lambda t: max(0.0, 1.0 - abs(2.0 * (t - begin) / (end - begin) - 1.0)), 0.5),
+    "half a sine": lambda begin, end: (
+        lambda t: np.sin(np.pi * min(1.0, max(0.0, (t - begin) / (end - begin)))),
+        2.0 / np.pi,
+    ),
+}
+"""A pulse of a function with its height, 1, and its mean."""
+
+
+@pytest.mark.parametrize("kind", FUNCTIONS)
+@pytest.mark.parametrize("way", ["simulate", "by hand", "many", "tolerance"])
+def test_a_pulse_of_a_function_within_a_step_moves_what_it_pushes(kind: str, way: str) -> None:
+    """Of a tenth to the whole of a step, also one that begins where a step ends: the impulse moves the sledge."""
+    system = sledge()
+    for begin, lasting in ((0.3, 0.1), (0.305, 0.1), (0.303, 0.37), (0.31, 0.5), (0.301, 0.9)):
+        end = begin + lasting * H
+        shape, mean = FUNCTIONS[kind](begin, end)
+        height = 1.6 / (mean * lasting * H)
+        inputs = {"push": lambda t, shape=shape, height=height: height * shape(t)}
+        if way == "tolerance":
+            run = mbs.simulate(system, SPAN, inputs=inputs, tolerance=1e-4, progress=False)
+        else:
+            run = RUNS[way](system, inputs)
+        moved = 1.6 / 2.0 * (SPAN - 0.5 * (begin + end))
+        assert run["x"][-1] - 1.0 == pytest.approx(moved, rel=1e-5 if "rectangle" in kind else 2e-2)
+
+
+@pytest.mark.parametrize("way", ["simulate", "tolerance"])
+def test_a_jump_of_a_function_counts_from_its_time_on(way: str) -> None:
+    """At the end of a step or within one, and whichever value the function has at that very time."""
+    for begin in (0.3, 0.305):
+        for at in (0.0, 1.0):
+            push = {"push": lambda t, begin=begin, at=at: 50.0 if t > begin else 50.0 * at * (t == begin)}
+            more = {"h": H} if way == "simulate" else {"tolerance": 1e-5}
+            run = mbs.simulate(sledge(), SPAN, inputs=push, progress=False, **more)
+            assert run["x"][-1] - 1.0 == pytest.approx(12.5 * (SPAN - begin) ** 2, rel=1e-5)
+
+
+def test_a_function_that_fails_is_looked_at_until_then() -> None:
+    """The step that asks it there says so, as if nobody had asked ahead; noise is no breaks without end."""
+
+    def failing(t: float) -> float:
+        if t > 0.5:
+            raise ZeroDivisionError
+        return float(t > 0.305)
+
+    t, x = sampled(failing, 0.0, SPAN, H)
+    assert t[-1] <= 0.5
+    assert input_breaks([(t, x)], 0.0, SPAN, H) == pytest.approx([0.305])
+    simulation = mbs.Simulation(sledge())
+    with pytest.raises(ZeroDivisionError):
+        simulation.run(SPAN, H, inputs={"push": failing}, progress=False, estimate_error=False)
+    assert simulation.time == pytest.approx(0.5)
+    noise = np.random.default_rng(1)
+    assert len(sampled(lambda t: noise.normal(), 0.0, SPAN, H)[0]) <= 2 * 16 * 50 + 1
+    assert len(sampled(lambda t: 1.0 / 0.0, 0.0, SPAN, H)[0]) == 1
+
+
+def test_a_smooth_function_parts_no_step() -> None:
+    for rate in (0.0, 3.0, 0.14 / H):
+        assert (
+            len(input_breaks([sampled(lambda t, w=rate: np.sin(2.0 * np.pi * w * t), 0.0, SPAN, H)], 0.0, SPAN, H)) == 0
+        )
 
 
 def test_lanes_and_limited_steps_have_the_parts_of_a_run_alone() -> None:
@@ -132,19 +214,6 @@ def test_parts_of_a_run_by_hand_are_those_of_one_run() -> None:
     assert runs[-1]["x"][-1] == pytest.approx(whole["x"][-1], abs=1e-12)
 
 
-def by_many(system: mbs.System, inputs: dict[str, Table]) -> mbs.Trajectory:
-    found = mbs.simulate_many(system, [mbs.Variant(inputs=inputs)], SPAN, H, progress=False).trajectories[0]
-    assert found is not None
-    return found
-
-
-RUNS: dict[str, Callable[[mbs.System, dict[str, Table]], mbs.Trajectory]] = {
-    "simulate": lambda system, inputs: mbs.simulate(system, SPAN, H, inputs, progress=False),
-    "by hand": lambda system, inputs: mbs.Simulation(system).run(SPAN, H, inputs=inputs, progress=False),
-    "many": by_many,
-}
-
-
 @pytest.mark.parametrize("way", RUNS)
 @pytest.mark.parametrize("lasting", [0.016, 5e-4, 1e-5])
 def test_a_pulse_between_two_steps_moves_what_it_pushes(way: str, lasting: float) -> None:
@@ -155,12 +224,12 @@ def test_a_pulse_between_two_steps_moves_what_it_pushes(way: str, lasting: float
 
 
 def test_a_coarser_run_that_missed_what_moves_does_not_agree() -> None:
-    """A pulse of a function that the run meets once, at its height, and a run with eight times the step not at all."""
+    """A pulse of a function between two times at which runs with eight and four times the step ask ahead."""
     run = mbs.simulate(
-        sledge(50.0), 4.0, 0.01, {"push": lambda t: 100.0 * max(0.0, 1.0 - abs(t - 0.53) / 0.01)}, progress=False
+        sledge(50.0), 4.0, 0.01, {"push": lambda t: 700.0 if 0.5305 < t < 0.5319 else 0.0}, progress=False
     )
     assert run.accuracy is not None
-    assert run.accuracy.compared_step == 0.005
+    assert run.accuracy.compared_step == 0.02
     assert run.accuracy.error is not None
 
 

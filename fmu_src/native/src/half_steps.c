@@ -129,11 +129,13 @@ void slave_half_steps_free(slave *s) {
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
-/* In how many parts the other motion makes a step: of what touches nothing errors are of order two. */
+/* Whether something can: errors of what touches nothing are of order two, and come without an abrupt force. */
+static bool touches(const slave *s) { return ali3_contact_count(s->fidelity.system) > 0; }
+
+/* In how many parts the other motion makes a step. */
 static int64_t parts_of(const slave *s, double h) {
-  const bool touches = ali3_contact_count(s->fidelity.system) > 0;
   int64_t n = 2;
-  while (touches && n < MOST && h / (double)n > SHORT) n *= 2;
+  while (touches(s) && n < MOST && h / (double)n > SHORT) n *= 2;
   return n;
 }
 
@@ -301,8 +303,8 @@ slave_status slave_halve_steps(slave *s) {
   slave_half_steps *t = &s->half_steps;
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
-  /* tyres that are driven from the start on slip at once, what is let go swings: where long steps miss it */
-  const bool begins = t->begins && 2.0 * s->made.h > (double)MOST * SHORT,
+  /* what is let go swings; tyres that are driven from the start on slip at once, which long steps miss */
+  const bool begins = t->begins && (!touches(s) || 2.0 * s->made.h > (double)MOST * SHORT),
              abrupt = report.abrupt_steps > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);

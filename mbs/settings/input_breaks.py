@@ -1,0 +1,90 @@
+"""Where steps end early: at jumps and peaks of tables and functions of inputs within them."""
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.common.polyline import needed_points
+
+Array = NDArray[np.float64]
+Table = tuple[Array, Array]
+LEAST = 0.05  # of the range of the table: a smaller departure is noise of a record
+FINE = 0.01  # of the range: by how much parts of a step that departs by more may depart
+AT_END = 1e-6  # steps: what is so near to the end of one, or to another break, is at it
+ASKED = 16  # times a step: a pulse of a function of a tenth of a step is met
+
+
+def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> Array:
+    """Times, s, at which steps of `h` from `t0` are parted: in each part tables go straight, but for `FINE` in one
+    that departs from a straight line by more than `LEAST`.
+    """
+    found = [t_end]
+    for t, x in tables:
+        phase, size = (t - t0) / h, float(np.ptp(x))
+        step = np.floor(phase)
+        ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
+        begin, end = np.interp(ends, t, x)
+        within = (np.abs(phase - np.round(phase)) > AT_END) & (t > t0) & (t < t_end)
+        departs = within & (np.abs(x - begin - (phase - step) * (end - begin)) > LEAST * size)
+        for number in np.unique(step[departs]):
+            first, behind = np.searchsorted(step, [number, number + 1.0])
+            inside = first + np.flatnonzero(within[first:behind])
+            k = inside[0]
+            points = np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]]
+            found.extend(_parted(*points, FINE * size))
+    times = np.unique(found)[:-1]
+    return times[np.diff(times, prepend=-np.inf) > AT_END * h]
+
+
+def sampled(function: Callable[[float], float], t0: float, t_end: float, h: float) -> Table:
+    """A function of time as a table, `ASKED` times a step of `h`, s, and in halves between these until it goes
+    straight.
+
+    Halves of less than `AT_END` have a jump between them. The table ends where the function fails, as the step then
+    will that asks there; a function that changes between all samples, as noise does, is halved once.
+    """
+
+    def ask(times: Array) -> Array:
+        values = np.full(len(times), np.nan)
+        for k, time in enumerate(times.tolist()):
+            try:
+                values[k] = function(time)
+            except Exception:  # of a function of the user, whatever it raises
+                break
+        return values
+
+    n = ASKED * max(1, int(np.ceil((t_end - t0) / h - AT_END)))
+    t = t0 + (t_end - t0) * np.arange(n + 1) / n
+    x = ask(t)
+    good = max(1, int(np.argmin(np.r_[np.isfinite(x), False])))
+    t, x = t[:good], x[:good]
+    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > LEAST * float(np.ptp(x)) if len(x) > 2 else np.zeros(0, bool)
+    uneven = np.flatnonzero(np.r_[off, False] | np.r_[False, off])
+    a, b = (np.stack([t[uneven + i], x[uneven + i]]) for i in (0, 1))
+    parts = [np.stack([t, x])]
+    while 0 < a.shape[1] <= n and b[0, 0] - a[0, 0] > 0.5 * AT_END * h:
+        middle = 0.5 * (a + b)
+        straight, middle[1] = middle[1].copy(), ask(middle[0])
+        parts.append(middle[:, np.isfinite(middle[1])])
+        off = np.abs(middle[1] - straight) > FINE * float(np.ptp(np.concatenate(parts, axis=1)[1]))
+        a, b = np.concatenate([a[:, off], middle[:, off]], axis=1), np.concatenate([middle[:, off], b[:, off]], axis=1)
+    t, x = np.concatenate(parts, axis=1)
+    order = np.argsort(t, kind="stable")
+    return t[order], x[order]
+
+
+def jumps(table: Table, h: float) -> list[tuple[float, float]]:
+    """The last time before and the first one behind each jump of a sampled function, s."""
+    t, x = table
+    there = np.flatnonzero((np.diff(t) <= 0.5 * AT_END * h) & (np.abs(np.diff(x)) > LEAST * float(np.ptp(x))))
+    return [(float(t[k]), float(t[k + 1])) for k in there]
+
+
+def _parted(t: Array, x: Array, least: float) -> Array:
+    """Times between the first and the last without which straight lines would miss a table by more than `least`."""
+
+    def off(a: int, b: int) -> Array:
+        return np.abs(x[a + 1 : b] - np.interp(t[a + 1 : b], t[[a, b]], x[[a, b]]))
+
+    return t[needed_points(len(t), off, least)[1:-1]]
