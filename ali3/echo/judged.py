@@ -8,10 +8,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ali3.columns import in_columns
 from ali3.echo.quantity import WIDEST, Quantity, Range
 
 ROUNDING = 1e-9  # of the range
+FEWEST_OTHERS = 10
 MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 4, 1, 4, 10
 
 
@@ -152,13 +156,17 @@ class Echo:
             warnings.warn(sentence, category, stacklevel=stacklevel + 1)
 
     def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
-        """Which of some values it brings inside; none where one that follows from what it changes is outside."""
+        """Which of some values it brings inside; none where one that follows from what it changes is outside.
+
+        Nor where one comes to lie less near than it was.
+        """
         before = {v.name for v in self.outside}
         wrong = {v.name for v in after if not v.inside(self.kind)}
         own = {v.name for v in self.values if changed & set(v.keys)}
-        wrong |= {v.name for v in after if v.name in own & before and not v.mended(self.kind)}
+        poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
+        wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
         there = {v.name for v in after}
-        return frozenset() if wrong - before or wrong & own else frozenset((names & there) - wrong)
+        return frozenset() if wrong & own or wrong - before else frozenset((names & there) - wrong)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
@@ -174,6 +182,15 @@ class Echo:
         sentence += "."
         sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
         return (f"{self.what}: " if self.what else "") + sentence
+
+
+def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which of some values are the one that lies farther from the others than ten times their range."""
+    levels = np.unique(values)
+    for level, rest in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
+        if len(rest) >= FEWEST_OTHERS and np.abs(level - rest).min() > 10.0 * np.ptp(rest) > 0.0:
+            return np.asarray(values == level)
+    return np.zeros(values.shape, bool)
 
 
 def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
