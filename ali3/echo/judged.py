@@ -83,6 +83,8 @@ class Echo:
     """Key of the ranges."""
     title: str = ""
     """Of its table, where a file has several."""
+    columns: Sequence[str] = ()
+    """First words of `Value.of` that have a column each, as front and rear."""
 
     @property
     def outside(self) -> list[Value]:
@@ -90,18 +92,28 @@ class Echo:
         return [v for v in self.values if not v.inside(self.kind)]
 
     def text(self) -> str:
-        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside."""
-        lines = [("quantity", "value", "usual", "")]
+        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside.
+
+        Quantities of `columns` are below those of the whole.
+        """
+        n = max(len(self.columns), 1)
+        whole, parts = [], []
         for q in dict.fromkeys(v.quantity for v in self.values):
             own = [v for v in self.values if v.quantity is q]
-            unit = "" if q.unit == "1" else f" {q.unit}"
-            given = ", ".join(f"{v.of} {v.value:.4g}".strip() for v in own) + unit
-            if len(own) > MOST_SHOWN:
-                ends = (pick(own, key=lambda v: v.value) for pick in (min, max))
-                given = f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(own)}"
-            mark = "" if all(v.inside(self.kind) for v in own) else "<- outside"
-            lines.append((q.name, given, _range(q, self.kind), mark))
-        return "\n".join(in_columns(lines))
+            inside = all(v.inside(self.kind) for v in own)
+            if q.shown_outside and inside:
+                continue
+            usual = (_range(q, self.kind), "" if inside else "<- outside")
+            cells = [_cell([v for v in own if v.of.startswith(side)], side) for side in self.columns]
+            if any(cells):
+                parts.append((q.name, *cells, *usual))
+            else:
+                whole.append((q.name, _cell(own), *[""] * (n - 1), *usual))
+        if whole:
+            whole.insert(0, ("quantity", "value", *[""] * (n - 1), "usual", ""))
+        if parts:
+            parts.insert(0, ("" if whole else "quantity", *self.columns, "" if whole else "usual", ""))
+        return "\n".join(in_columns(whole + parts))
 
     def to_json(self) -> list[dict[str, Any]]:
         """A record for each value: name, of, symbol, unit, value, range, inside, follows, keys, source."""
@@ -210,6 +222,17 @@ def _sharing(values: Sequence[Value]) -> list[list[Value]]:
         else:
             groups.append([v])
     return groups
+
+
+def _cell(values: Sequence[Value], column: str = "") -> str:
+    """What a table shows of some values of one quantity, of many the ends. `column`: first word of their `of`."""
+    if not values:
+        return ""
+    unit = "" if values[0].quantity.unit == "1" else f" {values[0].quantity.unit}"
+    if len(values) > MOST_SHOWN:
+        ends = (pick(values, key=lambda v: v.value) for pick in (min, max))
+        return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
+    return ", ".join(f"{v.of.removeprefix(column).strip()} {v.value:.4g}".strip() for v in values) + unit
 
 
 def _range(quantity: Quantity, kind: str) -> str:
