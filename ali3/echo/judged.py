@@ -8,10 +8,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ali3.columns import in_columns
 from ali3.echo.quantity import WIDEST, Quantity, Range
 
 ROUNDING = 1e-9  # of the range
+FEWEST_OTHERS = 10
 MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 4, 1, 4, 10
 
 
@@ -79,6 +83,8 @@ class Echo:
     """Key of the ranges."""
     title: str = ""
     """Of its table, where a file has several."""
+    columns: Sequence[str] = ()
+    """First words of `Value.of` that have a column each, as front and rear."""
 
     @property
     def outside(self) -> list[Value]:
@@ -86,18 +92,28 @@ class Echo:
         return [v for v in self.values if not v.inside(self.kind)]
 
     def text(self) -> str:
-        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside."""
-        lines = [("quantity", "value", "usual", "")]
+        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside.
+
+        Quantities of `columns` are below those of the whole.
+        """
+        n = max(len(self.columns), 1)
+        whole, parts = [], []
         for q in dict.fromkeys(v.quantity for v in self.values):
             own = [v for v in self.values if v.quantity is q]
-            unit = "" if q.unit == "1" else f" {q.unit}"
-            given = ", ".join(f"{v.of} {v.value:.4g}".strip() for v in own) + unit
-            if len(own) > MOST_SHOWN:
-                ends = (pick(own, key=lambda v: v.value) for pick in (min, max))
-                given = f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(own)}"
-            mark = "" if all(v.inside(self.kind) for v in own) else "<- outside"
-            lines.append((q.name, given, _range(q, self.kind), mark))
-        return "\n".join(in_columns(lines))
+            inside = all(v.inside(self.kind) for v in own)
+            if q.shown_outside and inside:
+                continue
+            usual = (_range(q, self.kind), "" if inside else "<- outside")
+            cells = [_cell([v for v in own if v.of.startswith(side)], side) for side in self.columns]
+            if any(cells):
+                parts.append((q.name, *cells, *usual))
+            else:
+                whole.append((q.name, _cell(own), *[""] * (n - 1), *usual))
+        if whole:
+            whole.insert(0, ("quantity", "value", *[""] * (n - 1), "usual", ""))
+        if parts:
+            parts.insert(0, ("" if whole else "quantity", *self.columns, "" if whole else "usual", ""))
+        return "\n".join(in_columns(whole + parts))
 
     def to_json(self) -> list[dict[str, Any]]:
         """A record for each value: name, of, symbol, unit, value, range, inside, follows, keys, source."""
@@ -152,13 +168,17 @@ class Echo:
             warnings.warn(sentence, category, stacklevel=stacklevel + 1)
 
     def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
-        """Which of some values it brings inside; none where one that follows from what it changes is outside."""
+        """Which of some values it brings inside; none where one that follows from what it changes is outside.
+
+        Nor where one comes to lie less near than it was.
+        """
         before = {v.name for v in self.outside}
         wrong = {v.name for v in after if not v.inside(self.kind)}
         own = {v.name for v in self.values if changed & set(v.keys)}
-        wrong |= {v.name for v in after if v.name in own & before and not v.mended(self.kind)}
+        poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
+        wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
         there = {v.name for v in after}
-        return frozenset() if wrong - before or wrong & own else frozenset((names & there) - wrong)
+        return frozenset() if wrong & own or wrong - before else frozenset((names & there) - wrong)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
@@ -174,6 +194,15 @@ class Echo:
         sentence += "."
         sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
         return (f"{self.what}: " if self.what else "") + sentence
+
+
+def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which of some values are the one that lies farther from the others than ten times their range."""
+    levels = np.unique(values)
+    for level, rest in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
+        if len(rest) >= FEWEST_OTHERS and np.abs(level - rest).min() > 10.0 * np.ptp(rest) > 0.0:
+            return np.asarray(values == level)
+    return np.zeros(values.shape, bool)
 
 
 def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
@@ -193,6 +222,17 @@ def _sharing(values: Sequence[Value]) -> list[list[Value]]:
         else:
             groups.append([v])
     return groups
+
+
+def _cell(values: Sequence[Value], column: str = "") -> str:
+    """What a table shows of some values of one quantity, of many the ends. `column`: first word of their `of`."""
+    if not values:
+        return ""
+    unit = "" if values[0].quantity.unit == "1" else f" {values[0].quantity.unit}"
+    if len(values) > MOST_SHOWN:
+        ends = (pick(values, key=lambda v: v.value) for pick in (min, max))
+        return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
+    return ", ".join(f"{v.of.removeprefix(column).strip()} {v.value:.4g}".strip() for v in values) + unit
 
 
 def _range(quantity: Quantity, kind: str) -> str:

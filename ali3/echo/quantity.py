@@ -33,6 +33,8 @@ class Quantity:
     """Where the range is from."""
     near: Range | None = None
     """What undoing a mistake must reach, where that is narrower than what is told."""
+    shown_outside: bool = False
+    """Whether tables of text show it only where it is outside of its range."""
 
     def range(self, kind: str = WIDEST) -> Range | None:
         """Least and largest usual value; of an unknown kind the widest. `kind`: key of `ranges`."""
@@ -57,7 +59,8 @@ def quantities_of(thing: str) -> Mapping[str, Quantity]:
 
 def _quantity(row: Mapping[str, str]) -> Quantity:
     texts = {name: row[name] for name in ("name", "symbol", "unit", "follows", "source")}
-    return Quantity(ranges=_ranges(row["ranges"]), near=_ranges(row["near"]).get(WIDEST), **texts)
+    near = _ranges(row["near"]).get(WIDEST)
+    return Quantity(ranges=_ranges(row["ranges"]), near=near, shown_outside=row["shown"] == "outside", **texts)
 
 
 def _ranges(text: str) -> dict[str, Range]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import singledispatch
 from typing import Any
 
 from ali3.echo.judged import Echo
+from ali3.echo.quantity import Quantity
 
 
 @singledispatch
@@ -35,12 +37,20 @@ class Understood:
 
 
 def summary_of(echoes: Sequence[Echo]) -> str:
-    """Tables of text, each below its title; those that are alike once, below their titles."""
-    titles: dict[str, list[str]] = {}
+    """Tables of text, each below its title; those of the same quantities are columns of one."""
+    alike: dict[frozenset[Quantity], list[Echo]] = {}
     for echo in echoes:
         if echo.values:
-            titles.setdefault(echo.text(), []).append(echo.title)
-    return "\n\n".join(f"{', '.join(filter(None, names))}\n{text}".lstrip("\n") for text, names in titles.items())
+            alike.setdefault(frozenset(v.quantity for v in echo.values), []).append(echo)
+    return "\n\n".join(f"{one.title}\n{one.text()}".lstrip("\n") for one in map(_beside, alike.values()))
+
+
+def _beside(echoes: Sequence[Echo]) -> Echo:
+    first, *others = echoes
+    if not others:
+        return first
+    values = [replace(v, of=f"{echo.title} {v.of}".strip()) for echo in echoes for v in echo.values]
+    return Echo("", values, kind=first.kind, columns=[echo.title for echo in echoes])
 
 
 def tables_of(echoes: Sequence[Echo]) -> dict[str, list[dict[str, Any]]]:

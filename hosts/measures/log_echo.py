@@ -12,9 +12,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from ali3.echo import Echo, Mistake, Value
+from ali3.echo import Echo, Mistake, Value, far_values
 from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, WHEELS, Signals, log_values
-from hosts.measures.samples import far_values, of_all, of_samples
+from hosts.measures.samples import of_all, of_samples
 from hosts.measures.signal import Signal
 
 LATE = 0.1  # s: of a signal
@@ -100,7 +100,7 @@ _RELATIONS = [QUANTITIES[key + part] for key in RELATIONS for part in ("", "_ali
 def _undone(signals: Signals, echo: Echo) -> Iterator[tuple[str, set[str], Signals, bool]]:
     """Words, names and the log without each common mistake, and whether its number is fitted to the relations."""
     for name, signal in signals.items():
-        if (far := far_values(signal)).any():
+        if (far := far_values(signal.values)).any():
             kept = replace(signal, time=signal.time[~far], values=signal.values[~far])
             value = f"{signal.values[far][0]:g} in the place of no value in '{signal.source}' ({name})"
             yield value, {name}, {**signals, name: kept}, False

@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ali3.echo import Value
+from ali3.echo import Value, far_values
 from hosts.measures.relations import PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
 from hosts.measures.signal import Signal
 
@@ -23,7 +22,7 @@ def of_samples(signals: Signals) -> Iterator[Value]:
     """Stretches that stand, and values far from all others."""
     v = speed_of(signals)
     for name, s in signals.items():
-        yield Value(QUANTITIES["sentinel"], float(far_values(s).sum()), keys_of(signals, name), f"'{s.source}',")
+        yield Value(QUANTITIES["sentinel"], float(far_values(s.values).sum()), keys_of(signals, name), f"'{s.source}',")
         if v is not None:
             yield Value(QUANTITIES["stands"], _stands(s, signals, v), keys_of(signals, name), f"'{s.source}',")
 
@@ -33,15 +32,6 @@ def of_all(signals: Sequence[Signal]) -> Iterator[Value]:
     keys = {"rows": "all rows of the log"}
     yield Value(QUANTITIES["repeats"], float(_repeats(signals)), keys)
     yield Value(QUANTITIES["jumps"], float(_jumps(signals)), keys)
-
-
-def far_values(signal: Signal) -> NDArray[np.bool_]:
-    """Which samples have the one value that lies farther from the others than ten times their range."""
-    levels = np.unique(signal.values)
-    for level, rest in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
-        if len(rest) >= FEWEST_EQUAL and np.abs(level - rest).min() > 10.0 * np.ptp(rest) > 0.0:
-            return np.asarray(signal.values == level)
-    return np.zeros(len(signal.values), bool)
 
 
 def _stands(signal: Signal, signals: Signals, v: str) -> float:

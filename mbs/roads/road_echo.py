@@ -8,13 +8,18 @@ from functools import lru_cache, partial
 from pathlib import Path
 
 import numpy as np
+from scipy.ndimage import distance_transform_edt
 
-from ali3.echo import Echo, Mistake, Value, echo_of, quantities_of
+from ali3.echo import Echo, Mistake, Value, echo_of, far_values, quantities_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import TEXTS, RoadFile
 
 MOST_LEVELS, FEWEST_LEVELS = 4096, 5
+MOST = 0.9
+"""Of all slopes: kerbs and steps are few."""
+ROUND = (1.0, 2.0, 2.5, 5.0)
+"""Steps of number types, times powers of 10."""
 MOST_POINTS = 4e6
 """Of a file that is read for its summary; of more its place alone is looked at."""
 UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
@@ -65,7 +70,8 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
     if not isinstance(road, GridRoad):
         return Echo(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
-    mistakes = []
+    mistakes, values = [], road_values(road, place, z, start)
+    usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
     for factor, unit in UNITS.items():
         words, scaled = f"{unit} in place of m in", place.scaled(factor)
         for of, keys, at, higher in (
@@ -73,15 +79,16 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
             ("heights", HEIGHTS, place, factor),
             ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
         ):
-            mistakes.append(Mistake(f"{words} {of}", keys, partial(road_values, road, at, z, start, higher)))
-    if 0 < (none := z == z.min()).sum() < z.size:
-        filled = partial(road_values, road, place, np.where(none, z[~none].min(), z), start)
-        mistakes.append(Mistake(f"{z.min():g} in the place of no value in heights", HEIGHTS, filled))
+            if not (usual and keys is HEIGHTS):  # one place that is steep has another cause
+                mistakes.append(Mistake(f"{words} {of}", keys, partial(road_values, road, at, z, start, higher)))
+    if (none := far_values(z)).any():
+        filled = partial(road_values, road, place, filled_up(z, none), start)
+        mistakes.append(Mistake(f"{z[none][0]:g} in the place of no value in heights", HEIGHTS, filled))
     parts = partial(road_values, road, place, z, start, rougher=0.01)
     mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
     if start is not None:
         mistakes += start_mistakes(place, start)
-    return Echo(what, road_values(road, place, z, start), mistakes, title=TITLE)
+    return Echo(what, values, mistakes, title=TITLE)
 
 
 def start_echo(what: str, place: Place, start: Start) -> Echo:
@@ -128,15 +135,16 @@ def road_values(
     spacing = {"spacing": list(place.spacing)}
     step = height_step(z)
     heights = {"heights": [float(z.min()), float(z.max())]}
-    steps = [float(np.abs(np.diff(z, axis=k)).max()) for k in range(2)]
-    over = max(max(s - h for s, h in zip(steps, place.spacing, strict=True)), 0.0)
+    rises = [np.abs(np.diff(z, axis=k)) for k in range(2)]
+    over = max(max(float(r.max()) - h for r, h in zip(rises, place.spacing, strict=True)), 0.0)
+    slope = max(float(np.quantile(r, MOST)) / h for r, h in zip(rises, place.spacing, strict=True))
     return [
         *_sides(place),
         Value(QUANTITIES["heights"], float(np.ptp(z)), heights),
         Value(QUANTITIES["spacing"], min(place.spacing), spacing, "least"),
         Value(QUANTITIES["rise"], over, heights | spacing),
-        Value(QUANTITIES["steepest"], max(s / h for s, h in zip(steps, place.spacing, strict=True))),
         Value(QUANTITIES["step"], step, {"number type of heights": step}),
+        *([Value(QUANTITIES["slope"], slope, heights | spacing)] if slope else []),
         *_frictions(float(frictions.min()), float(frictions.max()), road.friction_factor),
         *([] if start is None else _away(place, start)),
     ]
@@ -147,7 +155,7 @@ def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
     step = road.step if isinstance(road, KerbRoad) else 0.0
     return [
         Value(QUANTITIES["rise"], step),
-        Value(QUANTITIES["steepest"], steep),
+        Value(QUANTITIES["slope"], steep),
         *_frictions(road.friction, road.friction, road.friction_factor),
     ]
 
@@ -166,7 +174,15 @@ def height_step(z: np.ndarray) -> float:
     steps = gaps / gaps.min()
     # a few levels of a drawing have any differences; those of a coarse number type have neighbours everywhere
     whole = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
-    return float(gaps.min()) if whole and float(np.median(steps)) < 1.5 else 0.0
+    step = float(gaps.min())
+    mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
+    return step if whole and float(np.median(steps)) < 1.5 and mantissa in ROUND else 0.0
+
+
+def filled_up(z: np.ndarray, none: np.ndarray) -> np.ndarray:
+    """Heights with those of the nearest others where there are none."""
+    nearest = distance_transform_edt(none, return_distances=False, return_indices=True)
+    return np.asarray(z[tuple(nearest)])
 
 
 @echo_of.register(PlaneRoad)

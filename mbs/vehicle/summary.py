@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ali3.columns import in_columns
 from mbs.vehicle.built_car import BuiltCar
-from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.section import sections_of
 
 
@@ -16,31 +15,26 @@ def summary(car: BuiltCar) -> str:
     rows = [
         ("car", f"{car.name}: {car.description}"),
         ("file", str(car.folder)),
-        ("mass at rest", f"{total / GRAVITY:.1f} kg, {load['front'] / total:.1%} on the front axle"),
         ("length, width", f"{car.vehicle.length:g} m, {car.vehicle.width:g} m"),
-    ]
-    for name, axle in car.axles.items():
-        rows += [
-            (f"{name} axle", f"{axle.suspension.kind}, {load[name]:.0f} N"),
-            (
-                f"{name} springs",
-                f"{abs(rest.spring_force[name]):.0f} N at rest over {rest.spring_length[name]:.4f} m; wheels "
-                f"{1e3 * rest.travel[name]:+.1f} mm from the drawing",
-            ),
-            (
-                f"{name} tyres",
-                f"{axle.tyre.kind}, free radius {axle.tyre.radius:g} m, pressed in by "
-                f"{1e3 * rest.deflection[name]:.1f} mm",
-            ),
-        ]
-        rows.append(grip_row(car, name))
-    rows += [
         ("steering", f"{car.steering.kind}, {car.steering.wheel_angle_max:.2f} rad of steering wheel to each side"),
         ("drive", f"{car.drive.kind}, {car.drive.wheels} wheels"),
         ("chassis", "rigid" if not car.has_frame else "rigid, or flexible by its frame"),
         ("parameters", f"{len(car.values())} of the file in the FMU"),
+        *(grip_row(car, name) for name in car.axles),
     ]
-    return "\n".join(in_columns(rows))
+    axles = [
+        (
+            name,
+            axle.suspension.kind,
+            f"{load[name]:.0f} N, {load[name] / total:.1%}",
+            f"{abs(rest.spring_force[name]):.0f} N over {rest.spring_length[name]:.4f} m",
+            f"{1e3 * rest.travel[name]:+.1f} mm",
+            f"{axle.tyre.kind}, {axle.tyre.radius:g} m, pressed in by {1e3 * rest.deflection[name]:.1f} mm",
+        )
+        for name, axle in car.axles.items()
+    ]
+    titles = ("at rest", "suspension", "load", "a spring", "wheels from the drawing", "tyres, free radius")
+    return "\n".join([*in_columns(rows), "", *in_columns(list(zip(titles, *axles, strict=True)))])
 
 
 def grip_row(car: BuiltCar, axle: str) -> tuple[str, str]:

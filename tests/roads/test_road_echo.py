@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +50,37 @@ def test_a_road_in_another_unit(road: GridRoad, words: str) -> None:
     (sentence,) = road_echo("odd.csv", road).warnings()[:1]
     assert sentence.startswith("odd.csv: ")
     assert words in sentence
+
+
+def with_wall(road: GridRoad, height: float) -> GridRoad:
+    z = np.array(road.heights)
+    z[:, :3] += height
+    return replace(road, heights=z)
+
+
+def with_hole(road: GridRoad, value: float) -> GridRoad:
+    z = np.array(road.heights)
+    z[40:43, 9] = value
+    return replace(road, heights=z)
+
+
+def test_a_wall_is_told_without_a_cause() -> None:
+    """Heights in another unit would be steep everywhere."""
+    (sentence,) = road_echo("wall.csv", with_wall(waves(), 2.5)).warnings()
+    assert "rise from point to point" in sentence
+    assert "would explain" not in sentence
+
+
+@pytest.mark.parametrize("value", [-9999.0, -99.0, 9999.0])
+def test_no_value_is_the_one_cause(value: float) -> None:
+    sentence = road_echo("holes.csv", with_hole(waves(), value)).warnings()[0]
+    assert f"; {value:g} in the place of no value in heights would explain it" in sentence
+
+
+def test_a_road_drawn_with_few_heights_has_no_coarse_number_type() -> None:
+    """The straight of OpenCRG's samples has steps of 1/90 m."""
+    z = np.outer(np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 5.0, 4.0, 3.0]), np.ones(4)) / 90.0
+    assert road_echo("drawn.crg", GridRoad((0.0, 0.0), (1.0, 0.5), z)).warnings() == []
 
 
 @pytest.mark.parametrize(

@@ -198,3 +198,20 @@ def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
     for undone in (None, [500.0, 2.0], [5.0, 200.0]):  # none, not enough, another one outside
         (sentence,) = echo(undone).warnings()
         assert sentence == "f: first length is 5000 m; usual is 0 to 10 m. It follows from a = 5000."
+
+
+def test_the_table_is_one_screen_with_a_column_for_each_axle() -> None:
+    """Places of points are shown where they lie outside alone."""
+    table = load("prototype").summary()
+    assert len(table.splitlines()) < 50
+    (row,) = (line.split() for line in table.splitlines() if line.startswith("bounce frequency"))
+    assert (row[3], row[5]) == ("Hz", "Hz")
+    echo = load("prototype").echo()[0]
+    values = {v.of: v.value for v in echo.values if v.quantity.name == "bounce frequency"}
+    assert [f"{values[side]:.4g}" for side in ("front", "rear")] == [row[2], row[4]]
+    hidden = next(v for v in echo.values if v.quantity.name == "point outside of the outline")
+    assert hidden.quantity.name not in table
+    far = replace(hidden, value=5.0)
+    shown = replace(echo, values=[far if v is hidden else v for v in echo.values]).text()
+    (line,) = (line for line in shown.splitlines() if line.startswith(hidden.quantity.name))
+    assert line.endswith("<- outside")

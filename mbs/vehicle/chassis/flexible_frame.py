@@ -16,7 +16,6 @@ from mbs.flexible.body_echo import model_echo
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
-from mbs.flexible.fixed_interface import FixedInterface
 from mbs.flexible.load_paths import load_path_deformations, load_path_modes
 from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import ModalBody
@@ -69,7 +68,8 @@ class FlexibleFrame:
 
     def echo(self) -> list[Echo]:
         """What was understood of the frame, with what rides on it, and held at its interfaces."""
-        return model_echo(self.model, held=FixedInterface(self._bare, self.reference, self.interfaces).held_numbers())
+        held = [self.model.reference_freedoms(self.reference), *map(self.model.freedoms, self.interfaces)]
+        return model_echo(self.model, held=np.concatenate(held))
 
     def place(self, joint: str) -> np.ndarray:
         """Place of a joint, m."""

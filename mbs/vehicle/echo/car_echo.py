@@ -38,7 +38,8 @@ def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake)
     mistakes = [
         Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
     ]
-    return [Echo(what, car_values(car, rest), mistakes, kind), *(tyre_echo(what, a, kind) for a in car.axles.values())]
+    whole = Echo(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
+    return [whole, *(tyre_echo(what, a, kind) for a in car.axles.values())]
 
 
 def tyre_echo(what: str, axle: Axle, kind: str) -> Echo:
@@ -170,7 +171,7 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
         ratios, keys = [drive.ratio], {drive.key("ratio"): drive.ratio}
     keys[drive.key("limit_speed")] = drive.limit_speed
     for k, overall in enumerate(ratios):
-        of, speed = f"gear {k + 1}", 3.6 * drive.limit_speed / overall * driven.wheel.centre[2]
+        of, speed = f"{k + 1}:", 3.6 * drive.limit_speed / overall * driven.wheel.centre[2]
         yield Value(CAR["overall"], overall, keys, of)
         yield Value(CAR["gear_speed"], speed, keys, of)
         if k == 0 and len(ratios) > 1:
