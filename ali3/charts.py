@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -21,6 +22,8 @@ from ali3.files import whole_file
 
 _PIXELS = 96  # of CSS, an inch
 _DOTS = 150  # an inch, of what a drawing has as dots
+MANY_POINTS = 200
+"""More markers than these of one curve are better drawn as dots (``rasterized``): each is some 80 bytes of SVG."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,8 @@ def drawing(figure: Figure, words: str) -> Drawing:
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice
-        FigureCanvasSVG(figure).print_svg(content, metadata={"Date": None, "Creator": None})
+        canvas: Any = FigureCanvasSVG(figure)
+        canvas.print_svg(content, metadata={"Date": None, "Creator": None})
     plt.close(figure)
     width, height = (round(_PIXELS * length) for length in figure.get_size_inches())
     return Drawing(content.getvalue(), words, (width, height))
