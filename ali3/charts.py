@@ -3,18 +3,44 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import warnings
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from ali3.chart_words import png_metadata
 from ali3.files import whole_file
+
+_PIXELS = 96  # of CSS, an inch
+_DOTS = 150  # an inch, of what a drawing has as dots
+MANY_POINTS = 200
+"""More markers than these of one curve are better drawn as dots (``rasterized``): each is some 80 bytes of SVG."""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A figure that is drawn."""
+
+    svg: bytes
+    words: str
+    """What it shows, for who cannot see it."""
+    size: tuple[int, int]
+    """Width and height, CSS pixels."""
+
+    def write(self, file: Path) -> Path:
+        """Write it; gives the file."""
+        with whole_file(file) as made:
+            made.write_bytes(self.svg)
+        return file
 
 
 @contextlib.contextmanager
@@ -25,18 +51,21 @@ def _however_long() -> Iterator[None]:
         yield
 
 
+def drawing(figure: Figure, words: str) -> Drawing:
+    """Draw a figure as SVG, and close it; the same figure gives the same bytes."""
+    content = io.BytesIO()
+    figure.set_dpi(_DOTS)
+    with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
+        # once: savefig draws a figure and its layout twice
+        canvas: Any = FigureCanvasSVG(figure)
+        canvas.print_svg(content, metadata={"Date": None, "Creator": None})
+    plt.close(figure)
+    width, height = (round(_PIXELS * length) for length in figure.get_size_inches())
+    return Drawing(content.getvalue(), words, (width, height))
+
+
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG, with what it shows in words, and close it; the same figure gives the same bytes."""
     with whole_file(file) as made, _however_long():
         figure.savefig(made, dpi=110, metadata=png_metadata(figure))
     plt.close(figure)
-
-
-def save_pictures(figure: Figure, stem: Path) -> list[Path]:
-    """Write a figure as SVG and as PNG, ``stem`` with these suffixes, and close it."""
-    files = [stem.with_name(f"{stem.name}{suffix}") for suffix in (".svg", ".png")]
-    # the same drawing gives the same bytes
-    with plt.rc_context({"svg.hashsalt": "ali3"}), whole_file(files[0]) as made, _however_long():
-        figure.savefig(made, format="svg", metadata={"Date": None, "Creator": None})
-    save_picture(figure, files[1])
-    return files

@@ -15,6 +15,8 @@ from ali3 import html
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
+    from ali3.charts import Drawing
+
 Content: TypeAlias = "HtmlElement | str"
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 """What no text of a document can have."""
@@ -63,15 +65,18 @@ def table(
     return element("div", made, class_="wide", tabindex=0, **named)
 
 
-def picture(png: bytes, what: str) -> HtmlElement:
-    """An image within the page, with what it shows in words."""
-    source = f"data:image/png;base64,{base64.b64encode(png).decode('ascii')}"
-    return element("figure", element("img", alt=what, src=source), class_="plot")
+def picture(drawn: Drawing) -> HtmlElement:
+    """A drawing within the page, with what it shows in words."""
+    source = f"data:image/svg+xml;base64,{base64.b64encode(drawn.svg).decode('ascii')}"
+    width, height = map(str, drawn.size)
+    # With its size a page that has not drawn it yet keeps its place: a link to what stands below ends there.
+    image = element("img", alt=drawn.words, src=source, width=width, height=height, loading="lazy")
+    return element("figure", image, class_="plot")
 
 
-def document(title: str, body: Iterable[HtmlElement], style: str = "") -> str:
-    """One HTML file that needs nothing else, in the style of all reports. `style`: CSS beside that of all reports."""
-    return html.report(clean(title), markup(body), style)
+def document(title: str, body: Iterable[HtmlElement]) -> str:
+    """One HTML file that needs nothing else, in the style of all reports."""
+    return html.report(clean(title), markup(body))
 
 
 def markup(parts: Iterable[HtmlElement]) -> str:

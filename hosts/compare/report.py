@@ -6,14 +6,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.charts import Drawing
 from ali3.files import write_text
-from ali3.html_elements import document, element, picture, table
+from ali3.html_elements import element, picture, table
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
 from hosts.compare.windows import Bin
 from hosts.compare.words import common_sentence, signal_rows, unit_shown
+from hosts.experiment.report import NOTE, PROBLEM, Section, page, paragraph
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -39,36 +41,31 @@ def write_report(
     notes: Sequence[str],
     problems: Sequence[str],
     paths: Mapping[str, Path],
+    drawn: Drawing,
 ) -> None:
-    """Write the page.
+    """Write the page into ``.html`` of the paths, and what is drawn into ``.svg``.
 
-    `told`: deviations by measured speed and lateral acceleration; `paths`: ``.html`` is written; ``.png`` is there and
-    goes into it.
+    `told`: deviations by measured speed and lateral acceleration.
     """
-    parts = [element("h1", title), *(element("p", line, class_="problem") for line in problems)]
-    parts.append(element("h2", "Deviations" if after is None else "Deviations before the fit"))
-    parts.append(_table_of(before))
+    late = common_sentence(before)
+    parts: list[HtmlElement] = [_table_of(before)] + ([paragraph(late)] if late else [])
+    sections = [Section("Deviations" if after is None else "Deviations before the fit", parts)]
     if after is not None and fit is not None:
-        parts += [
-            element("h2", "Deviations with the fitted parameters and sensors"),
-            _table_of(after),
-        ]
-        parts += [element("h2", "Fit"), table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
+        sections.append(Section("Deviations with the fitted parameters and sensors", [_table_of(after)]))
         residuals, *others = result_words(fit)
-        parts += [element("p", f"{line}.") for line in (f"R{residuals[1:]}", *others)]
-        parts.append(element("h3", "Correlation of the errors"))
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
-        parts.append(table("", ("", *names), rows, "numbers"))
-    if common := common_sentence(before):
-        parts.append(element("p", common))
+        parts = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
+        parts += [paragraph(f"{line}.") for line in (f"R{residuals[1:]}", *others)]
+        parts += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
+        sections.append(Section("Fit", parts))
     if told:
-        parts.append(element("h2", "By speed and lateral acceleration"))
-        parts.append(table("", _BIN_COLUMNS, bin_rows(told, before), "numbers"))
-    parts.append(picture(paths[".png"].read_bytes(), title))
-    parts += [element("p", line, class_="note") for line in notes]
-    parts.append(element("footer", _FOOT))
-    write_text(paths[".html"], document(title, parts))
+        binned = table("", _BIN_COLUMNS, bin_rows(told, before), "numbers")
+        sections.append(Section("By speed and lateral acceleration", [binned]))
+    drawn.write(paths[".svg"])
+    sections.append(Section("Signals", [picture(drawn), *(paragraph(line, NOTE) for line in notes)]))
+    facts = [paragraph(line, PROBLEM) for line in problems]
+    write_text(paths[".html"], page(title, facts, sections, _FOOT))
 
 
 def bin_rows(told: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]:

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from ali3.charts import save_pictures
+from ali3.charts import drawing
 from ali3.files import check_writable
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.numbers import or_null
@@ -43,7 +43,7 @@ class Outcome:
 
 def paths_of(options: argparse.Namespace) -> dict[str, Path]:
     """The files to be written by suffix; `FileError` at once, before the work, if they cannot be."""
-    kinds = [".html", ".png", ".svg", ".csv", *([".ssv"] if options.fit else [])]
+    kinds = [".html", ".svg", ".csv", *([".ssv"] if options.fit else [])]
     paths = {kind: options.out / f"{options.log.stem}{kind}" for kind in kinds}
     if options.json is not None:
         paths[".json"] = options.json
@@ -60,9 +60,9 @@ def write_outcome(
     """Write all files of a comparison; gives those that were written."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
-    save_pictures(comparison_figure(outcome.before, outcome.after, title, task.inputs), paths[".png"].with_suffix(""))
     told = bins(outcome.best, task.scales)
-    write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths)
+    drawn = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), title)
+    write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths, drawn)
     if outcome.fit is not None:
         values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from matplotlib import pyplot as plt
 
 from ali3.chart_style import BLUE, RED, STYLE
-from ali3.charts import save_pictures
+from ali3.charts import drawing
 from ali3.decimal_number import parse_number
 from ali3.files import make_folder, write_text
 from ali3.write_parameter_set import write_parameter_set
@@ -96,7 +96,10 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     lines = search.words(found)
     print("\n".join(lines))
     stem = re.sub(r"[^A-Za-z0-9]+", "_", f"{search.column} by {target.by}").strip("_")
-    files = [*_pictures(search, found, folder / stem), _record(search, found, lines, folder / f"{stem}.json")]
+    files = [
+        drawing(_figure(search, found), "").write(folder / f"{stem}.svg"),
+        _record(search, found, lines, folder / f"{stem}.json"),
+    ]
     parameters = folder / f"{stem}.ssv"
     parameters.unlink(missing_ok=True)  # of an earlier search
     if found.met and found.best is not None:
@@ -344,12 +347,8 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     return [f"{name}={value}" for name, value in values.items() if name not in {entry.name for entry in entries}]
 
 
-def _pictures(search: _Search, found: Found, stem: Path) -> list[Path]:
-    """The measure over the parameter in all runs, as SVG and PNG."""
-    return save_pictures(_figure(search, found), stem)
-
-
 def _figure(search: _Search, found: Found) -> Figure:
+    """The measure over the parameter in all runs."""
     factor, unit = search.shown.factor, search.shown.unit
     known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
     with plt.rc_context(STYLE):

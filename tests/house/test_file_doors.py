@@ -47,8 +47,6 @@ OWN = {
     "hosts/check/process_settings.py",
     "hosts/check/process_state.py",
     "hosts/common/program.py",
-    "hosts/compare/report.py",
-    "hosts/study/analysis/pictures.py",
     "mbs/kernel/build.py",
     "mbs/kernel/read_headers.py",
     "mbs/vehicle/copy_car.py",

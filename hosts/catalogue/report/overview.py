@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Mapping, Sequence
-from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
@@ -23,18 +20,10 @@ if TYPE_CHECKING:
 
 
 def head(cars: Sequence[TestedCar]) -> list[HtmlElement]:
-    """Date, versions and the table of cars."""
-    try:
-        program = version("ali3")
-    except PackageNotFoundError:
-        program = "without a version"
-    now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
+    """The tables of cars."""
     facts = [_facts(car) for car in cars]
     rows: list[list[Content]] = [[name, *(f[name] for f in facts)] for name in facts[0]]
-    parts = [
-        element("p", f"{now}, by ALi3 {program} on Python {platform.python_version()}, {platform.platform()}."),
-        table("Cars", ["", *(car.label for car in cars)], rows),
-    ]
+    parts = [table("Cars", ["", *(car.label for car in cars)], rows)]
     changed = _changed(cars)
     if changed:
         caption = "Parameters that are not as built"

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import base64
-import io
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import matplotlib
@@ -15,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from ali3.chart_style import COLOURS, STYLE
+from ali3.charts import Drawing, drawing
 from hosts.catalogue.record import Line, Plot
 from hosts.catalogue.report.numbers import shown
 from hosts.catalogue.report.thinning import thinned
@@ -28,32 +27,13 @@ _MARKS = 9
 """Markers on a line that is one of several of its car."""
 # Inches; the height is that of the axes.
 _WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 5.625, 2.9, 0.85, 0.15, 0.32, 0.55, 0.21
-_PIXELS = 96
-"""Of CSS, an inch."""
 _FEW = 40
 """Points that may be measured ones: each is marked."""
-_SETTINGS: Mapping[Any, Any] = {**STYLE, "svg.fonttype": "path", "svg.hashsalt": "report", "axes.titlesize": 10.5}
+_SETTINGS: Mapping[Any, Any] = {**STYLE, "axes.titlesize": 10.5}
 
 
-@dataclass(frozen=True)
-class Picture:
-    """A drawn plot."""
-
-    title: str
-    svg: bytes
-    words: str
-    """For who cannot see it."""
-    size: tuple[int, int]
-    """Width and height, CSS pixels, exact."""
-
-    @property
-    def source(self) -> str:
-        """The drawing as a ``data:`` address."""
-        return f"data:image/svg+xml;base64,{base64.b64encode(self.svg).decode()}"
-
-
-def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
-    """All plots of a test.
+def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing]:
+    """All plots of a test by their titles.
 
     `plots_by_car`: by label of the car, in the order of the cars; plots of the same title are one picture.
     """
@@ -62,10 +42,10 @@ def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> list[Picture]:
         for plot in plots:
             by_title.setdefault(plot.title, {})[k] = (label, plot)
     with matplotlib.rc_context(dict(_SETTINGS)):
-        return [_picture(title, found, len(plots_by_car) > 1) for title, found in by_title.items()]
+        return {title: _picture(title, found, len(plots_by_car) > 1) for title, found in by_title.items()}
 
 
-def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Picture:
+def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
     found = {k: (label, _displayed(plot)) for k, (label, plot) in found.items()}
     first = next(iter(found.values()))[1]
     shared = _shared([plot for _, plot in found.values()])
@@ -76,7 +56,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
     columns = 1 if max(map(len, names), default=0) > 30 else 2
     rows = -(-len(names) // columns) if len(names) > 1 else 0
     below = _BELOW + _LEGEND_ROW * rows
-    height = round(_PIXELS * (_ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below)) / _PIXELS
+    height = _ABOVE + _HEIGHT * (1.3 if first.equal else 1.0) + below
     figure = Figure(figsize=(_WIDTH, height))
     # Fixed margins: a layout that is computed takes longer than the drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
@@ -90,10 +70,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> P
         texts += legend.get_texts()
     for text in texts:
         text.set_parse_math(False)
-    content = io.BytesIO()
-    figure.savefig(content, format="svg", metadata={"Date": None, "Creator": None})
-    said = f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}."
-    return Picture(title, content.getvalue(), said, (round(_PIXELS * _WIDTH), round(_PIXELS * height)))
+    return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
 
 
 def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:

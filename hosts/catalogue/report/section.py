@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
 from hosts.catalogue.report.numbers import NONE, kept_shown, unit_shown, with_unit
-from hosts.catalogue.report.pictures import Picture
+from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
 
 if TYPE_CHECKING:
@@ -24,24 +24,24 @@ def section(
     records: Mapping[str, TestRecord | str],
     settings: Mapping[str, float],
     command: Sequence[str],
-    pictures: Sequence[Picture],
-) -> HtmlElement:
+    plots: Sequence[HtmlElement],
+) -> Section:
     """All of a test.
 
     `records`: by label of the car, in the order of the cars; `command`: that makes the whole report; empty where nobody
     knows it.
     """
     done = {label: r for label, r in records.items() if isinstance(r, TestRecord)}
-    parts: list[Content] = [element("h2", test.title), *(_standard(s) for s in test.standards)]
+    parts: list[Content] = [_standard(s) for s in test.standards]
     if not test.standards:
-        parts.append(element("p", "After no standard.", class_="faint"))
+        parts.append(paragraph("After no standard.", FAINT))
     for label, record in records.items():
         if isinstance(record, str):
-            parts.append(element("p", element("strong", f"{label}: not done. "), record, class_="note"))
+            parts.append(element("p", element("strong", f"{label}: not done. "), record, class_=NOTE))
         else:
-            parts += [element("p", element("strong", f"{label}: "), note, class_="note") for note in record.notes]
-    if pictures:
-        parts.append(element("div", *map(_figure, pictures), class_="plots"))
+            parts += [element("p", element("strong", f"{label}: "), note, class_=NOTE) for note in record.notes]
+    if plots:
+        parts.append(element("div", *plots, class_="plots"))
     parts += [
         _measures(label, test.title, [m.displayed() for m in record.measures])
         for label, record in done.items()
@@ -53,7 +53,7 @@ def section(
         text = shlex.join(command_of(command, test.name))
         parts.append(element("p", "This test again:"))
         parts.append(element("pre", element("code", text)))
-    return element("section", *parts, id=test.name, aria_label=test.title)
+    return Section(test.title, parts, test.name)
 
 
 def command_of(command: Sequence[str], test: str) -> list[str]:
@@ -88,13 +88,6 @@ def _standard(standard: Standard) -> HtmlElement:
     return element(
         "div", element("p", element("strong", standard.name), f", {standard.title}"), element("ul", *clauses)
     )
-
-
-def _figure(picture: Picture) -> HtmlElement:
-    # With its size a page that has not drawn it yet keeps its place: a link to what stands below ends there.
-    width, height = map(str, picture.size)
-    drawn = element("img", src=picture.source, alt=picture.words, width=width, height=height, loading="lazy")
-    return element("figure", drawn, class_="plot")
 
 
 def _settings(test: StandardTest, settings: Mapping[str, float]) -> HtmlElement:

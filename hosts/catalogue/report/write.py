@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ali3.files import make_folder, write_text
-from ali3.html_elements import document, element
+from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.report.overview import head, overview
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import section
+from hosts.experiment.report import Plots, Section, page
 
 _NOTHING: Mapping[str, Mapping[str, float]] = {}
 
@@ -48,26 +47,10 @@ def write_report(
         The file cannot be written.
     """
     labels = [car.label for car in cars]
-    title = f"Standard tests of {', '.join(labels)}"
-    links = [element("li", element("a", test.title, href=f"#{test.name}")) for test in tests]
-    by_car = {
-        test.name: {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None} for test in tests
-    }
-    drawn = {
-        name: pictures_of({n: r.plots for n, r in found.items() if isinstance(r, TestRecord)})
-        for name, found in by_car.items()
-    }
-    body = [
-        element("h1", title),
-        *head(cars),
-        element("nav", element("ul", *links), aria_label="Tests"),
-        element("h2", "Overview"),
-        *overview(tests, labels, records),
-        *(section(t, by_car[t.name], settings.get(t.name, {}), command, drawn[t.name]) for t in tests),
-    ]
-    write_text(file, document(title, body))
-    folder = make_folder(file.parent / "plots")
-    for name, pictures in drawn.items():
-        for picture in pictures:
-            stem = re.sub(r"[^A-Za-z0-9]+", "_", f"{name} {picture.title}").strip("_")[:80]
-            write_text(folder / f"{stem}.svg", picture.svg.decode("utf-8"))
+    plots, sections = Plots(file.parent / "plots"), [Section("Overview", overview(tests, labels, records), "overview")]
+    for test in tests:
+        found = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
+        drawn = pictures_of({n: r.plots for n, r in found.items() if isinstance(r, TestRecord)})
+        shown = [plots.add(one, f"{test.name} {name}") for name, one in drawn.items()]
+        sections.append(section(test, found, settings.get(test.name, {}), command, shown))
+    write_text(file, page(f"Standard tests of {', '.join(labels)}", head(cars), sections))

@@ -16,6 +16,7 @@ from hosts.study.analysis.main_effects import MainEffect, classes
 from hosts.study.analysis.panels import drawn, parameter_panels
 
 MOST_POINTS = 2000
+_MANY = 200  # points that a drawing has as dots
 
 
 def plot_main_effects(parameters: Sequence[Parameter], response: Response, effects: Sequence[MainEffect]) -> Figure:
@@ -40,7 +41,10 @@ def plot_scatter(data: StudyData, response: Response, effects: Sequence[MainEffe
     failed = failed[drawn(len(failed), MOST_POINTS)]
     for k, (panel, effect) in enumerate(zip(axes, effects, strict=True)):
         x = data.x[response.rows[shown], k]
-        panel.plot(x, response.values[shown], ".", color=BLUE, markersize=size, alpha=alpha, markeredgewidth=0)
+        (points,) = panel.plot(
+            x, response.values[shown], ".", color=BLUE, markersize=size, alpha=alpha, markeredgewidth=0
+        )
+        points.set_rasterized(len(x) > _MANY)
         mark = "_" if data.parameters[k].words else "-"
         panel.plot(effect.at, effect.mean, mark, color="#222222", linewidth=1.2, markersize=14)
         if len(failed):

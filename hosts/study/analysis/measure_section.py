@@ -8,21 +8,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ali3.charts import drawing
 from ali3.html_elements import element, table
 from hosts.common.numbers import is_round_off
+from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.effect_plots import MOST_POINTS, plot_main_effects, plot_scatter
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import MainEffect, main_effect
-from hosts.study.analysis.page import commands_cell, paragraph
 from hosts.study.analysis.parallel_plots import MOST_LINES, plot_parallel
-from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.study_section import Commands
 from hosts.study.analysis.summary_plots import plot_overview
 from hosts.study.analysis.tables import Row, extremes, no_distribution
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
+    from matplotlib.figure import Figure
 
 _WORST = 5
 
@@ -31,57 +32,51 @@ def measure_section(
     data: StudyData,
     response: Response,
     number: int,
-    pictures: Pictures,
+    plots: Plots,
     commands: Commands,
     numbers: list[dict[str, object]],
-) -> list[HtmlElement]:
+) -> Section:
     """Its distribution, indices, main effects, runs, and the highest and lowest of them with their commands.
 
-    `number`: of the response, for the names of its pictures; `numbers`: to which the effects are added, a row a
-    parameter.
+    `number`: of the response, for the names of its plots; `numbers`: to which the effects are added, a row a parameter.
     """
     if not response.varies:
         value = f"{response.values.min():.6g} {response.unit if response.unit != '1' else ''}".strip()
         words = f"It is {value} in all runs, but for rounding: nothing that was varied changes it."
         if len(response.values) == 1:
             words = f"One run yields it: {value}."
-        return [element("h2", response.title), paragraph(words, "note")]
+        return Section(response.title, [paragraph(words, NOTE)])
     effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
     indices = indices_of(data, response)
     numbers += _numbers(response, data.parameters, effects, indices)
-    lost = bool(data.failed.any())
-    name, label = f"{number + 1:02d}_{response.label}", response.label
-    body = [element("h2", response.title)]
-    body.append(
-        pictures.add(
-            plot_overview(data, response, indices),
-            f"{name}_overview",
-            f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}",
-        )
-    )
-    body.append(paragraph(indices if isinstance(indices, str) else indices.how, "faint"))
+    lost, label = bool(data.failed.any()), response.label
+
+    def plot(figure: Figure, name: str, words: str) -> HtmlElement:
+        return plots.add(drawing(figure, words), f"{number + 1:02d}_{label}_{name}")
+
+    words = f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}"
+    body = [plot(plot_overview(data, response, indices), "overview", words)]
+    body.append(paragraph(indices if isinstance(indices, str) else indices.how, FAINT))
     if data.parameters:
         body.append(element("h3", "Main effects"))
-        figure = plot_main_effects(data.parameters, response, effects)
-        body.append(pictures.add(figure, f"{name}_effects", f"Main effects on {label}"))
+        body.append(plot(plot_main_effects(data.parameters, response, effects), "effects", f"Main effects on {label}"))
         of_blocks = " (about: runs of a block of the design share values)" * (data.method == "saltelli")
         words = f"Mean over all runs of a class of the parameter, with its interval of 95 %{of_blocks}."
-        body.append(paragraph(words, "faint"))
+        body.append(paragraph(words, FAINT))
         body.append(element("h3", "Runs"))
-        figure = plot_scatter(data, response, effects)
-        body.append(pictures.add(figure, f"{name}_runs", f"{label} over each parameter"))
+        body.append(plot(plot_scatter(data, response, effects), "runs", f"{label} over each parameter"))
         body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * lost))
-        body.append(pictures.add(plot_parallel(data, response), f"{name}_parallel", f"Parallel coordinates of {label}"))
+        body.append(plot(plot_parallel(data, response), "parallel", f"Parallel coordinates of {label}"))
         body.append(_drawn("line", len(response.rows), MOST_LINES, "; dotted red lines are failed runs" * lost))
     highest, lowest = extremes(data, response, _WORST)
     body.append(element("h3", "Highest and lowest"))
     body.append(_extremes(data, response, [*highest, *reversed(lowest)], commands))
-    return body
+    return Section(response.title, body)
 
 
 def _drawn(what: str, count: int, most: int, more: str) -> HtmlElement:
     words = f"{most} of {count} {what}s, drawn at random" if count > most else f"All {count} {what}s"
-    return paragraph(f"{words}{more}.", "faint")
+    return paragraph(f"{words}{more}.", FAINT)
 
 
 def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> HtmlElement:
@@ -93,7 +88,7 @@ def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands
         ]
         cells.append((str(row.index), f"{row.value:.6g}", *values, commands_cell(commands(row.index))))
     head = ("run", response.title, *(p.title for p in data.parameters), "to repeat it")
-    return table(f"Highest runs of {response.title}, then lowest", head, cells)
+    return table(f"Highest runs of {response.title}, then lowest", head, cells, "numbers")
 
 
 def indices_of(data: StudyData, response: Response) -> Indices | str:

@@ -11,19 +11,18 @@ from matplotlib import pyplot as plt
 
 from ali3.bars import bar as bar_of
 from ali3.chart_style import STYLE
+from ali3.charts import drawing
 from ali3.files import make_folder, whole_file, write_text
-from ali3.html_elements import element
 from ali3.processes import command_name
 from hosts.common.errors import HostError
+from hosts.experiment.report import FAINT, Plots, Section, page, paragraph
 from hosts.study.analysis.data import study_data
 from hosts.study.analysis.measure_section import measure_section
-from hosts.study.analysis.page import document, paragraph
-from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.study_section import (
     MOST_RESPONSES,
     Commands,
-    failed_section,
-    head_section,
+    facts,
+    failed_sections,
     limits_section,
     measures_section,
 )
@@ -58,25 +57,19 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     if not len(frame):
         raise HostError(f"{folder} has no run yet; there is nothing to report.")
     check_no_link(folder)
-    data = study_data(frame)
-    pictures = Pictures(make_folder(folder / ANALYSIS))
-    body = [
-        *head_section(data),
-        *limits_section(data),
-        *measures_section(data),
-        *failed_section(data, pictures, commands),
-    ]
+    data, plots = study_data(frame), Plots(folder / ANALYSIS)
     shown = data.responses[:MOST_RESPONSES]
     numbers: list[dict[str, object]] = []
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
+        sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]
         if shown and data.parameters:
-            body.append(element("h2", "Rank correlations"))
-            body.append(paragraph("Spearman's: 1 or -1 where the measure only grows or only falls with it.", "faint"))
-            body.append(pictures.add(plot_correlations(data, shown), "correlations", "Rank correlations"))
+            words = "Spearman's: 1 or -1 where the measure only grows or only falls with it."
+            drawn = plots.add(drawing(plot_correlations(data, shown), "Rank correlations"), "correlations")
+            sections.append(Section("Rank correlations", [paragraph(words, FAINT), drawn]))
         for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
-            body += measure_section(data, response, k, pictures, commands, numbers)
-    file, rows = folder / "report.html", folder / ANALYSIS / "effects.csv"
-    write_text(file, document(f"Study {data.about['study']}", body))
+            sections.append(measure_section(data, response, k, plots, commands, numbers))
+    file, rows = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"
+    write_text(file, page(f"Study {data.about['study']}", facts(data), sections))
     with whole_file(rows) as made:
         pd.DataFrame(numbers).to_csv(made, index=False)
     return [file, rows.parent]

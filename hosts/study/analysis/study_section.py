@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from matplotlib import pyplot as plt
-
-from ali3.chart_style import STYLE
-from ali3.html_elements import Content, element, table
+from ali3.charts import drawing
+from ali3.html_elements import Content, table
+from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
-from hosts.study.analysis.page import commands_cell, paragraph
-from hosts.study.analysis.pictures import Pictures
 from hosts.study.analysis.tables import reasons, said, statistics, told_statistics
 from hosts.study.limits import share_notes, share_rows, shares
 
@@ -26,7 +23,7 @@ Commands: TypeAlias = "Callable[[int], Sequence[str]]"
 """Lines that repeat the run of an index."""
 
 
-def head_section(data: StudyData) -> list[HtmlElement]:
+def facts(data: StudyData) -> list[HtmlElement]:
     """What was run, and how much of it is done."""
     about, counts = data.about, data.frame["status"].astype(str).value_counts()
     words = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
@@ -39,39 +36,39 @@ def head_section(data: StudyData) -> list[HtmlElement]:
         ("runs", f"{len(data.frame)} of {data.planned}: {words}"),
         ("versions", versions),
     ]
-    body = [element("h1", f"Study {about['study']}"), table("What was run", ("", ""), rows)]
+    body = [table("What was run", ("", ""), rows)]
     if len(data.frame) < data.planned:
         missing = data.planned - len(data.frame)
         body.append(
-            paragraph(f"{missing} of {data.planned} runs are not done yet; this is the report of the others.", "note")
+            paragraph(f"{missing} of {data.planned} runs are not done yet; this is the report of the others.", NOTE)
         )
     if len(data.responses) > MOST_RESPONSES:
         left = len(data.responses) - MOST_RESPONSES
         body.append(
             paragraph(
-                f"Plots are drawn of the first {MOST_RESPONSES} measures; {left} more are in the table only.", "note"
+                f"Plots are drawn of the first {MOST_RESPONSES} measures; {left} more are in the table only.", NOTE
             )
         )
     return body
 
 
-def measures_section(data: StudyData) -> list[HtmlElement]:
+def measures_section(data: StudyData) -> Section:
     """A table of all measures with their percentiles; those of no random sample have their range only."""
     if not data.responses:
-        return [element("h2", "Measures"), paragraph("No run yields a measure.", "note")]
+        return Section("Measures", [paragraph("No run yields a measure.", NOTE)])
     names, why = told_statistics(data)
     found = [(r, statistics(r)) for r in data.responses]
     rows = [
         (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{s[n]:.5g}" for n in names if n != "runs"))
         for r, s in found
     ]
-    body = [element("h2", "Measures"), table("Of all runs", ("measure", "unit", *names), rows)]
+    body = [table("Of all runs", ("measure", "unit", *names), rows, "numbers")]
     if why:
-        body.append(paragraph(f"There are no percentiles: {why}.", "faint"))
-    return body
+        body.append(paragraph(f"There are no percentiles: {why}.", FAINT))
+    return Section("Measures", body)
 
 
-def limits_section(data: StudyData) -> list[HtmlElement]:
+def limits_section(data: StudyData) -> list[Section]:
     """Which share of the runs keeps the limits of the study; empty where it has none."""
     found = shares(data.frame)
     if not found:
@@ -79,12 +76,12 @@ def limits_section(data: StudyData) -> list[HtmlElement]:
     rows = share_rows(found, data.about)
     words = " ".join(share_notes(found, data.about))
     head = ("measure", "limit", "within", "share", "95 % interval")
-    return [element("h2", "Limits"), table("Runs within the limits", head, rows), paragraph(words, "faint")]
+    return [Section("Limits", [table("Runs within the limits", head, rows, "numbers"), paragraph(words, FAINT)])]
 
 
-def failed_section(data: StudyData, pictures: Pictures, commands: Commands) -> list[HtmlElement]:
+def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[Section]:
     """Where in the space of the parameters runs failed, why, and what the FMU said; empty where all was good."""
-    body = []
+    sections = []
     for groups, title in (
         (reasons(data, FAILED), "Failed runs"),
         (reasons(data, "incomplete"), "Runs without some measure"),
@@ -92,18 +89,18 @@ def failed_section(data: StudyData, pictures: Pictures, commands: Commands) -> l
     ):
         if not groups:
             continue
-        body.append(element("h2", title))
+        body = []
         if title == "Failed runs" and data.parameters:
-            with plt.rc_context({**STYLE, "font.size": 9}):
-                body.append(pictures.add(plot_failed(data), "failed", "Share of failed runs over each parameter"))
+            drawn = drawing(plot_failed(data), "Share of failed runs over each parameter")
             words = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
-            body.append(paragraph(words, "faint"))
+            body += [plots.add(drawn, "failed"), paragraph(words, FAINT)]
         rows: list[tuple[Content, ...]] = []
         for text, indices in groups[:_SHOWN_REASONS]:
             for k, index in enumerate(indices[:_SHOWN_OF_A_REASON]):
                 first = (text, str(len(indices))) if k == 0 else ("", "")
                 rows.append((*first, str(index), commands_cell(commands(index))))
-        body.append(table("Words and runs", ("words", "runs", "for example", "to repeat it"), rows))
+        body.append(table("Words and runs", ("words", "runs", "for example", "to repeat it"), rows, "numbers"))
         if len(groups) > _SHOWN_REASONS:
-            body.append(paragraph(f"{len(groups) - _SHOWN_REASONS} rarer ones are in the table of runs only.", "faint"))
-    return body
+            body.append(paragraph(f"{len(groups) - _SHOWN_REASONS} rarer ones are in the table of runs only.", FAINT))
+        sections.append(Section(title, body))
+    return sections

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import io
-from typing import TYPE_CHECKING
-
-from ali3.chart_words import png_metadata
+from ali3.charts import drawing
 from ali3.html_elements import document, element, picture, table
 from mbs.vehicle.kinematics.axle_compliance import Compliance
 from mbs.vehicle.kinematics.car_kinematics import Kinematics
 from mbs.vehicle.kinematics.compliance_table import rows as compliance_rows
 from mbs.vehicle.kinematics.plots import steer_figure, travel_figure
 from mbs.vehicle.kinematics.table import rows
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def page(found: Kinematics, gives: Compliance) -> str:
@@ -33,11 +27,5 @@ def page(found: Kinematics, gives: Compliance) -> str:
     figures = [travel_figure(found, axle) for axle, motion in found.curves if motion == "parallel"]
     figures += [steer_figure(found) for _, motion in found.curves if motion == "steer"]
     for figure in figures:
-        parts.append(picture(_png(figure), figure.get_suptitle()))
+        parts.append(picture(drawing(figure, figure.get_suptitle())))
     return document(title, parts)
-
-
-def _png(figure: Figure) -> bytes:
-    out = io.BytesIO()
-    figure.savefig(out, format="png", dpi=110, metadata=png_metadata(figure))
-    return out.getvalue()

@@ -89,7 +89,7 @@ class TestCommand:
         assert np.std(table.columns["bob.x.fitted"] - table.columns["bob.x.measured"]) == pytest.approx(0.01, rel=0.15)
         page = (tmp_path / "drive.html").read_text()
         assert "spring.stiffness" in page
-        assert "data:image/png;base64" in page
+        assert "data:image/svg+xml;base64" in page
         assert (tmp_path / "drive.ssv").is_file()
         # The parameter set gives the fitted run without a fit.
         assert main([*arguments, "--parameters", str(tmp_path / "drive.ssv")]) == 0

@@ -60,7 +60,7 @@ def test_two_readers_find_the_same_numbers(made, found):
 def test_page_table_and_json(made, found):
     folder, printed = made
     page = (folder / "kinematics.html").read_text(encoding="utf-8")
-    assert page.count("data:image/png;base64,") == 3
+    assert page.count("data:image/svg+xml;base64,") == 3
     assert 'src="http' not in page
     content = json.loads((folder / "k.json").read_text())
     drawn = found.drawn("front")

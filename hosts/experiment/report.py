@@ -1,0 +1,77 @@
+"""The page that tells an experiment: its facts, its sections with links to them, and its plots as SVG."""
+
+from __future__ import annotations
+
+import platform
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ali3.charts import Drawing
+from ali3.files import make_folder
+from ali3.html_elements import Content, document, element, picture
+
+if TYPE_CHECKING:
+    from lxml.html import HtmlElement
+
+NOTE, FAINT, PROBLEM = "note", "faint", "problem"
+"""Kinds of paragraphs."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page with a heading."""
+
+    title: str
+    parts: Sequence[Content]
+    name: str = ""
+    """To which links lead; by default its number."""
+
+
+class Plots:
+    """Drawings as SVG files of a folder; they stand in the page too."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def add(self, drawn: Drawing, name: str) -> HtmlElement:
+        """Write a drawing, and give its place in the page."""
+        stem = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[:80]
+        drawn.write(make_folder(self.folder) / f"{stem}.svg")
+        return picture(drawn)
+
+
+def page(title: str, facts: Iterable[HtmlElement], sections: Iterable[Section], foot: str = "") -> str:
+    """The whole file, which needs no other. `facts`: what stands before the sections; `foot`: words at its end."""
+    named = [(section.name or f"section-{k}", section) for k, section in enumerate(sections, start=1)]
+    links = [element("li", element("a", section.title, href=f"#{name}")) for name, section in named]
+    body = [element("h1", title), *facts]
+    if len(named) > 1:
+        body.append(element("nav", element("ul", *links), aria_label="Sections"))
+    for name, section in named:
+        heading = element("h2", section.title)
+        body.append(element("section", heading, *section.parts, id=name, aria_label=section.title))
+    return document(title, [*body, element("footer", *([element("p", foot)] if foot else []), paragraph(_made_by()))])
+
+
+def paragraph(text: str, kind: str = "") -> HtmlElement:
+    """A paragraph. `kind`: `NOTE`, `FAINT` or `PROBLEM`."""
+    return element("p", text, class_=kind) if kind else element("p", text)
+
+
+def commands_cell(lines: Sequence[str]) -> HtmlElement:
+    """A cell with commands to be copied."""
+    return element("td", *([element("code", line) for line in lines] or ["–"]), class_="commands")
+
+
+def _made_by() -> str:
+    try:
+        program = version("ali3")
+    except PackageNotFoundError:
+        program = "without a version"
+    now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
+    return f"{now}, by ALi3 {program} on Python {platform.python_version()}, {platform.platform()}."
