@@ -22,10 +22,10 @@ from hosts.fmu.fmu_file import fmu_file
 
 if TYPE_CHECKING:
     from hosts.catalogue.car import TestedCar
-    from hosts.catalogue.kept import KeptTests
     from hosts.catalogue.limits import GivenLimits
-    from hosts.catalogue.record import StandardTest
+    from hosts.catalogue.record import StandardTest, TestRecord
     from hosts.catalogue.task import Outcome, Task
+    from hosts.experiment.experiment import Kept
 
 _PENDING = "Not done yet: the command is at work, or was stopped."
 
@@ -91,12 +91,12 @@ def _list() -> int:
 
 def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from ali3.files import check_writable
-    from ali3.locks import locked
     from hosts.catalogue.cars import cars_of
-    from hosts.catalogue.kept import KeptTests
     from hosts.catalogue.limits import GivenLimits
     from hosts.catalogue.perform import settings_of_test
+    from hosts.catalogue.record import TestRecord
     from hosts.catalogue.registry import TESTS, standard_test
+    from hosts.experiment.experiment import Kept
     from hosts.measures.limits import read_limits
 
     if not options.fmus:
@@ -114,8 +114,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     fmus = [fmu_file(path).absolute() for path in options.fmus]
     cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
-    busy = f"Another program does tests in {options.out}; wait for it, or give another --out."
-    with locked(options.out, busy), KeptTests(options.out) as kept:
+    with Kept[TestRecord](options.out, TestRecord, "does tests", options.again) as kept:
         return _do(options, command, tests, cars, settings, limits, kept)
 
 
@@ -126,13 +125,15 @@ def _do(
     cars: Sequence[TestedCar],
     settings: Mapping[str, Mapping[str, float]],
     limits: GivenLimits,
-    kept: KeptTests,
+    kept: Kept[TestRecord],
 ) -> int:
     """Do the tests that are not kept, and write what is there after each."""
+    from hosts.catalogue.kept import find
     from hosts.catalogue.output import print_measures, write_measures
     from hosts.catalogue.perform import missing_for
     from hosts.catalogue.report import write_report
     from hosts.catalogue.task import Task
+    from hosts.experiment.experiment import tell_kept
 
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
     tasks = []
@@ -144,12 +145,11 @@ def _do(
             else:
                 folder = None if options.no_runs else options.out.absolute()
                 task = Task(test.name, car, settings[test.name], folder)
-                before = None if options.again else kept.find(task)
+                before = find(kept, task)
                 outcomes[test.name][car.label] = _PENDING if before is None else before
                 tasks += [task] if before is None else []
     there = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
-    if there:
-        print(f"{there} of {len(tests) * len(cars)} tests are there; --again does them again.", flush=True)
+    tell_kept(there, len(tests) * len(cars), "tests")
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     try:
@@ -186,37 +186,31 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
 
 
 def _done(
-    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: KeptTests
+    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: Kept[TestRecord]
 ) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
-    from ali3.bars import bar as bar_of
     from ali3.isolated import Lost
+    from hosts.catalogue.kept import keep
     from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do, write_runs
-    from hosts.experiment.pool import Pool
+    from hosts.experiment.experiment import Experiment
     from hosts.fmu.own_process import files_of_drives
 
-    form = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
-    parts = [0.0] * len(tasks)
-    reads = [file for task in tasks for file in files_of_drives(task.car.path, [task.car.start])]
-    with (
-        bar_of(total=float(len(tasks)), bar_format=form, desc="catalogue") as bar,
-        Pool(do, TestRecord | Reason, jobs, reads) as pool,
-    ):
-
-        def progress(place: int, part: float) -> None:
-            parts[place] = max(part, parts[place])
-            bar.set_description_str(f"{tasks[place].test}, {tasks[place].car.label}", refresh=False)
-            bar.update(sum(parts) - bar.n)
-
-        for place, outcome in pool.results(tasks, progress):
-            progress(place, 1.0)
+    experiment: Experiment[Task, Outcome] = Experiment(
+        "catalogue",
+        do,
+        TestRecord | Reason,
+        lambda task: f"{task.test}, {task.car.label}",
+        lambda task: files_of_drives(task.car.path, [task.car.start]),
+    )
+    with closing(experiment.results(tasks, jobs)) as results:
+        for place, outcome in results:
             words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
             outcomes[tasks[place].test][tasks[place].car.label] = words
             if not isinstance(words, str):
                 write_runs(tasks[place], words)
-                kept.add(tasks[place], words)
+                keep(kept, tasks[place], words)
             yield
 
 

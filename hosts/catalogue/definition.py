@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +11,30 @@ from pydantic import model_validator
 
 from ali3.reading import read_toml
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.record import Setting, Standard, StandardTest, TestRecord
+from hosts.catalogue.record import Standard, StandardTest, TestRecord
 from hosts.catalogue.sheet import Sheet, TestTables
 from hosts.common.errors import HostError
 
 _FOLDER = Path(__file__).parent / "standard"
+
+
+@cache
+def _shared() -> dict[str, Any]:
+    """What the files of several tests have."""
+    return read_toml(_FOLDER / "shared.toml", HostError)
+
+
+def _plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
+    """A plot, or those of the signals of a run over time that it names."""
+    if "signals" not in plot:
+        return [plot]
+    given = {name: value for name, value in plot.items() if name not in ("signals", "run", "line")}
+    time = ["time, s", f"{plot['run']}.time"]
+    return [
+        {**given, "title": f"{title}, {plot['title']}", "x": time, "y": y}
+        | {"lines": {plot.get("line", line): value.format(run=plot["run"])}}
+        for title, y, value, line in (_shared()["signals"][name] for name in plot["signals"])
+    ]
 
 
 class TestFile(TestTables):
@@ -23,13 +43,19 @@ class TestFile(TestTables):
     title: str
     needs: tuple[str, ...]
     standards: tuple[Standard, ...] = ()
-    settings: tuple[Setting, ...] = ()
 
     @model_validator(mode="before")
     @classmethod
     def _named(cls, content: dict[str, Any]) -> dict[str, Any]:
         settings = [{"name": name, **setting} for name, setting in content.get("settings", {}).items()]
-        return {**content, "settings": settings}
+        needs = [name for need in content["needs"] for name in _shared()["needs"].get(need, [need])]
+        titles = _shared()["standards"]
+        standards = [{"title": titles.get(s["name"], ""), **s} for s in content.get("standards", ())]
+        parts = {
+            name: {**part, "plots": [each for plot in part.get("plots", ()) for each in _plots(plot)]}
+            for name, part in content.get("parts", {}).items()
+        }
+        return {**content, "settings": settings, "needs": needs, "standards": standards, "parts": parts}
 
 
 def file_of_test(name: str) -> TestFile:
@@ -37,7 +63,7 @@ def file_of_test(name: str) -> TestFile:
     return TestFile.model_validate(read_toml(_FOLDER / f"{name}.toml", HostError))
 
 
-def load_test(name: str, drive: Callable[[Sheet], None]) -> StandardTest:
+def standard_of(name: str, drive: Callable[[Sheet], None]) -> StandardTest:
     """The test that ``standard/NAME.toml`` describes, and whose runs `drive` makes and adds to a sheet."""
     about = file_of_test(name)
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, run_file
-from hosts.common.closing import Closing
 from hosts.driving.result import Result
-from hosts.experiment.journal import Journal
+from hosts.experiment.experiment import Kept
 from hosts.experiment.run_key import run_key
 from hosts.fmu.own_process import files_of
 
@@ -23,29 +21,19 @@ def digest(task: Task) -> str:
     return run_key(car.path, *told, files=files_of(car.start))
 
 
-class KeptTests(Closing):
-    """The tests that are done in a folder of results; `out`: the folder."""
-
-    def __init__(self, out: Path) -> None:
-        self._journal: Journal[tuple[str, TestRecord]] = Journal(out / "done", tuple[str, TestRecord])
-        self._found = self._journal.read()
-
-    def find(self, task: Task) -> TestRecord | None:
-        """What the same task has yielded before; None where it was not done, was another, or its tables have gone."""
-        was, record = self._found.get(_key(task), ("", None))
-        return record if record is not None and was == digest(task) and _has_tables(task, list(record.runs)) else None
-
-    def add(self, task: Task, record: TestRecord) -> None:
-        """Keep what a task has yielded, but the tables of its runs."""
-        nothing = Result([], {}, np.zeros(0), np.zeros((0, 0)), 0.0, 0.0, 0, [])
-        self._journal.add(_key(task), (digest(task), replace(record, runs=dict.fromkeys(record.runs, nothing))))
-
-    def close(self) -> None:
-        """Close the file."""
-        self._journal.close()
+def find(kept: Kept[TestRecord], task: Task) -> TestRecord | None:
+    """What the same task has yielded before; None where it was not done, was another, or its tables have gone."""
+    record = kept.find(_name(task), digest(task))
+    return record if record is not None and _has_tables(task, list(record.runs)) else None
 
 
-def _key(task: Task) -> str:
+def keep(kept: Kept[TestRecord], task: Task, record: TestRecord) -> None:
+    """Keep what a task has yielded, but the tables of its runs."""
+    nothing = Result([], {}, np.zeros(0), np.zeros((0, 0)), 0.0, 0.0, 0, [])
+    kept.add(_name(task), digest(task), replace(record, runs=dict.fromkeys(record.runs, nothing)))
+
+
+def _name(task: Task) -> str:
     return f"{task.test}/{task.car.label}"
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+from functools import cache
 
 from ali3.near_names import did_you_mean
+from hosts.catalogue.definition import standard_of
 from hosts.catalogue.record import StandardTest
 from hosts.common.errors import HostError
 
@@ -28,10 +30,10 @@ TESTS: tuple[str, ...] = tuple(name for name in _ALL if importlib.util.find_spec
 """In the order in which they are done."""
 
 
+@cache
 def standard_test(name: str) -> StandardTest:
     """A test by its name. Raises `HostError` if there is none of it, with the names that there are."""
     if name not in TESTS:
         hint = did_you_mean(name, TESTS, f"they are: {', '.join(TESTS)}")
         raise HostError(f"There is no test '{name}' in the catalogue{hint}")
-    test: StandardTest = importlib.import_module(f"{_FOLDER}.{name}").TEST
-    return test
+    return standard_of(name, importlib.import_module(f"{_FOLDER}.{name}").drive)

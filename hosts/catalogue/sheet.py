@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end, with_step_up_to
-from hosts.catalogue.record import Line, Plot, TestRecord
+from hosts.catalogue.record import Line, Plot, Setting, TestRecord
 from hosts.catalogue.steering import SteeringInput
 from hosts.catalogue.two_sides import NOT_SHOWN, asymmetry, mean_of_sides
 from hosts.common.errors import HostError
@@ -30,10 +30,12 @@ class _Typed(BaseModel):
 
 
 class Sentence(_Typed):
-    """A text with ``{expressions}`` that is said where an expression is true."""
+    """A text with ``{expressions}`` that is said where an expression, which may have some too, is true."""
 
     when: str
     text: str
+    each: dict[str, tuple[Any, ...]] | str = "[{}]"
+    """See `_MeasureLine.each`."""
 
 
 class _LimitLine(_Typed):
@@ -94,6 +96,7 @@ class TestTables(_Typed):
     refusals: tuple[Sentence, ...] = ()
     """Why the test cannot be done with settings and a car."""
     parts: dict[str, Part] = {}
+    settings: tuple[Setting, ...] = ()
 
     def scope(self, car: TestedCar, settings: Mapping[str, float]) -> Scope:
         """Names of settings, and `car`."""
@@ -120,6 +123,10 @@ class Sheet:
         self.measures: list[Measure] = []
         self._plots: list[Plot] = []
         self._tables = tables
+
+    def words_of(self, setting: str) -> str:
+        """What a setting is, up to its first semicolon."""
+        return next(s.text for s in self._tables.settings if s.name == setting).partition(";")[0]
 
     def with_step_up_to(self, longest: float, why: str) -> TestedCar:
         """The car with a communication step that resolves what is measured; see `preparation.with_step_up_to`."""
@@ -148,7 +155,9 @@ class Sheet:
             for more in _mappings(scope, line.each):
                 inner = scope.inner(more)
                 self.measures.append(_measure(inner.words(name), line, inner))
-        self.notes += [scope.words(n.text) for n in table.notes if _true(scope, n.when)]
+        for n in table.notes:
+            found = [scope.inner(more) for more in _mappings(scope, n.each)]
+            self.notes += [each.words(n.text) for each in found if _true(each, each.words(n.when))]
         self._plots += [plot for line in table.plots if (plot := _plot(line, scope)).lines]
 
     def value(self, expression: str, **names: Any) -> Any:

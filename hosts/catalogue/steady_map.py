@@ -16,6 +16,7 @@ from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.measures.filters import phaseless_low_pass
 from hosts.measures.log_echo import relations_echo
+from hosts.measures.measure import Measure
 from hosts.measures.signal import Signal
 
 _SLOW = math.radians(2.0)
@@ -51,13 +52,13 @@ class SteadyMap:
             return math.nan
         return float(np.interp(acceleration, np.maximum.accumulate(self.acceleration), self.angle))
 
-    def need_angle_at(self, acceleration: float) -> float:
-        """The same of the setting `lateral_acceleration`. Raises `HostError` if it was not reached."""
+    def need_angle_at(self, acceleration: float, setting: str = "lateral_acceleration") -> float:
+        """The same of a setting. Raises `HostError` if it was not reached."""
         angle = self.angle_at(acceleration)
         if math.isnan(angle):
             raise HostError(
                 f"At {3.6 * self.speed:g} km/h the car reaches {self.largest:.3g} m/s² in a slow ramp of the steering, "
-                f"not the {acceleration:g} m/s² of lateral_acceleration; choose less."
+                f"not the {acceleration:g} m/s² of {setting}; choose less."
             )
         return angle
 
@@ -124,10 +125,11 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
 
 
 def driven_ramp(sheet: Sheet, acceleration: float) -> SteadyMap:
-    """`map_at_reachable_speed` of the setting `speed` or of 80 km/h, with its run and its notes on the sheet."""
+    """`map_at_reachable_speed` of the setting `speed` or of 80 km/h; speed, run and notes are on the sheet."""
     speed = sheet.settings["speed"] / 3.6
     ramp = map_at_reachable_speed(sheet.car, speed, min(speed, 80.0 / 3.6), acceleration)
     sheet.runs["ramp_left"] = ramp.run.thinned()
+    sheet.measures.append(Measure("speed", ramp.speed, "m/s", f"speed {sheet.words_of('speed')}"))
     sheet.notes += [*ramp.notes, *filter(None, [SteeringInput.of(sheet.car.facts).note])]
     return ramp
 

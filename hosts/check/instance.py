@@ -178,8 +178,8 @@ class Instance(instance.Instance):
         except (ModuleNotFoundError, MemoryError):
             raise
         except Exception as error:
-            said = one_line(": ".join([str(error), *self.messages[-1:]]))
-            raise NotInstantiatedError(f"it is not instantiated {subject.clause('2.1.5', '2.3.1')}: {said}") from None
+            said = f"it is not instantiated {subject.clause('2.1.5', '2.3.1')}: {one_line(str(error))}"
+            raise NotInstantiatedError(said) from None
         subject.alive = self if subject.single else None
 
     def _hear(self, status: int, category: str, text: str) -> None:

@@ -101,8 +101,7 @@ class Fmu(Closing, NamedScalars):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
                 raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
-            why = self._last_message() or f"{error}{cause_words(error)}"
-            raise HostError(f"{path} cannot be loaded on {sys.platform}: {why}") from None
+            raise HostError(f"{path} cannot be loaded on {sys.platform}: {error}{cause_words(error)}") from None
         return self._loaded
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -19,6 +20,7 @@ from ali3.call_mark import marked
 from ali3.limits import at_most, raised
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
+from ali3.words import shortened
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place
@@ -77,6 +79,7 @@ class Instance:
         }
 
         self.raw: deque[str] = deque(maxlen=_KEPT)
+        self._last, self._as_described = "", token is None and resources is None
         self.without_text = 0
 
         def log(environment: object, *rest: Any) -> None:
@@ -86,6 +89,7 @@ class Instance:
             self.raw.append(text)
             if not self.three:  # a format of printf, in which # marks references
                 text = text.replace("%%", "%").replace("##", "#")
+            self._last = text
             told(int(status), (category or b"").decode("utf-8", "replace"), text)
 
         self.follow: Callable[[float], None] | None = None
@@ -118,10 +122,14 @@ class Instance:
     def _instantiate(self, **functions: Any) -> None:
         try:
             self.slave.instantiate(**functions)
-        except Exception:
+        except Exception as error:
+            if not self._last and self._as_described:  # many say why only where logging is on
+                with suppress(Exception):
+                    self.slave.instantiate(loggingOn=True, **functions)
+                    self.slave.freeInstance()
             if any("enough memory" in text or "out of memory" in text.lower() for text in self.raw):
                 raise MemoryError from None
-            raise
+            raise HostError(": ".join(filter(None, (str(error), shortened(self._last))))) from None
         # PythonFMU 0.7 frees its own record of Python twice when the library is closed; the instance keeps its share.
         getattr(self.slave.dll, "finalizePythonInterpreter", int)()
 

@@ -7,14 +7,13 @@ import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import SENSES
 from hosts.driving.wild_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
-from hosts.soak.grounds import Ground, ground_of
+from hosts.soak.grounds import Ground
 from hosts.soak.memory import Memory
 from hosts.soak.stretch import Stretch
 
@@ -40,8 +39,8 @@ class Task:
     """Communication step, s."""
     start: dict[str, Value]
     """Set before every start, over those of the seed."""
-    grounds: list[dict[str, Any]]
-    """Of `Ground.record`."""
+    grounds: tuple[Ground, ...]
+    """Roads, of which one is drawn for each run; none: that of the FMU as it is."""
     out: str
     """Folder for failing stretches."""
     largest_balance: float = LARGEST_BALANCE
@@ -94,7 +93,7 @@ class _Drive:
         self.stretch = Stretch(fmu, [*self.inputs, *self.outputs], self.inputs, task.step)
         self.memory = Memory()
         self.outcome = Outcome(task.seed, task.fidelity, counts=self.watch.counts)
-        self.grounds = [ground_of(record) for record in task.grounds] or [Ground("", ())]
+        self.grounds = task.grounds or (Ground("", ()),)
         self.senses = [(name, self.outputs.index(name)) for name in SENSES if name in self.outputs]
         self.rest = fmu.start_values(self.inputs).tolist()
         self.settable = {n for n, v in fmu.variables.items() if v.causality in ("parameter", "input")}

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,16 +41,6 @@ class Ground:
     road: str
     """Of the parameter `road.file`."""
     targets: tuple[Target, ...]
-
-    @property
-    def record(self) -> dict[str, Any]:
-        """The ground as JSON."""
-        return {"road": self.road, "targets": [asdict(target) for target in self.targets]}
-
-
-def ground_of(record: dict[str, Any]) -> Ground:
-    """The ground of a `Ground.record`."""
-    return Ground(record["road"], tuple(Target(**target) for target in record["targets"]))
 
 
 IN_THE_FMU = (

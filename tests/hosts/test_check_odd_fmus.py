@@ -123,7 +123,7 @@ def test_a_state_of_any_size_is_named_and_every_other_check_is_done(tmp_path: Pa
 def test_a_limit_of_memory_is_no_cause_where_there_is_room(
     fmu: Callable[[str], Path], tmp_path: Path, limit: int
 ) -> None:
-    """An FMU that is not instantiated, for its token is another."""
+    """An FMU that is not instantiated, for its token is another, which it says where logging is on."""
     resource = pytest.importorskip("resource", reason="limits of memory")
     copy = tmp_path / "other.fmu"
     with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
@@ -137,4 +137,4 @@ def test_a_limit_of_memory_is_no_cause_where_there_is_room(
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
     )
     assert done.returncode == 2
-    assert done.stderr.endswith("other.fmu cannot be loaded on linux: Failed to instantiate model\n")
+    assert done.stderr.endswith("other.fmu cannot be loaded on linux: Failed to instantiate model: another GUID\n")

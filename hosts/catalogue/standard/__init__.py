@@ -1,1 +1,1 @@
-"""The standard tests, one a file; each has an instance ``TEST``."""
+"""The standard tests: the function ``drive`` of each makes its runs."""

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import STEADY, Stop
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import held, start_at
 from hosts.catalogue.sheet import Sheet
@@ -74,6 +73,3 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
 
     result = car.drive(held(car, f"braking_in_a_turn {pedal:.3g}", stop_time, {}, start), pilot, over)
     return Stop(pedal, result, pilot.onset, ends.reason)
-
-
-TEST = load_test("braking_in_a_turn", drive)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.signal import chirp
 from scipy.signal.windows import tukey
 
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
@@ -55,9 +54,6 @@ def drive(sheet: Sheet) -> None:
     why = "The fit does not converge." if fitted else "There is no response."
     sheet.add("mode", why_none=why, fit=fits[0], misfit=max(f.misfit for f in fits), words=words or "nothing")
     sheet.add("pictures", run=run, found=found)
-
-
-TEST = load_test("chirp_steer", drive)
 
 
 def _table(

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.passage import Passage
 from hosts.catalogue.preparation import RunUp, held
@@ -174,6 +173,3 @@ def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) ->
     result = car.drive(manoeuvre, pilot, over)
     after = result.time >= pilot.start - 1e-9 if not math.isnan(pilot.start) else np.zeros(len(result.time), bool)
     return Passage(speed, result, driver, course, (length, width), pilot.pose, after, ends.reason, layout.release)
-
-
-TEST = load_test("double_lane_change", drive)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.preparation import held
 from hosts.catalogue.sheet import Sheet
 
@@ -17,6 +16,3 @@ def drive(sheet: Sheet) -> None:
     run = sheet.keep("drop", car.drive(fall))
     sheet.progress(1.0)
     sheet.add("fall", run=run)
-
-
-TEST = load_test("drop", drive)

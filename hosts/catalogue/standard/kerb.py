@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.preparation import held
 from hosts.catalogue.sheet import Sheet
 from hosts.common.numbers import Value
@@ -36,6 +35,3 @@ def drive(sheet: Sheet) -> None:
         if "stress.computed" in run and not (run["stress.computed"] == 1.0).all():
             gauges = []
         sheet.add("passage", way=way, rise=rise, run=run, gauges=gauges)
-
-
-TEST = load_test("kerb", drive)

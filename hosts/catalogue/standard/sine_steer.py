@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
@@ -30,7 +29,7 @@ def drive(sheet: Sheet) -> None:
         sheet.runs[f"sine_{side}"] = sides[side].thinned()
         sheet.progress(0.4 + 0.3 * len(sides))
     short = sorted(set(filter(None, [run.shortfall(amplitude) for run in sides.values()])))
-    sheet.add("run", speed=ramp.speed, amplitude=amplitude, **sides)
+    sheet.add("run", amplitude=amplitude, **sides)
     sheet.notes += short
     for name, signal, units in (
         ("yaw_rate", "yaw_rate", ("1/s", "rad/s")),
@@ -38,9 +37,6 @@ def drive(sheet: Sheet) -> None:
     ):
         found = {side: {"period": _one_period(run, getattr(run, signal), period)} for side, run in sides.items()}
         sheet.add("quantity", name=name, word=name.replace("_", " "), units=units, **found)
-
-
-TEST = load_test("sine_steer", drive)
 
 
 def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> OnePeriod:

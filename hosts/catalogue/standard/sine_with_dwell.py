@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steady_map import refuse_odd, why_not_reached
@@ -55,9 +54,6 @@ def drive(sheet: Sheet) -> None:
             sheet.add("lost", a=a, wanted=wanted, side=side, last=runs[-1])
     sheet.notes += slow
     sheet.add("series", a=a, found=found, wanted=wanted, sides=sides, given=given, ramps=ramps)
-
-
-TEST = load_test("sine_with_dwell", drive)
 
 
 def _rounded(angle: float) -> float:

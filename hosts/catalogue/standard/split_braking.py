@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.standard.straight_braking import stop
 
@@ -18,6 +17,3 @@ def drive(sheet: Sheet) -> None:
     sheet.notes += notes
     sheet.progress(1.0)
     sheet.add("stop", run=run, onset=onset)
-
-
-TEST = load_test("split_braking", drive)

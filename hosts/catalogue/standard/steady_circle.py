@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from hosts.catalogue.circle_run import CircleRun, drive_circle
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.sheet import Sheet
 from hosts.catalogue.steering_ratio import steering_ratio
 
@@ -24,6 +23,3 @@ def drive(sheet: Sheet) -> None:
         sheet.runs[side] = runs[side].result
     left, right = ({"side": side, "sign": 1.0 if side == "left" else -1.0, "run": run} for side, run in runs.items())
     sheet.add("circle", ratio=ratio, left=left, right=right)
-
-
-TEST = load_test("steady_circle", drive)

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.definition import load_test
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import RunUp, early_end, held
 from hosts.catalogue.sheet import Sheet
@@ -105,6 +104,3 @@ def _best_unlocked(sheet: Sheet, car: TestedCar) -> tuple[float, dict[str, Any]]
             low, best = pedal, {"run": run, "onset": onset}
         sheet.progress(0.2 + 0.8 * (k + 1) / tries)
     return low, best
-
-
-TEST = load_test("straight_braking", drive)

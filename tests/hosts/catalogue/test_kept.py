@@ -9,19 +9,20 @@ import pytest
 
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.kept import KeptTests
+from hosts.catalogue.kept import find, keep
 from hosts.catalogue.output import measures_csv
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.task import Task, do, write_runs
+from hosts.experiment.experiment import Kept
 
 SETTINGS = {"height": 0.05, "duration": 4.0}
 
 
 def kept(task: Task, out: Path) -> TestRecord | None:
-    with KeptTests(out) as tests:
-        return tests.find(task)
+    with Kept[TestRecord](out, TestRecord, "does tests") as there:
+        return find(there, task)
 
 
 @pytest.mark.slow
@@ -34,8 +35,8 @@ def test_what_is_kept_is_what_was_done(
     record = do(task, lambda part: None)
     assert isinstance(record, TestRecord)
     write_runs(task, record)
-    with KeptTests(tmp_path) as tests:
-        tests.add(task, record)
+    with Kept[TestRecord](tmp_path, TestRecord, "does tests") as there:
+        keep(there, task, record)
     again = kept(task, tmp_path)
     assert again is not None
     assert measures_csv([drop], {"drop": {"p": again}}) == measures_csv([drop], {"drop": {"p": record}})
@@ -53,7 +54,7 @@ def test_what_is_kept_is_what_was_done(
     given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
     told = capsys.readouterr().out
-    assert "1 of 1 tests are there; --again does them again." in told
+    assert "1 of 1 tests are there; --again makes them again." in told
     assert "load.peak_FL" in told
 
     assert kept(replace(task, settings={**task.settings, "height": 0.06}), tmp_path) is None

@@ -76,7 +76,7 @@ def test_a_level_that_tyres_do_not_reach_is_left_out_with_its_reason() -> None:
     found = values(record)
     assert found["level_2.yaw_rate.gain"] == pytest.approx(gains(SPEED)[0], rel=1e-3)
     assert math.isnan(found["level_3.yaw_rate.gain"])
-    assert any("reaches 5 m/s²" in n and "level_3 is left out" in n for n in record.notes)
+    assert any("reaches 5 m/s²" in n and "of level_3; choose less" in n for n in record.notes)
 
 
 def test_a_car_that_turns_less_to_the_right_is_seen() -> None:
