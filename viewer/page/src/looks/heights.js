@@ -28,7 +28,7 @@ export class HeightField {
     this.cell = [0, 1].map((k) => (this.high[k] - this.low[k]) / TABLE || 1);
     this.table = new Map();
     this.patches.forEach((patch, index) => {
-      const [from, to] = [this.#cellOf(patch.origin), this.#cellOf(ends[index])];
+      const [from, to] = [this._cellOf(patch.origin), this._cellOf(ends[index])];
       for (let a = from[0]; a <= to[0]; a++) {
         for (let b = from[1]; b <= to[1]; b++) {
           const key = a * TABLE + b;
@@ -39,25 +39,25 @@ export class HeightField {
     });
   }
 
-  #cellOf(at) {
-    return at.map((value, k) => this.#line(k, value));
+  _cellOf(at) {
+    return at.map((value, k) => this._line(k, value));
   }
 
   /** The patches that a place lies in: two or more on an edge. @returns {Patch[]} */
   patchesAt(x, y) {
-    return this.#candidates(x, y).filter((one) => this.#holds(one, x, y)).map(({ patch }) => patch);
+    return this._candidates(x, y).filter((one) => this._holds(one, x, y)).map(({ patch }) => patch);
   }
 
-  #candidates(x, y) {
-    const [a, b] = [this.#line(0, x), this.#line(1, y)];
+  _candidates(x, y) {
+    const [a, b] = [this._line(0, x), this._line(1, y)];
     return this.table.get(a * TABLE + b) ?? [];
   }
 
-  #line(k, value) {
+  _line(k, value) {
     return Math.min(TABLE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k])));
   }
 
-  #holds({ patch, end }, x, y) {
+  _holds({ patch, end }, x, y) {
     const { origin } = patch;
     const near = 1e-6 * Math.max(this.cell[0], this.cell[1]);
     return x >= origin[0] - near && x <= end[0] + near && y >= origin[1] - near && y <= end[1] + near;
@@ -67,7 +67,7 @@ export class HeightField {
   at(x, y) {
     const px = Math.min(this.high[0], Math.max(this.low[0], x));
     const py = Math.min(this.high[1], Math.max(this.low[1], y));
-    const patch = this.#candidates(px, py).find((one) => this.#holds(one, px, py))?.patch;
+    const patch = this._candidates(px, py).find((one) => this._holds(one, px, py))?.patch;
     return patch === undefined ? 0 : inPatch(patch, px, py);
   }
 

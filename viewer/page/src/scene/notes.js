@@ -3,7 +3,7 @@ import { el } from "../common/dom.js";
 
 /** The layer over a picture that says what is not drawn and what colours and arrows mean. */
 export class Notes {
-  #said = new Set();
+  _said = new Set();
 
   /** @param {HTMLElement} container @param {(sentence: string) => void} [listener] */
   constructor(container, listener) {
@@ -25,13 +25,13 @@ export class Notes {
 
   /** Sentences that have been said. @returns {string[]} */
   get said() {
-    return [...this.#said];
+    return [...this._said];
   }
 
   /** Say a sentence once. @param {string} sentence */
   tell(sentence) {
-    if (this.#said.has(sentence)) return;
-    this.#said.add(sentence);
+    if (this._said.has(sentence)) return;
+    this._said.add(sentence);
     this.listener?.(sentence);
     const style = "background:#fffc;border-radius:3px;padding:1px 6px";
     if (this.list.childElementCount < 6) this.list.append(el("div", { style }, sentence));
