@@ -6,11 +6,11 @@ import { add, length, rotate, scale, subtract, transpose } from "./math.js";
 import { tyresOf } from "./tyres.js";
 
 const COLOURS = { gauge: "#1565c0", most: "#c62828", picked: "#111" };
-const BOX = "position:absolute;left:0;top:0;white-space:pre;will-change:transform";
+const BOX = "position:absolute;left:0;top:0;white-space:pre-wrap;will-change:transform";
 const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:50%;border:2px solid #fff;box-sizing:border-box";
-const WORDS = "position:absolute;left:8px;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
-/** Height of the words beside their place, pixels: the largest stress stands above gauges that are near. */
-const ABOVE = { gauge: -9, most: -30, picked: 10 };
+const WORDS = "position:absolute;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
+/** Where the words stand beside their place: the largest stress stands above gauges that are near. */
+const BESIDE = { gauge: "top:-9px", most: "bottom:12px", picked: "top:10px" };
 /** A press that moves the mouse farther than this turns the camera, pixels. */
 const STILL = 4;
 /** Lines of what was clicked at most. */
@@ -99,7 +99,7 @@ export class Marks {
       const key = `${kind} ${name}`;
       kept.add(key);
       if (!this._made.has(key)) {
-        const words = el("span", { style: `${WORDS};top:${ABOVE[kind]}px` });
+        const words = el("span", { style: `${WORDS};${BESIDE[kind]}` });
         const box = el("div", { style: BOX }, el("span", { style: `${DOT};background:${COLOURS[kind]}` }), words);
         box.dataset.mark = key.trim();
         this.layer.append(box);
@@ -107,6 +107,8 @@ export class Marks {
       }
       const { box, words } = this._made.get(key);
       write(words, text);
+      const outward = pixel[0] < this.view.size[0] / 2 ? ["auto", "8px"] : ["8px", "auto"]; // so that few lie over each other
+      [words.style.left, words.style.right] = outward;
       box.style.transform = `translate(${pixel[0].toFixed(1)}px, ${pixel[1].toFixed(1)}px)`;
     }
     for (const [key, { box }] of this._made) {

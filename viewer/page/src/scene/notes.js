@@ -11,7 +11,7 @@ export class Notes {
     const column = "display:flex;flex-direction:column;gap:6px;align-items:flex-end";
     this.list = el("div", { style: column });
     this.legend = el("div", { style: column });
-    const corner = el("div", { style: `position:absolute;right:8px;bottom:8px;max-width:50%;${column}` }, this.list, this.legend);
+    const corner = el("div", { style: `position:absolute;top:var(--a3-top,auto);right:var(--a3-right,8px);bottom:var(--a3-bottom,8px);max-width:var(--a3-wide,50%);${column}` }, this.list, this.legend);
     const style = "position:absolute;inset:0;pointer-events:none;overflow:hidden;font:12px/1.35 system-ui,sans-serif;color:#1d2328";
     this.layer = el("div.a3-notes", { style }, corner);
     container.append(this.layer);
