@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 Vectors = NDArray[np.float64]
 
@@ -121,16 +122,16 @@ def continuous(quaternion: Vectors) -> Vectors:
 
 def rotated(quaternion: Vectors, vector: Vectors) -> Vectors:
     """R(q) v, of shape (n, 3); one vector or n of them."""
-    w, u = quaternion[:, :1], quaternion[:, 1:]
-    v = np.broadcast_to(vector, u.shape)
-    across = 2.0 * np.cross(u, v)
-    return np.asarray(v + w * across + np.cross(u, across))
+    return _rotation(quaternion).apply(vector)
 
 
 def product(a: Vectors, b: Vectors) -> Vectors:
     """Quaternion of R(a) R(b)."""
-    w = a[:, :1] * b[:, :1] - np.einsum("ni,ni->n", a[:, 1:], b[:, 1:])[:, None]
-    return np.hstack([w, a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])])
+    return (_rotation(a) * _rotation(b)).as_quat(scalar_first=True)
+
+
+def _rotation(quaternion: Vectors) -> Rotation:
+    return Rotation.from_quat(quaternion, scalar_first=True)
 
 
 def conjugate(quaternion: Vectors) -> Vectors:
@@ -141,7 +142,7 @@ def conjugate(quaternion: Vectors) -> Vectors:
 def about_axis(axis: Sequence[float], angle: Vectors) -> Vectors:
     """Quaternions of right-handed turns about an axis by n angles, rad."""
     unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
-    return np.column_stack([np.cos(angle / 2.0), np.sin(angle / 2.0)[:, None] * unit])
+    return Rotation.from_rotvec(angle[:, None] * unit).as_quat(scalar_first=True)
 
 
 def axes_of_points(a: Vectors, b: Vectors, c: Vectors) -> Vectors:
@@ -158,20 +159,10 @@ def axes_of_points(a: Vectors, b: Vectors, c: Vectors) -> Vectors:
 
 def from_matrices(rotation: Vectors) -> Vectors:
     """Unit quaternions of n rotation matrices; nan where a matrix is."""
-    r = rotation
-    trace = np.einsum("nii->n", r)
-    diagonal = np.stack([trace, r[:, 0, 0], r[:, 1, 1], r[:, 2, 2]], axis=1)
-    columns = np.empty((4, len(r), 4))  # each is the quaternion times four times one of its parts
-    s = [r[:, 2, 1] - r[:, 1, 2], r[:, 0, 2] - r[:, 2, 0], r[:, 1, 0] - r[:, 0, 1]]
-    columns[0] = np.stack([1.0 + trace, *s], axis=1)
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        columns[1 + i][:, 0] = s[i]
-        columns[1 + i][:, 1 + i] = 1.0 + 2.0 * r[:, i, i] - trace
-        columns[1 + i][:, 1 + j] = r[:, j, i] + r[:, i, j]
-        columns[1 + i][:, 1 + k] = r[:, k, i] + r[:, i, k]
-    chosen = columns[np.argmax(np.nan_to_num(diagonal), axis=1), np.arange(len(r))]
-    return np.asarray(chosen / np.linalg.norm(chosen, axis=1)[:, None])
+    found = np.full((len(rotation), 4), np.nan)
+    good = np.isfinite(rotation).all(axis=(1, 2))
+    found[good] = Rotation.from_matrix(rotation[good]).as_quat(scalar_first=True)
+    return found
 
 
 def shortest_turns(a: Vectors, b: Vectors) -> Vectors:

@@ -64,11 +64,11 @@ export class Cloud {
     const step = Math.min(time - this.time, 0.1);
     this.time = time;
     if (!(step > 0)) return; // paused: it hangs in the air
-    this.#fly(step, up);
-    contacts.forEach((contact, k) => this.#throw(contact, k, step, up));
+    this._fly(step, up);
+    contacts.forEach((contact, k) => this._throw(contact, k, step, up));
   }
 
-  #fly(step, up) {
+  _fly(step, up) {
     const { rows } = this;
     for (let k = 0; k < this.most; k++) {
       const i = 7 * k;
@@ -87,7 +87,7 @@ export class Cloud {
     }
   }
 
-  #throw(contact, wheel, step, up) {
+  _throw(contact, wheel, step, up) {
     const before = this.last[wheel];
     this.last[wheel] = contact.touching ? [...contact.at] : null;
     const { kind, rate } = thrown(contact);

@@ -43,14 +43,14 @@ export class Tracks {
    */
   update(contacts, time, epoch) {
     if (epoch !== this.epoch || time < this.time) {
-      this.#back(time);
+      this._back(time);
       this.epoch = epoch;
     }
     this.time = time;
-    contacts.forEach((contact, k) => this.#mark(this.rings[k], contact, time));
+    contacts.forEach((contact, k) => this._mark(this.rings[k], contact, time));
   }
 
-  #mark(ring, contact, time) {
+  _mark(ring, contact, time) {
     const dark = contact.touching && MARKED.has(contact.surface) ? darkness(contact.use, contact.load) : 0;
     const last = ring.count > 0 ? this.row(ring, ring.count - 1) : null;
     const far = last === null ? Infinity : apart(contact.at, last.slice(0, 3));
@@ -59,11 +59,11 @@ export class Tracks {
       if (dark === 0) return;
     }
     if (ring.open && far < STEP) return;
-    this.#push(ring, contact, ring.open ? dark : 0, time);
+    this._push(ring, contact, ring.open ? dark : 0, time);
     ring.open = true;
   }
 
-  #push(ring, { at, side, width }, dark, time) {
+  _push(ring, { at, side, width }, dark, time) {
     const slot = (ring.first + ring.count) % this.most;
     if (ring.count === this.most) ring.first = (ring.first + 1) % this.most;
     else ring.count++;
@@ -77,7 +77,7 @@ export class Tracks {
     return ring.rows.subarray(8 * slot, 8 * slot + 8);
   }
 
-  #back(time) {
+  _back(time) {
     for (const ring of this.rings) {
       ring.open = false;
       while (ring.count > 0 && this.row(ring, ring.count - 1)[7] > time) {

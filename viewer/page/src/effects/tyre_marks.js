@@ -21,8 +21,8 @@ diffuseColor.a *= vMark.x * rib * (1.0 - smoothstep(0.78, 1.0, abs(vMark.y)));`;
 
 /** Dark strips where tyres slide on what is hard; bounded: the oldest go. */
 export class TyreMarks {
-  #base = null;
-  #drawn = "";
+  _base = null;
+  _drawn = "";
 
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
@@ -64,15 +64,15 @@ export class TyreMarks {
     this.take(lookup, time, epoch);
     if (this.mesh === undefined) return;
     const { origin } = this.view;
-    if (this.#base === null || Math.hypot(...subtract(origin, this.#base)) > FAR) {
-      this.#base = [...origin];
-      this.#drawn = "";
+    if (this._base === null || Math.hypot(...subtract(origin, this._base)) > FAR) {
+      this._base = [...origin];
+      this._drawn = "";
     }
     const every = this.view.look.quality === "draft" ? FEW : 1;
     const wanted = `${this.tracks.changes} ${every}`;
-    if (this.#drawn !== wanted) this.#draw(every);
-    this.#drawn = wanted;
-    this.mesh.position.fromArray(subtract(this.#base, origin));
+    if (this._drawn !== wanted) this._draw(every);
+    this._drawn = wanted;
+    this.mesh.position.fromArray(subtract(this._base, origin));
   }
 
   /** Take the numbers of an instant that is not drawn. @param {(name: string) => number | undefined} lookup @param {number} time @param {number} epoch */
@@ -81,7 +81,7 @@ export class TyreMarks {
   }
 
   /** @param {number} every one of so many sections, beside the ends of marks */
-  #draw(every) {
+  _draw(every) {
     const { position, mark } = /** @type {Record<string, THREE.BufferAttribute>} */ (this.geometry.attributes);
     const index = this.geometry.index;
     const { up } = this.view;
@@ -92,7 +92,7 @@ export class TyreMarks {
         if (inside && this.tracks.row(ring, k + 1)[6] > 0) continue;
         const [x, y, z, a, b, c, dark] = this.tracks.row(ring, k);
         for (const way of [-1, 1]) {
-          const at = subtract([x + way * a, y + way * b, z + way * c], this.#base);
+          const at = subtract([x + way * a, y + way * b, z + way * c], this._base);
           position.array.set(at.map((value, axis) => value + LIFT * up[axis]), 3 * point);
           mark.array.set([dark, way], 2 * point);
           point++;

@@ -38,11 +38,11 @@ export class Wheels {
       return { tyre, slips, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
     });
     /** One sentence where a scene has no tyres, or their slips are not among the columns, else empty. */
-    this.problem = this.list.length > 0 ? this.#lacking(options.columns) : "The scene has no tyres, so there are no marks and no dust.";
+    this.problem = this.list.length > 0 ? this._lacking(options.columns) : "The scene has no tyres, so there are no marks and no dust.";
   }
 
   /** @param {string[] | undefined} columns */
-  #lacking(columns) {
+  _lacking(columns) {
     const lacks = this.list.flatMap(({ slips: { slip, slip_angle: angle } }) => [slip, angle].filter((name) => !columns?.includes(name)));
     if (columns === undefined || lacks.length === 0) return "";
     return `There are no numbers ${[...new Set(lacks)].join(", ")}, so these tyres leave no marks, throw up no dust and are not heard.`;
@@ -51,10 +51,10 @@ export class Wheels {
   /** @param {(name: string) => number | undefined} lookup @returns {Contact[]} one a wheel */
   contacts(lookup) {
     const speed = Math.abs(lookup(this.list[0]?.slips.speed) ?? 0);
-    return this.list.map((wheel) => this.#contact(wheel, lookup, speed));
+    return this.list.map((wheel) => this._contact(wheel, lookup, speed));
   }
 
-  #contact({ tyre, slips, width, radius }, lookup, speed) {
+  _contact({ tyre, slips, width, radius }, lookup, speed) {
     const [at, normal, axis] = [tyre.contact, tyre.normal, tyre.axis].map((names) => names.map((name) => lookup(name)));
     const load = lookup(tyre.forces[2]);
     const [slip, angle] = [lookup(slips.slip), lookup(slips.slip_angle)];

@@ -178,12 +178,12 @@ class Ground {
     const [aside, along] = [width, height].map((side) => (moves ? Math.round(AHEAD * side) : 0));
     const shift = () => [this.scale * (this.x - view.x), this.scale * (view.y - this.y)].map(Math.round);
     const fits = this.scale === view.scale && this.canvas.width === width + 2 * aside && this.canvas.height === height + 2 * along;
-    if (!fits || shift().some((pixels, k) => Math.abs(pixels) > [aside, along][k])) this.#make(view, width + 2 * aside, height + 2 * along);
+    if (!fits || shift().some((pixels, k) => Math.abs(pixels) > [aside, along][k])) this._make(view, width + 2 * aside, height + 2 * along);
     const [right, down] = shift();
     context.drawImage(this.canvas, right - aside, down - along);
   }
 
-  #make({ scale, x, y, pixel }, w, h) {
+  _make({ scale, x, y, pixel }, w, h) {
     this.scale = scale;
     this.x = x;
     this.y = y;

@@ -26,9 +26,10 @@ export class HeightField {
     this.low = [0, 1].map((k) => this.patches.reduce((low, { origin }) => Math.min(low, origin[k]), Infinity));
     this.high = [0, 1].map((k) => ends.reduce((high, end) => Math.max(high, end[k]), -Infinity));
     this.cell = [0, 1].map((k) => (this.high[k] - this.low[k]) / TABLE || 1);
+    this.near = 1e-6 * Math.max(...this.cell);
     this.table = new Map();
     this.patches.forEach((patch, index) => {
-      const [from, to] = [this.#cellOf(patch.origin), this.#cellOf(ends[index])];
+      const [from, to] = [this._cellOf(patch.origin), this._cellOf(ends[index])];
       for (let a = from[0]; a <= to[0]; a++) {
         for (let b = from[1]; b <= to[1]; b++) {
           const key = a * TABLE + b;
@@ -39,27 +40,25 @@ export class HeightField {
     });
   }
 
-  #cellOf(at) {
-    return at.map((value, k) => this.#line(k, value));
+  _cellOf(at) {
+    return at.map((value, k) => this._line(k, value));
   }
 
   /** The patches that a place lies in: two or more on an edge. @returns {Patch[]} */
   patchesAt(x, y) {
-    return this.#candidates(x, y).filter((one) => this.#holds(one, x, y)).map(({ patch }) => patch);
+    return this._candidates(x, y).filter((one) => this._holds(one, x, y)).map(({ patch }) => patch);
   }
 
-  #candidates(x, y) {
-    const [a, b] = [this.#line(0, x), this.#line(1, y)];
-    return this.table.get(a * TABLE + b) ?? [];
+  _candidates(x, y) {
+    return this.table.get(this._line(0, x) * TABLE + this._line(1, y)) ?? [];
   }
 
-  #line(k, value) {
+  _line(k, value) {
     return Math.min(TABLE - 1, Math.max(0, Math.floor((value - this.low[k]) / this.cell[k])));
   }
 
-  #holds({ patch, end }, x, y) {
-    const { origin } = patch;
-    const near = 1e-6 * Math.max(this.cell[0], this.cell[1]);
+  _holds({ patch: { origin }, end }, x, y) {
+    const { near } = this;
     return x >= origin[0] - near && x <= end[0] + near && y >= origin[1] - near && y <= end[1] + near;
   }
 
@@ -67,8 +66,8 @@ export class HeightField {
   at(x, y) {
     const px = Math.min(this.high[0], Math.max(this.low[0], x));
     const py = Math.min(this.high[1], Math.max(this.low[1], y));
-    const patch = this.#candidates(px, py).find((one) => this.#holds(one, px, py))?.patch;
-    return patch === undefined ? 0 : inPatch(patch, px, py);
+    for (const one of this._candidates(px, py)) if (this._holds(one, px, py)) return inPatch(one.patch, px, py);
+    return 0;
   }
 
   /** Metres between the points of the patch at a place. @param {number} x @param {number} y */
@@ -79,12 +78,9 @@ export class HeightField {
 
   /** Slopes by central differences, where no patch is finer than the other than by that. @returns {number[]} two numbers */
   slope(x, y) {
-    const patches = this.patchesAt(x, y);
-    return [0, 1].map((k) => {
-      const step = patches.reduce((most, { spacing }) => Math.max(most, spacing[k]), 1e-3);
-      const [high, low] = [1, -1].map((way) => (k === 0 ? this.at(x + way * step, y) : this.at(x, y + way * step)));
-      return (high - low) / (2 * step);
-    });
+    let [dx, dy] = [1e-3, 1e-3];
+    for (const { spacing } of this.patchesAt(x, y)) [dx, dy] = [Math.max(dx, spacing[0]), Math.max(dy, spacing[1])];
+    return [(this.at(x + dx, y) - this.at(x - dx, y)) / (2 * dx), (this.at(x, y + dy) - this.at(x, y - dy)) / (2 * dy)];
   }
 }
 
@@ -92,11 +88,15 @@ export class HeightField {
 function inPatch({ origin, spacing, shape, heights }, x, y) {
   const u = Math.min(shape[0] - 1, Math.max(0, (x - origin[0]) / spacing[0]));
   const v = Math.min(shape[1] - 1, Math.max(0, (y - origin[1]) / spacing[1]));
-  const [i, j] = [Math.min(Math.floor(u), shape[0] - 2), Math.min(Math.floor(v), shape[1] - 2)];
-  const [a, b] = [u - i, v - j];
+  const i = Math.min(Math.floor(u), shape[0] - 2);
+  const j = Math.min(Math.floor(v), shape[1] - 2);
+  const a = u - i;
+  const b = v - j;
   const k = i * shape[1] + j;
-  const [h00, h01, h10, h11] = [heights[k], heights[k + 1], heights[k + shape[1]], heights[k + shape[1] + 1]];
-  if (a + b <= 1) return h00 + a * (h10 - h00) + b * (h01 - h00);
+  const h01 = heights[k + 1];
+  const h10 = heights[k + shape[1]];
+  if (a + b <= 1) return heights[k] + a * (h10 - heights[k]) + b * (h01 - heights[k]);
+  const h11 = heights[k + shape[1] + 1];
   return h11 + (1 - a) * (h01 - h11) + (1 - b) * (h10 - h11);
 }
 

@@ -10,8 +10,8 @@ const OPEN = [0.3, 0.18];
 
 /** Makes and keeps the materials of a scene. */
 export class Materials {
-  #made = new Map();
-  #covers = new Map();
+  _made = new Map();
+  _covers = new Map();
 
   /** @param {{ghost?: boolean, tint?: string, opacity?: number}} [options] a ghost is see-through and of one tint */
   constructor(options = {}) {
@@ -32,7 +32,7 @@ export class Materials {
   named(kind, color, opacity, double = false, cover = false) {
     const { ghost, tint } = this.options;
     const key = [kind, color, opacity, double, cover].join("|");
-    if (!this.#made.has(key)) {
+    if (!this._made.has(key)) {
       const { opacity: own = 1, clearcoat, clearcoatRoughness, ...look } = KINDS[kind];
       if (ghost) Object.assign(look, { color: tint ?? looks.ghosts[0], metalness: 0, roughness: 0.9 });
       else if (color) look.color = color;
@@ -40,21 +40,21 @@ export class Materials {
       const coated = clearcoat && !ghost;
       const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
       material.side = double ? THREE.DoubleSide : THREE.FrontSide;
-      if (cover) this.#covers.set(material, { solid, open: kind === "glass" ? OPEN[1] : OPEN[0] });
+      if (cover) this._covers.set(material, { solid, open: kind === "glass" ? OPEN[1] : OPEN[0] });
       if (solid < 1) Object.assign(material, { transparent: true, opacity: solid, depthWrite: false });
-      this.#made.set(key, material);
+      this._made.set(key, material);
     }
-    return this.#made.get(key);
+    return this._made.get(key);
   }
 
   /** Whether there is anything that hides what is within. */
   get covered() {
-    return this.#covers.size > 0;
+    return this._covers.size > 0;
   }
 
   /** Covers are solid, or seen through. @param {boolean} closed */
   cover(closed) {
-    for (const [material, { solid, open }] of this.#covers) {
+    for (const [material, { solid, open }] of this._covers) {
       const opacity = closed ? solid : open;
       Object.assign(material, { opacity, transparent: opacity < 1, depthWrite: opacity === 1, needsUpdate: true });
       delete material.userData.opacity;
@@ -63,7 +63,7 @@ export class Materials {
 
   /** Through glass one sees better from within. @param {boolean} within */
   clear(within) {
-    for (const [key, material] of this.#made) {
+    for (const [key, material] of this._made) {
       if (!key.startsWith("glass|")) continue;
       material.userData.opacity ??= material.opacity;
       material.opacity = material.userData.opacity * (within ? 0.3 : 1);
@@ -71,8 +71,8 @@ export class Materials {
   }
 
   dispose() {
-    for (const material of this.#made.values()) material.dispose();
-    this.#made.clear();
-    this.#covers.clear();
+    for (const material of this._made.values()) material.dispose();
+    this._made.clear();
+    this._covers.clear();
   }
 }

@@ -44,18 +44,18 @@ export class Pace {
     this.goes = auto && this.driven;
     /** Pixels of a draft by side, of those that it has at first. */
     this.share = 1;
-    this.level = auto ? this.#first() : quality;
+    this.level = auto ? this._first() : quality;
     this.tried = new Set([this.level]);
-    this.#measure(auto && (this.driven || this.level === "high"));
+    this._measure(auto && (this.driven || this.level === "high"));
     this.changed();
   }
 
-  #first() {
+  _first() {
     if (!this.software) return "high";
     return this.driven ? "draft" : "medium";
   }
 
-  #measure(wanted) {
+  _measure(wanted) {
     this.skipped = wanted ? SKIPPED : Infinity;
     this.every = 1;
     this.times = [];
@@ -80,11 +80,11 @@ export class Pace {
     if (this.times.length < MEASURED) return;
     // What else the machine does for a picture is not in its time.
     const time = median(this.times);
-    this.#decide(this.level === "draft" && median(this.gaps) > SELDOM ? Math.max(time, SLOW + 1) : time);
+    this._decide(this.level === "draft" && median(this.gaps) > SELDOM ? Math.max(time, SLOW + 1) : time);
   }
 
   /** @param {number} time of a picture, ms */
-  #decide(time) {
+  _decide(time) {
     this.times = [];
     this.gaps = [];
     this.every = EVERY;
@@ -96,7 +96,7 @@ export class Pace {
     else if (level === this.level || (finer && this.tried.has(level))) return;
     else {
       this.level = level;
-      this.#measure(this.goes || !this.tried.has(level));
+      this._measure(this.goes || !this.tried.has(level));
       this.tried.add(level);
     }
     this.changed();

@@ -120,11 +120,12 @@ export function pieceParts(piece, field) {
 function addPoints({ patch, i0, j0, n, m }, field, base, positions, normals, start) {
   const { origin, spacing, shape, heights } = patch;
   const [dx, dy] = spacing;
-  const put = (k, i, j, z, slope) => {
+  const put = (k, i, j) => {
+    const slope = slopeAt(i0 + i, j0 + j);
     const size = Math.sqrt(slope[0] ** 2 + slope[1] ** 2 + 1);
     positions[3 * k] = origin[0] + (i0 + i) * dx - base[0];
     positions[3 * k + 1] = origin[1] + (j0 + j) * dy - base[1];
-    positions[3 * k + 2] = z;
+    positions[3 * k + 2] = height(i0 + i, j0 + j);
     normals[3 * k] = -slope[0] / size;
     normals[3 * k + 1] = -slope[1] / size;
     normals[3 * k + 2] = 1 / size;
@@ -136,10 +137,14 @@ function addPoints({ patch, i0, j0, n, m }, field, base, positions, normals, sta
     return [(height(a + 1, b) - height(a - 1, b)) / (2 * dx), (height(a, b + 1) - height(a, b - 1)) / (2 * dy)];
   };
   for (let i = 0; i < n; i++) {
-    for (let j = 0; j < m; j++) put(start + i * m + j, i, j, height(i0 + i, j0 + j), slopeAt(i0 + i, j0 + j));
+    for (let j = 0; j < m; j++) put(start + i * m + j, i, j);
   }
   let k = start + n * m;
-  for (const [i, j] of border(n, m)) put(k++, i, j, height(i0 + i, j0 + j) - SKIRT, slopeAt(i0 + i, j0 + j));
+  for (const [i, j] of border(n, m)) {
+    const above = 3 * (start + i * m + j);
+    for (const numbers of [positions, normals]) numbers.copyWithin(3 * k, above, above + 3);
+    positions[3 * k++ + 2] -= SKIRT;
+  }
   return k;
 }
 

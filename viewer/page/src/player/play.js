@@ -25,7 +25,7 @@ export const play = (container, given) => new Player(container, given);
 /** A page of recordings; `seek`, `camera`, `view` and `ready` are for programs. */
 export class Player extends Shell {
   /** Pictures. @type {SceneView[]} */
-  #drawn = [];
+  _drawn = [];
 
   /** @param {HTMLElement} container @param {{runs: import("../sources/decode.js").Run[], options?: Data}} given */
   constructor(container, { runs, options = {} }) {
@@ -36,24 +36,24 @@ export class Player extends Shell {
     this.quality = this.options.quality ?? "auto";
     this.source = new Recordings(runs, this.options);
     this.plotted = this.options.plots ?? [];
-    this.source.changed = (moved) => this.#moved(moved);
+    this.source.changed = (moved) => this._moved(moved);
     this.clock = this.source.clock;
     const { arrows, arrow_scale: arrowScale, stress, deformation, path, closed } = this.options;
     const asked = { arrows, arrowScale, stress, deformation, path, closed };
     for (const [name, value] of Object.entries(asked)) if (value !== undefined) this.look[name] = value;
-    this.#draw();
-    if (this.options.controls !== false) this.#controls();
-    else if (this.ghosts.length > 0) this.viewBox.append(el("div.a3-head", {}, ...this.#names())); // pictures and films
+    this._draw();
+    if (this.options.controls !== false) this._controls();
+    else if (this.ghosts.length > 0) this.viewBox.append(el("div.a3-head", {}, ...this._names())); // pictures and films
     document.addEventListener("visibilitychange", () => (this.last = undefined), { signal: this.listeners.signal }); // nobody has seen what passed
-    this.#show();
+    this._show();
     if (this.options.play) this.play();
-    this.loopId = requestAnimationFrame((now) => this.#frame(now));
+    this.loopId = requestAnimationFrame((now) => this._frame(now));
     /** Resolved when the first picture stands. */
-    this.ready = this.#painted();
+    this.ready = this._painted();
   }
 
   get views() {
-    return this.#drawn;
+    return this._drawn;
   }
 
   /** One sentence where nothing can be drawn, else empty. */
@@ -94,20 +94,20 @@ export class Player extends Shell {
   }
 
   /** Another instant, or another pace. @param {boolean} moved */
-  #moved(moved) {
-    if (moved) this.#show();
+  _moved(moved) {
+    if (moved) this._show();
     this.bar?.show(this.source);
     this.settings?.refresh({ loop: this.clock.loop });
     this.changed();
-    return this.#painted();
+    return this._painted();
   }
 
   /** @param {Data} look as that of the shell */
   setLook(look) {
     super.setLook(look);
     if (look.deformation !== undefined && this.solid >= 0) {
-      this.#scan(); // the floor lies below what is drawn
-      this.#show();
+      this._scan(); // the floor lies below what is drawn
+      this._show();
     }
     if (look.path !== undefined) for (const { traces } of this.drawnRuns) traces.show(look.path);
   }
@@ -120,7 +120,7 @@ export class Player extends Shell {
       ghost.drawn = undefined;
     }
     this.drawnRuns.find(({ sampler }) => sampler === ghost.sampler)?.traces.show(on && this.look.path);
-    this.#show();
+    this._show();
   }
 
   /** Something that the address of the page tells has changed. */
@@ -145,7 +145,7 @@ export class Player extends Shell {
   }
 
   /** The picture: of the first run that has a scene; the other runs are ghosts. */
-  #draw() {
+  _draw() {
     this.solid = this.runs.findIndex(({ scene }) => scene !== null && scene !== undefined);
     /** @type {{traces: Traces, sampler: import("../sources/sampler.js").Sampler}[]} */
     this.drawnRuns = [];
@@ -153,16 +153,16 @@ export class Player extends Shell {
     const { scene } = this.runs[this.solid];
     const picture = el("div.a3-view");
     this.viewBox.append(picture);
-    this.#drawn.push(new SceneView(picture, scene, { words: this.options.controls !== false, keep: this.options.controls === false, driven: this.options.controls !== false, quality: this.options.quality }));
+    this._drawn.push(new SceneView(picture, scene, { words: this.options.controls !== false, keep: this.options.controls === false, driven: this.options.controls !== false, quality: this.options.quality }));
     this.view.set(this.look);
-    this.#scan();
-    this.#trace(this.solid);
+    this._scan();
+    this._trace(this.solid);
     for (const [k, run] of this.runs.entries()) {
       if (k === this.solid || !run.scene || this.problem) continue;
       const options = { name: run.name, tint: looks.ghosts[this.ghosts.length % looks.ghosts.length] };
       this.ghosts.push({ name: run.name, run, options, sampler: this.source.samplers[k], drawn: this.view.addGhost(run.scene, options) });
-      this.#lower(run, this.ghosts.at(-1).drawn);
-      this.#trace(k, { tint: options.tint, under: this.ghosts.length });
+      this._lower(run, this.ghosts.at(-1).drawn);
+      this._trace(k, { tint: options.tint, under: this.ghosts.length });
     }
     const { way } = this.drawnRuns[0].traces;
     if (way.length > 0) this.view.stand(way);
@@ -174,31 +174,31 @@ export class Player extends Shell {
   }
 
   /** What a run leaves on the ground. @param {number} k of the run @param {{tint: string, under: number}} [ghost] */
-  #trace(k, ghost) {
+  _trace(k, ghost) {
     const traces = new Traces(this.view, this.runs[k], ghost);
     traces.show(this.look.path);
     this.drawnRuns.push({ traces, sampler: this.source.samplers[k] });
   }
 
   /** Lets the view look through the run, so that floor, arrows and colours keep one scale. */
-  #scan() {
+  _scan() {
     const { t, columns } = this.runs[this.solid];
     const times = Math.min(t.length, SCANNED);
     const sample = (i) => (times > 1 ? Math.round((i * (t.length - 1)) / (times - 1)) : 0);
     this.view.scan((i) => (name) => columns[name]?.data[sample(i)], times);
-    this.#lower(this.runs[this.solid], this.view);
-    for (const { run, drawn } of this.ghosts) this.#lower(run, drawn);
+    this._lower(this.runs[this.solid], this.view);
+    for (const { run, drawn } of this.ghosts) this._lower(run, drawn);
   }
 
   /** Puts the floor below a run where its columns are largest and smallest. @param {import("../sources/decode.js").Run} run @param {Data} drawn */
-  #lower(run, drawn) {
+  _lower(run, drawn) {
     if (this.problem || (this.runs[this.solid].scene.roads ?? []).length > 0) return; // roads are the floor
     const instants = extremesOf(run);
     drawn?.lower((i) => (name) => run.columns[name]?.data[instants[i]], instants.length);
   }
 
-  #controls() {
-    this.#head();
+  _controls() {
+    this._head();
     const { scene, columns = {} } = this.runs[this.solid] ?? {};
     const names = new Set(Object.keys(columns));
     if (!this.problem && Instruments.of(names)) {
@@ -214,7 +214,7 @@ export class Player extends Shell {
   }
 
   /** Names of the runs with the colours of their paths. */
-  #names() {
+  _names() {
     return this.runs.map((run, k) => {
       const ghost = this.ghosts.find((other) => other.run === run);
       const colour = ghost?.options.tint ?? (k === this.solid && this.ghosts.length > 0 ? looks.paths.body : undefined);
@@ -224,9 +224,9 @@ export class Player extends Shell {
   }
 
   /** Names of the runs and what there is to say of them, over the picture. */
-  #head() {
-    const rows = this.#names();
-    const said = [...this.notes, ...this.#spans(), ...(this.wrong ? [this.wrong] : [])];
+  _head() {
+    const rows = this._names();
+    const said = [...this.notes, ...this._spans(), ...(this.wrong ? [this.wrong] : [])];
     if (this.solid < 0) said.push("There are no poses in this result: signals can be plotted, and nothing is drawn.");
     const more = said.length > SHOWN_NOTES ? [`${said.length - SHOWN_NOTES} more notes stand in the settings.`] : [];
     for (const note of [...said.slice(0, SHOWN_NOTES), ...more]) rows.push(el("div.a3-note", {}, note));
@@ -234,7 +234,7 @@ export class Player extends Shell {
   }
 
   /** Which runs do not last the whole time. */
-  #spans() {
+  _spans() {
     const { begin, end } = this.clock;
     return this.runs
       .filter(({ t }) => t[0] > begin || t[t.length - 1] < end)
@@ -242,7 +242,7 @@ export class Player extends Shell {
   }
 
   /** Everything to the time of the clock. */
-  #show() {
+  _show() {
     const numbers = this.source.sample();
     if (this.solid >= 0) {
       this.view.update(numbers[this.solid]);
@@ -258,22 +258,22 @@ export class Player extends Shell {
     this.dirty = false;
   }
 
-  #frame(now) {
+  _frame(now) {
     const passed = this.last === undefined ? 0 : (now - this.last) / 1000;
     this.last = now;
     if (this.clock.playing) {
       this.clock.tick(passed);
-      this.#show();
+      this._show();
       if (!this.clock.playing) this.remember();
     } else if (this.dirty) {
       this.view?.render();
       this.dirty = false;
     }
-    this.loopId = requestAnimationFrame((next) => this.#frame(next));
+    this.loopId = requestAnimationFrame((next) => this._frame(next));
   }
 
   /** Two pictures later the browser has shown what was drawn. */
-  #painted() {
+  _painted() {
     /** @type {Promise<void>} */
     const shown = new Promise((resolve) => {
       requestAnimationFrame(() => requestAnimationFrame(() => resolve()));

@@ -30,7 +30,7 @@ export class Traces {
     this.lookups = (i) => (name) => run.columns[name]?.data[i];
     this.taken = -1;
     if (!scene.focus || scene.planar || view.problem) return;
-    this.#paths(scene, ghost);
+    this._paths(scene, ghost);
     if (ghost !== undefined || (scene.roads ?? []).length === 0) return;
     const columns = Object.keys(run.columns);
     this.marks = new TyreMarks(view, { columns });
@@ -38,7 +38,7 @@ export class Traces {
   }
 
   /** @param {Data} scene @param {{tint: string, under: number}} [ghost] */
-  #paths(scene, { tint, under } = { tint: "", under: 0 }) {
+  _paths(scene, { tint, under } = { tint: "", under: 0 }) {
     const { view, run } = this;
     const count = Math.min(run.t.length, MOST);
     const instants = Array.from({ length: count }, (_, k) => (count > 1 ? Math.round((k * (run.t.length - 1)) / (count - 1)) : 0));

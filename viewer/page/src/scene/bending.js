@@ -43,14 +43,14 @@ export class Bending {
   update(lookup, factor) {
     const computed = lookup === null || this.computed === undefined ? 1 : lookup(this.computed);
     if (!(Math.abs(computed) > 0)) {
-      this.#displace(this.names.map(() => 0), factor);
+      this._displace(this.names.map(() => 0), factor);
       return computed === 0 ? null : this.computed;
     }
     const amplitudes = this.names.map((name, i) => (lookup === null ? this.start[i] : lookup(name)));
     const absent = this.names.find((_, i) => !Number.isFinite(amplitudes[i]));
     const now = absent === undefined ? amplitudes : amplitudes.map(() => 0);
-    this.#displace(now, factor);
-    if (this.stress !== null && absent === undefined) this.#stress(now);
+    this._displace(now, factor);
+    if (this.stress !== null && absent === undefined) this._stress(now);
     return absent ?? "";
   }
 
@@ -59,7 +59,7 @@ export class Bending {
     return this.nodes.reduce((most, node, i) => Math.max(most, Math.hypot(...node.map((x, k) => this.displaced[i][k] - x))), 0);
   }
 
-  #displace(amplitudes, factor) {
+  _displace(amplitudes, factor) {
     const { modes, count } = this;
     this.nodes.forEach((node, i) => {
       for (let k = 0; k < 3; k++) {
@@ -70,7 +70,7 @@ export class Bending {
     });
   }
 
-  #stress(amplitudes) {
+  _stress(amplitudes) {
     const { rows, fibres, count, constant } = this;
     const at = new Array(fibres).fill(0);
     for (let end = 0; end < this.stress.length; end++) {

@@ -31,7 +31,7 @@ export class Cameras {
     const shapes = scene.shapes ?? [];
     this.wheels = [...new Set(shapes.filter(({ kind }) => kind === "wheel").map(({ frame }) => frame))];
     this.seat = shapes.find(({ kind }) => kind === "steering_wheel");
-    this.names = scene.planar ? ["orbit"] : this.#names(scene.focus);
+    this.names = scene.planar ? ["orbit"] : this._names(scene.focus);
     this.aspect = 1;
     this.trailing = new Trailing(view.options.trail ?? 0);
     this.home();
@@ -50,8 +50,8 @@ export class Cameras {
     this.name = "orbit";
   }
 
-  #names(focus) {
-    const wheels = this.wheels.length <= 6 ? this.wheels.map((frame) => this.#wheelName(frame)) : [];
+  _names(focus) {
+    const wheels = this.wheels.length <= 6 ? this.wheels.map((frame) => this._wheelName(frame)) : [];
     return ["orbit", ...(focus ? ["chase"] : []), ...(focus && this.seat ? ["driver"] : []), ...(focus ? wheels : []), "side", "top"];
   }
 
@@ -81,20 +81,20 @@ export class Cameras {
   }
 
   /** The whole way, from one place; where what is followed would be small, the part of the way on which it is. */
-  #watchAll() {
+  _watchAll() {
     const { up, origin } = this.view;
-    if (this.fixed.aspect !== this.aspect) this.#place();
+    if (this.fixed.aspect !== this.aspect) this._place();
     const { eye, half, whole, centre } = this.fixed;
     const from = subtract(eye, origin);
-    this.#angle((2 * half * 180) / Math.PI);
+    this._angle((2 * half * 180) / Math.PI);
     const [ahead, there] = [unit(subtract(centre, eye)), unit(scale(from, -1))];
     const off = Math.acos(Math.min(1, dot(ahead, there)));
     const share = whole || off < TURNS * half ? 1 : (TURNS * half) / off;
-    this.#look(from, add(from, add(scale(ahead, share), scale(there, 1 - share))), up);
+    this._look(from, add(from, add(scale(ahead, share), scale(there, 1 - share))), up);
   }
 
   /** Where the camera that stands still is, and half its angle of view, for the form of the picture. */
-  #place() {
+  _place() {
     const { centre, reach, from, way, extent } = this.fixed;
     const widest = Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
     const eye = add(centre, scale(from, Math.min(reach / (widest * this.aspect), 0.7 * this.rig.far)));
@@ -104,21 +104,21 @@ export class Cameras {
   }
 
   /** From the nearest place beside the way. */
-  #watchFromTrack(extent) {
+  _watchFromTrack(extent) {
     const { up, origin } = this.view;
     const from = this.posts.map((post) => subtract(post, origin)).reduce((a, b) => (Math.hypot(...a) <= Math.hypot(...b) ? a : b));
     const angle = (2 * Math.atan((0.7 * extent) / Math.hypot(...from)) * 180) / Math.PI;
-    this.#angle(Math.min(60, Math.max(6, angle)));
-    this.#look(from, [0, 0, 0], up);
+    this._angle(Math.min(60, Math.max(6, angle)));
+    this._look(from, [0, 0, 0], up);
   }
 
-  #angle(degrees) {
+  _angle(degrees) {
     if (this.rig.fov === degrees) return;
     this.rig.fov = degrees;
     this.rig.updateProjectionMatrix();
   }
 
-  #wheelName(frame) {
+  _wheelName(frame) {
     return /^wheel/.test(frame) ? frame : `wheel ${frame}`;
   }
 
@@ -129,7 +129,7 @@ export class Cameras {
     if (scene.planar) {
       this.free.position.set(0, 0, extent);
     } else {
-      const [left, forward] = this.#axes();
+      const [left, forward] = this._axes();
       const from = unit(add(add(scale(forward, 0.78), scale(left, -1)), scale(up, 0.34)));
       const half = (VIEW_ANGLES.orbit / 2) * (Math.PI / 180);
       this.free.position.fromArray(scale(from, (0.98 * this.view.radius) / Math.sin(half * Math.min(1, this.aspect))));
@@ -138,7 +138,7 @@ export class Cameras {
   }
 
   /** Left and forward of what is followed, level. */
-  #axes() {
+  _axes() {
     const { up, scene, parts } = this.view;
     const { rotation, shown } = parts.frames.pose(scene.focus || "ground");
     const x = shown ? rotate(rotation, [1, 0, 0]) : [1, 0, 0];
@@ -155,7 +155,7 @@ export class Cameras {
     this.current = name === "orbit" ? this.free : this.rig;
     this.controls.enabled = name === "orbit";
     this.view.parts.materials.clear(name === "driver");
-    this.#angle(VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel);
+    this._angle(VIEW_ANGLES[name] ?? VIEW_ANGLES.wheel);
     this.follow();
   }
 
@@ -164,20 +164,20 @@ export class Cameras {
     if (this.name === "orbit") return;
     const { up } = this.view;
     const extent = Math.min(this.view.extent, 2 * this.view.radius);
-    const [left, forward] = this.#axes();
+    const [left, forward] = this._axes();
     const mix = (ahead, aside, above) => add(add(scale(forward, ahead * extent), scale(left, aside * extent)), scale(up, above * extent));
     const north = Math.abs(up[1]) > 0.7 ? [0, 0, -1] : [0, 1, 0];
-    if (this.name === "chase") this.#chase(forward, extent);
-    else if (this.name === "side") this.#look(mix(0, -2.1, 0.14), [0, 0, 0], up);
-    else if (this.name === "top") this.#look(scale(up, 4 * extent), [0, 0, 0], north);
-    else if (this.name === "driver") this.#drive();
-    else if (this.name === "fixed") this.#watchAll();
-    else if (this.name === "trackside") this.#watchFromTrack(extent);
-    else this.#watchWheel(this.wheels.find((frame) => this.#wheelName(frame) === this.name));
+    if (this.name === "chase") this._chase(forward, extent);
+    else if (this.name === "side") this._look(mix(0, -2.1, 0.14), [0, 0, 0], up);
+    else if (this.name === "top") this._look(scale(up, 4 * extent), [0, 0, 0], north);
+    else if (this.name === "driver") this._drive();
+    else if (this.name === "fixed") this._watchAll();
+    else if (this.name === "trackside") this._watchFromTrack(extent);
+    else this._watchWheel(this.wheels.find((frame) => this._wheelName(frame) === this.name));
   }
 
   /** Behind what is followed, and above the ground there. */
-  #chase(forward, extent) {
+  _chase(forward, extent) {
     const { up, origin, look } = this.view;
     const way = this.trailing.along(forward, up);
     const seen = (ahead, above) => add(scale(way, ahead * extent), scale(up, above * extent));
@@ -186,24 +186,24 @@ export class Cameras {
       const [x, y, z] = add(origin, from);
       from[2] += Math.max(0, look.height(x, y) + CLEARANCE * extent - z);
     }
-    this.#look(from, seen(0.6, 0.06), up);
+    this._look(from, seen(0.6, 0.06), up);
   }
 
-  #look(from, at, up) {
+  _look(from, at, up) {
     this.rig.up.fromArray(up);
     this.rig.position.fromArray(from);
     this.rig.lookAt(new THREE.Vector3().fromArray(at));
   }
 
   /** The driver's eyes, fixed in the body. */
-  #drive() {
+  _drive() {
     const { parts, scene, origin } = this.view;
     const { rotation } = parts.frames.pose(scene.focus);
     const wheel = parts.frames.point(this.seat.frame, this.seat.at ?? [0, 0, 0]);
     if (wheel === null) return;
     const axes = [0, 1, 2].map((k) => [rotation[k], rotation[3 + k], rotation[6 + k]]);
     const eye = add(subtract(wheel, origin), add(scale(axes[0], -EYES[0]), scale(axes[2], EYES[1])));
-    this.#look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
+    this._look(eye, add(eye, add(scale(axes[0], 10), scale(axes[2], -0.9))), axes[2]);
   }
 
   /** Whether the driver's eyes are in another car, which would tint all that they see. @param {import("./parts.js").Parts} ghost */
@@ -215,17 +215,17 @@ export class Cameras {
   }
 
   /** A wheel and its suspension from ahead and outside. */
-  #watchWheel(frame) {
+  _watchWheel(frame) {
     const { parts, up, origin } = this.view;
     const extent = Math.min(this.view.extent, 2 * this.view.radius);
     const place = parts.frames.point(frame, [0, 0, 0]);
     if (place === null) return;
     const at = subtract(place, origin);
-    const [left, forward] = this.#axes();
+    const [left, forward] = this._axes();
     const out = dot(at, left) >= 0 ? 1 : -1;
     const front = dot(at, forward) >= 0 ? 1 : -1;
     const from = add(at, add(add(scale(forward, 0.34 * front * extent), scale(left, 0.2 * out * extent)), scale(up, 0.04 * extent)));
-    this.#look(from, subtract(at, scale(left, 0.03 * out * extent)), up);
+    this._look(from, subtract(at, scale(left, 0.03 * out * extent)), up);
   }
 
   resize(width, height) {

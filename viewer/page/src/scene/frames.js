@@ -20,7 +20,7 @@ export class Frames {
   /** @param {((name: string) => number | undefined) | null} lookup a column's number now; null: as drawn */
   update(lookup) {
     for (const name of this.order) {
-      this.poses.set(name, this.#poseOf(name, this.scene.frames[name], lookup));
+      this.poses.set(name, this._poseOf(name, this.scene.frames[name], lookup));
     }
   }
 
@@ -35,13 +35,13 @@ export class Frames {
     return shown ? add(position, rotate(rotation, local)) : null;
   }
 
-  #poseOf(name, frame, lookup) {
-    if (frame.way !== undefined) return this.#slid(name, frame, lookup);
-    if (frame.parent !== undefined) return this.#turned(name, frame, lookup);
+  _poseOf(name, frame, lookup) {
+    if (frame.way !== undefined) return this._slid(name, frame, lookup);
+    if (frame.parent !== undefined) return this._turned(name, frame, lookup);
     const columned = frame.position !== undefined;
     if (columned && lookup !== null) return fromColumns(name, frame, lookup);
     if (frame.points !== undefined && frame.on !== undefined) {
-      const found = this.#onPoints(name, frame);
+      const found = this._onPoints(name, frame);
       if (found.shown || lookup !== null || frame.start === undefined) return found;
     }
     if (frame.start !== undefined) {
@@ -51,7 +51,7 @@ export class Frames {
     return lookup === null && columned ? hidden(`the frame '${name}' has no pose as drawn`) : pose([0, 0, 0], IDENTITY);
   }
 
-  #turned(name, frame, lookup) {
+  _turned(name, frame, lookup) {
     const parent = this.pose(frame.parent);
     if (!parent.shown) return parent;
     let angle = typeof frame.angle === "number" ? frame.angle : (frame.start ?? 0);
@@ -64,7 +64,7 @@ export class Frames {
     return pose(add(parent.position, rotate(parent.rotation, frame.at ?? [0, 0, 0])), product(parent.rotation, turn));
   }
 
-  #slid(name, frame, lookup) {
+  _slid(name, frame, lookup) {
     const parent = this.pose(frame.parent);
     if (!parent.shown) return parent;
     const way = lookup === null ? (frame.start ?? 0) : lookup(frame.way);
@@ -73,7 +73,7 @@ export class Frames {
     return pose(add(parent.position, rotate(parent.rotation, at)), parent.rotation);
   }
 
-  #onPoints(name, frame) {
+  _onPoints(name, frame) {
     const earth = [];
     for (const [other, local] of frame.on) {
       const point = this.point(other, local);

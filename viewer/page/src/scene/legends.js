@@ -7,7 +7,7 @@ const BOX = "background:#ffffffd9;border-radius:4px;padding:5px 8px;font-variant
 
 /** The legends of a view; each is made again only when it changes. */
 export class Legends {
-  #states = new Map();
+  _states = new Map();
 
   /** @param {HTMLElement} layer takes the boxes */
   constructor(layer) {
@@ -22,10 +22,10 @@ export class Legends {
    */
   put(name, state, draw) {
     const key = JSON.stringify(state);
-    if (this.#states.get(name)?.key === key) return;
-    this.#states.get(name)?.box?.remove();
+    if (this._states.get(name)?.key === key) return;
+    this._states.get(name)?.box?.remove();
     const box = state === null ? null : el("div", { style: BOX }, ...draw(state));
-    this.#states.set(name, { key, box });
+    this._states.set(name, { key, box });
     if (box === null) return;
     box.dataset.legend = name;
     this.layer.append(box);

@@ -6,11 +6,11 @@ import { add, length, rotate, scale, subtract, transpose } from "./math.js";
 import { tyresOf } from "./tyres.js";
 
 const COLOURS = { gauge: "#1565c0", most: "#c62828", picked: "#111" };
-const BOX = "position:absolute;left:0;top:0;white-space:pre;will-change:transform";
+const BOX = "position:absolute;left:0;top:0;white-space:pre-wrap;will-change:transform";
 const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:50%;border:2px solid #fff;box-sizing:border-box";
-const WORDS = "position:absolute;left:8px;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
-/** Height of the words beside their place, pixels: the largest stress stands above gauges that are near. */
-const ABOVE = { gauge: -9, most: -30, picked: 10 };
+const WORDS = "position:absolute;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
+/** Where the words stand beside their place: the largest stress stands above gauges that are near. */
+const BESIDE = { gauge: "top:-9px", most: "bottom:12px", picked: "top:10px" };
 /** A press that moves the mouse farther than this turns the camera, pixels. */
 const STILL = 4;
 /** Lines of what was clicked at most. */
@@ -49,9 +49,9 @@ export function tubeWords(bending, beam, ends) {
 
 /** The words over a picture. */
 export class Marks {
-  #made = new Map();
+  _made = new Map();
   /** @type {{frame: string, at: number[], lines: () => string[]} | null} */
-  #picked = null;
+  _picked = null;
 
   /** @param {HTMLElement} layer takes the words @param {Data} view the SceneView @param {HTMLElement} canvas is clicked at */
   constructor(layer, view, canvas) {
@@ -69,9 +69,9 @@ export class Marks {
 
   /** Choose what is drawn at a pixel of the picture; nothing takes the words away. @returns {string[]} its name and numbers */
   pick(x, y) {
-    this.#picked = this.#hit(x, y);
+    this._picked = this._hit(x, y);
     this.place();
-    return this.#picked?.lines() ?? [];
+    return this._picked?.lines() ?? [];
   }
 
   /** Everything to its place. */
@@ -84,40 +84,42 @@ export class Marks {
         for (const mark of stressMarks(body, lookup)) wanted.push({ ...mark, at: frames.point(body.frame, mark.at) });
       }
     }
-    if (this.#picked) {
-      const { frame, at, lines } = this.#picked;
+    if (this._picked) {
+      const { frame, at, lines } = this._picked;
       wanted.push({ kind: "picked", name: "", at: frames.point(frame, at), text: lines().join("\n") });
     }
-    this.#write(wanted);
+    this._write(wanted);
   }
 
-  #write(wanted) {
+  _write(wanted) {
     const kept = new Set();
     for (const { kind, name, at, text } of wanted) {
       const pixel = at && this.view.project(at);
       if (!pixel) continue;
       const key = `${kind} ${name}`;
       kept.add(key);
-      if (!this.#made.has(key)) {
-        const words = el("span", { style: `${WORDS};top:${ABOVE[kind]}px` });
+      if (!this._made.has(key)) {
+        const words = el("span", { style: `${WORDS};${BESIDE[kind]}` });
         const box = el("div", { style: BOX }, el("span", { style: `${DOT};background:${COLOURS[kind]}` }), words);
         box.dataset.mark = key.trim();
         this.layer.append(box);
-        this.#made.set(key, { box, words });
+        this._made.set(key, { box, words });
       }
-      const { box, words } = this.#made.get(key);
+      const { box, words } = this._made.get(key);
       write(words, text);
+      const outward = pixel[0] < this.view.size[0] / 2 ? ["auto", "8px"] : ["8px", "auto"]; // so that few lie over each other
+      [words.style.left, words.style.right] = outward;
       box.style.transform = `translate(${pixel[0].toFixed(1)}px, ${pixel[1].toFixed(1)}px)`;
     }
-    for (const [key, { box }] of this.#made) {
+    for (const [key, { box }] of this._made) {
       if (kept.has(key)) continue;
       box.remove();
-      this.#made.delete(key);
+      this._made.delete(key);
     }
   }
 
   /** The nearest solid thing under a pixel. */
-  #hit(x, y) {
+  _hit(x, y) {
     const { view } = this;
     const { parts, size, cameras } = view;
     const ray = new THREE.Raycaster();
@@ -132,11 +134,11 @@ export class Marks {
     const at = rotate(transpose(parts.frames.pose(frame).rotation), subtract(point, parts.frames.pose(frame).position));
     const body = parts.flexible.find(({ object }) => object === hit.object);
     const beam = body?.tubes.beamAt(hit.faceIndex) ?? -1;
-    return { frame, at, lines: beam >= 0 ? () => tubeWords(body.bending, beam, [0, 1]) : this.#bodyWords(frame) };
+    return { frame, at, lines: beam >= 0 ? () => tubeWords(body.bending, beam, [0, 1]) : this._bodyWords(frame) };
   }
 
   /** A body with its place and the forces on it, at each time. @param {string} frame @returns {() => string[]} */
-  #bodyWords(frame) {
+  _bodyWords(frame) {
     const { scene, parts } = this.view;
     const tyres = new Map(tyresOf(scene).map(({ tyre, shape }) => [tyre, shape?.frame]));
     const acts = ({ at, between = [], tyre }) => at?.[0] === frame || between.some(([name]) => name === frame) || tyres.get(tyre) === frame;

@@ -3,7 +3,7 @@ import { el } from "../common/dom.js";
 
 /** The layer over a picture that says what is not drawn and what colours and arrows mean. */
 export class Notes {
-  #said = new Set();
+  _said = new Set();
 
   /** @param {HTMLElement} container @param {(sentence: string) => void} [listener] */
   constructor(container, listener) {
@@ -11,7 +11,7 @@ export class Notes {
     const column = "display:flex;flex-direction:column;gap:6px;align-items:flex-end";
     this.list = el("div", { style: column });
     this.legend = el("div", { style: column });
-    const corner = el("div", { style: `position:absolute;right:8px;bottom:8px;max-width:50%;${column}` }, this.list, this.legend);
+    const corner = el("div", { style: `position:absolute;top:var(--a3-top,auto);right:var(--a3-right,8px);bottom:var(--a3-bottom,8px);max-width:var(--a3-wide,50%);${column}` }, this.list, this.legend);
     const style = "position:absolute;inset:0;pointer-events:none;overflow:hidden;font:12px/1.35 system-ui,sans-serif;color:#1d2328";
     this.layer = el("div.a3-notes", { style }, corner);
     container.append(this.layer);
@@ -25,13 +25,13 @@ export class Notes {
 
   /** Sentences that have been said. @returns {string[]} */
   get said() {
-    return [...this.#said];
+    return [...this._said];
   }
 
   /** Say a sentence once. @param {string} sentence */
   tell(sentence) {
-    if (this.#said.has(sentence)) return;
-    this.#said.add(sentence);
+    if (this._said.has(sentence)) return;
+    this._said.add(sentence);
     this.listener?.(sentence);
     const style = "background:#fffc;border-radius:3px;padding:1px 6px";
     if (this.list.childElementCount < 6) this.list.append(el("div", { style }, sentence));

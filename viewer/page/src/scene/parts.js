@@ -40,13 +40,13 @@ export class Parts {
     this.moved = 0;
     this.owned = [];
     const context = { materials: this.materials, frames: this.frames, scene };
-    for (const shape of scene.shapes ?? []) this.#add(shape, context, options);
-    this.flexible = (scene.flexible ?? []).map((body) => this.#bend(body, options));
+    for (const shape of scene.shapes ?? []) this._add(shape, context, options);
+    this.flexible = (scene.flexible ?? []).map((body) => this._bend(body, options));
     /** Times that displacements are drawn, whether stress is coloured, and the stress at the end of the colours. */
     this.bending = { factor: 1, coloured: true, most: Math.max(0, ...this.flexible.map(({ bending }) => bending.range)) };
     /** Whether what is beyond that end stays beyond it. */
     this.bending.fixed = this.bending.most > 0;
-    this.tyres = options.ghost ? [] : this.#tyres();
+    this.tyres = options.ghost ? [] : this._tyres();
     this.arrows = new Arrows(options.ghost ? [] : (scene.arrows ?? []));
     this.group.add(this.arrows.group);
     for (const [, carrier] of this.moving) join(carrier);
@@ -54,7 +54,7 @@ export class Parts {
     for (const { name, why } of scene.missing ?? []) this.tell(`'${name}' is not drawn: ${why.replace(/\.$/, "")}.`);
   }
 
-  #add(shape, context, { ghost = false }) {
+  _add(shape, context, { ghost = false }) {
     const made = makeShape(shape, context);
     if (made === null) {
       this.tell(`A shape of the kind '${shape.kind}' is not known to this page and is not drawn.`);
@@ -65,26 +65,26 @@ export class Parts {
     made.shape = shape;
     made.object.name = shape.name ?? shape.body ?? "";
     const among = shape.name === WITHIN ? this.inner : this.carriers;
-    (made.frame !== undefined ? this.#carrier(made.frame, among) : this.group).add(made.object);
+    (made.frame !== undefined ? this._carrier(made.frame, among) : this.group).add(made.object);
     this.shapes.push(made);
   }
 
   /** Wheels whose tyre is known and whose shape can be flattened. */
-  #tyres() {
+  _tyres() {
     return tyresOf(this.scene)
       .map(({ tyre, shape }) => ({ tyre, frame: shape?.frame, stand: this.shapes.find((made) => made.shape === shape)?.stand }))
       .filter(({ stand }) => stand !== undefined);
   }
 
-  #bend(body, { ghost = false }) {
+  _bend(body, { ghost = false }) {
     const flexible = new Flexible(body, this.materials, THINNEST * (this.scene.extent ?? 0));
     if (!ghost) shaded(flexible.object);
-    this.#carrier(body.frame).add(flexible.object);
+    this._carrier(body.frame).add(flexible.object);
     return flexible;
   }
 
   /** The group that moves with a frame. */
-  #carrier(name, among = this.carriers) {
+  _carrier(name, among = this.carriers) {
     if (!among.has(name)) {
       const carrier = new THREE.Group();
       among.set(name, carrier);
@@ -128,15 +128,15 @@ export class Parts {
   }
 
   /** Whether frames and what bends on them stand where those of the same names do that are drawn already. @param {string[]} names */
-  #covers(names) {
+  _covers(names) {
     const { over, size = 0 } = this.options;
     if (over === undefined || over.closed !== this.closed) return false;
     const near = (name) => apart(this.frames.pose(name), over.frames.pose(name), size / 4) < SAME * size;
-    return names.every((name) => near(name) && bentApart(this.#nodes(name), over.#nodes(name)) < SAME * size);
+    return names.every((name) => near(name) && bentApart(this._nodes(name), over._nodes(name)) < SAME * size);
   }
 
   /** Nodes of the flexible bodies on a frame as they are drawn, along its axes. @param {string} name */
-  #nodes(name) {
+  _nodes(name) {
     return this.flexible.filter(({ frame }) => frame === name).flatMap(({ bending }) => bending.displaced);
   }
 
@@ -146,13 +146,13 @@ export class Parts {
     this.arrows.place(origin);
     for (const [name, carrier] of this.moving) {
       const { position, rotation, shown } = this.frames.pose(name);
-      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier) && !this.#covers([name]);
+      carrier.visible = shown && !(this.closed && this.inner.get(name) === carrier) && !this._covers([name]);
       carrier.position.set(...subtract(position, origin));
       turn(carrier, rotation);
     }
     for (const made of this.shapes) {
       if (made.update === undefined) continue;
-      made.object.visible = made.frames.every((name) => this.frames.pose(name).shown) && !this.#covers(made.frames);
+      made.object.visible = made.frames.every((name) => this.frames.pose(name).shown) && !this._covers(made.frames);
       if (made.object.visible) made.update(([frame, local]) => subtract(this.frames.point(frame, local), origin));
     }
   }

@@ -42,10 +42,10 @@ export class SceneView {
     this.parts = new Parts(scene, { tell });
     this.ghosts = [];
     this.up = unit(scene.up ?? [0, 0, 1]) ?? [0, 0, 1];
-    this.#measure();
+    this._measure();
     const wrong = wrongName(scene);
     if (wrong) {
-      this.#fail(wrong);
+      this._fail(wrong);
       return;
     }
     const { renderer, software, problem } = makeRenderer(container, {
@@ -54,7 +54,7 @@ export class SceneView {
       keep: options.keep,
     });
     if (problem !== undefined) {
-      this.#fail(problem);
+      this._fail(problem);
       return;
     }
     this.renderer = renderer;
@@ -64,9 +64,9 @@ export class SceneView {
     this.cameras = new Cameras(this, renderer.domElement);
     this.marks = new Marks(this.notes.layer, this, renderer.domElement);
     this.look = makeLook(this);
-    this.#watchContext();
+    this._watchContext();
     this.camera(options.camera ?? this.cameras.names[0]);
-    this.observer = new ResizeObserver(() => this.#resized());
+    this.observer = new ResizeObserver(() => this._resized());
     this.observer.observe(container);
     this.resize();
     this.update(null);
@@ -91,7 +91,7 @@ export class SceneView {
     this.parts.update(lookup);
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     if (shown) this.origin = add(position, rotate(rotation, this.centre));
-    this.#explain();
+    this._explain();
   }
 
   /**
@@ -108,12 +108,12 @@ export class SceneView {
       parts.update(lookupAt(i));
       if ((this.scene.focus && grounded) || (i % every !== 0 && i !== count - 1)) continue;
       const [low, high] = parts.bounds() ?? this.bounds;
-      floor = Math.min(floor, this.#lowest([low, high]));
+      floor = Math.min(floor, this._lowest([low, high]));
       if (this.scene.focus) continue;
       box = box ? [low.map((a, k) => Math.min(a, box[0][k])), high.map((a, k) => Math.max(a, box[1][k]))] : [low, high];
     }
     if (box !== null) {
-      this.#fit(box);
+      this._fit(box);
       this.resize();
     }
     this.floor = Math.min(this.floor, floor);
@@ -128,7 +128,7 @@ export class SceneView {
     for (let i = 0; i < count; i++) {
       parts.update(lookupAt(i));
       const box = parts.bounds();
-      if (box !== null) this.floor = Math.min(this.floor, this.#lowest(box));
+      if (box !== null) this.floor = Math.min(this.floor, this._lowest(box));
     }
   }
 
@@ -184,7 +184,7 @@ export class SceneView {
   }
 
   /** The legends of what is drawn now. */
-  #explain() {
+  _explain() {
     const { bending, flexible, arrows } = this.parts;
     const stressed = flexible.filter(({ bending: { stress } }) => stress !== null);
     const { unit: name, limit, limitName } = stressed[0]?.bending ?? {};
@@ -279,7 +279,7 @@ export class SceneView {
   }
 
   /** A canvas that changes its size is empty until something is drawn. */
-  #resized() {
+  _resized() {
     const { clientWidth, clientHeight } = this.container;
     if (clientWidth === this.size[0] && clientHeight === this.size[1]) return;
     this.resize();
@@ -301,17 +301,17 @@ export class SceneView {
   }
 
   /** Size of what is drawn and its middle, in the axes of the focus. */
-  #measure() {
+  _measure() {
     const bounds = this.parts.bounds() ?? [[-0.5, -0.5, -0.5], [0.5, 0.5, 0.5]]; // prettier-ignore
     const size = Math.hypot(...subtract(bounds[1], bounds[0])) || 1;
     this.extent = this.scene.extent > 0 ? this.scene.extent : size;
     this.parts.arrows.extent = this.extent;
-    this.#fit(bounds);
+    this._fit(bounds);
     this.reach = [this.extent, this.extent];
   }
 
   /** Centre and floor of a box of the earth. @param {number[][]} bounds low and high corner */
-  #fit(bounds) {
+  _fit(bounds) {
     this.bounds = bounds;
     const [low, high] = bounds;
     const sides = subtract(high, low);
@@ -319,24 +319,24 @@ export class SceneView {
     this.radius = Math.max(Math.hypot(...sides), 0.5 * this.extent) / 2;
     const { position, rotation, shown } = this.parts.frames.pose(this.scene.focus || "ground");
     const centre = middle(low, high);
-    this.floor = this.#lowest(bounds);
+    this.floor = this._lowest(bounds);
     this.centre = shown ? rotate(transpose(rotation), subtract(centre, position)) : centre;
     this.origin = centre;
   }
 
   /** Height of a floor that lies just below a box. @param {number[][]} box low and high corner */
-  #lowest(box) {
+  _lowest(box) {
     return Math.min(...box.map((corner) => dot(corner, this.up))) - 0.002 * this.extent;
   }
 
-  #fail(sentence) {
+  _fail(sentence) {
     this.problem = sentence;
     this.size = [1, 1];
     this.notes.instead(sentence);
     globalThis.ALi3ViewerProblem = sentence;
   }
 
-  #watchContext() {
+  _watchContext() {
     const canvas = this.renderer.domElement;
     canvas.addEventListener("webglcontextlost", (event) => {
       if (this.gone) return;

@@ -12,8 +12,8 @@ const LONGEST = 0.35;
 
 /** The arrows of a scene. */
 export class Arrows {
-  #stand = new THREE.Object3D();
-  #colour = new THREE.Color();
+  _stand = new THREE.Object3D();
+  _colour = new THREE.Color();
 
   /** @param {Data[]} list a scene's `arrows` */
   constructor(list) {
@@ -62,9 +62,9 @@ export class Arrows {
 
   /** @param {number[]} origin of the picture */
   place(origin) {
-    if (this.now.length > (this.meshes[0]?.instanceMatrix.count ?? 0)) this.#make(this.now.length);
+    if (this.now.length > (this.meshes[0]?.instanceMatrix.count ?? 0)) this._make(this.now.length);
     for (const mesh of this.meshes) mesh.count = 0;
-    for (const force of this.now) this.#put(force, origin);
+    for (const force of this.now) this._put(force, origin);
     for (const mesh of this.meshes) {
       mesh.visible = mesh.count > 0;
       for (const buffer of [mesh.instanceMatrix, mesh.instanceColor]) if (buffer) buffer.needsUpdate = true;
@@ -72,7 +72,7 @@ export class Arrows {
   }
 
   /** @param {number} most arrows */
-  #make(most) {
+  _make(most) {
     for (const mesh of this.meshes) mesh.dispose();
     this.group.clear();
     this.meshes = this.shapes.map((shape, k) => {
@@ -84,7 +84,7 @@ export class Arrows {
     });
   }
 
-  #put(force, origin) {
+  _put(force, origin) {
     const direction = unit(force.vector);
     const { metres, value } = this.scaleOf(force.unit);
     const size = direction ? (length(force.vector) * metres) / value : 0;
@@ -95,10 +95,10 @@ export class Arrows {
     const ends = [[from, neck, thick], [neck, add(from, scale(direction, size)), 2.3 * thick]]; // prettier-ignore
     this.meshes.forEach((mesh, k) => {
       const [begin, end, radius] = ends[k];
-      stretch(this.#stand, begin, end, radius);
-      this.#stand.updateMatrix();
-      mesh.setMatrixAt(mesh.count, this.#stand.matrix);
-      mesh.setColorAt(mesh.count, this.#colour.set(this.colourOf(force.unit)));
+      stretch(this._stand, begin, end, radius);
+      this._stand.updateMatrix();
+      mesh.setMatrixAt(mesh.count, this._stand.matrix);
+      mesh.setColorAt(mesh.count, this._colour.set(this.colourOf(force.unit)));
       mesh.count++;
     });
   }

@@ -25,10 +25,10 @@ export class FrameTubes {
     }
     const thick = [...radii.flatMap((radius) => Array(2 * AROUND).fill(radius)), ...this.thick.flatMap((radius) => Array(this.ball.length / 3).fill(radius))];
     this.geometry.setAttribute("thick", new THREE.BufferAttribute(Float32Array.from(thick), 1));
-    this.geometry.setIndex(this.#triangles(nodes.length, 1, ball.index));
+    this.geometry.setIndex(this._triangles(nodes.length, 1, ball.index));
     const kept = corners.index.map((k) => nearest(corners.points.slice(3 * k, 3 * k + 3), ball.points));
     /** Triangles of a draft, over the same points. */
-    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this.#triangles(nodes.length, COARSE, kept)), 1);
+    this.coarse = new THREE.BufferAttribute(Uint32Array.from(this._triangles(nodes.length, COARSE, kept)), 1);
   }
 
   /** The beam that a triangle is of; -1: of a ball at a node. @param {number} face */
@@ -38,7 +38,7 @@ export class FrameTubes {
     return beam < this.beams.length ? beam : -1;
   }
 
-  #triangles(nodes, every, ball) {
+  _triangles(nodes, every, ball) {
     const list = [];
     this.beams.forEach((_, b) => {
       for (let j = 0; j < AROUND; j += every) {

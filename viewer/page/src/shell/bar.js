@@ -25,7 +25,7 @@ export class Bar {
     for (const end of ["pointerup", "pointercancel", "change"]) this.slide.addEventListener(end, () => (this.held = false));
     this.slide.addEventListener("pointerdown", () => (this.held = true));
     this.slide.addEventListener("input", () => {
-      write(this.clock, this.#seconds(Number(this.slide.value)));
+      write(this.clock, this._seconds(Number(this.slide.value)));
       acts.seek(Number(this.slide.value));
     });
     this.slide.addEventListener("change", () => acts.seek(Number(this.slide.value), true));
@@ -38,14 +38,14 @@ export class Bar {
       place.value = ""; // so that the same one can be chosen again
     });
     const size = select("step size", "communication step", steps, (value) => acts.stepSize(Number(value)), step);
-    const some = (list) => list.filter(([act]) => act in acts && (act !== "full screen" || document.fullscreenEnabled)).map(([act, words]) => this.#button(act, words, acts[act])); // prettier-ignore
+    const some = (list) => list.filter(([act]) => act in acts && (act !== "full screen" || document.fullscreenEnabled)).map(([act, words]) => this._button(act, words, acts[act])); // prettier-ignore
     const group = (...parts) => el("div.a3-group", {}, ...parts);
     const choices = [[size, steps], [place, places], [this.cameras, cameras]].filter(([, list]) => list.length > 1).map(([choice]) => choice); // prettier-ignore
     this.element = el("div.a3-bar", { data: "bar" }, group(...some(BEFORE)), this.slide, this.clock, group(this.rate), group(...choices, ...some(BEHIND)));
     this.speed(1);
   }
 
-  #button(act, words, work) {
+  _button(act, words, work) {
     const title = WORDS[act] ?? hint(act);
     const made = button(act, words ?? "", () => work({}), title);
     made.setAttribute("aria-label", words ? `${words}: ${title}` : title);
@@ -54,7 +54,7 @@ export class Bar {
     return made;
   }
 
-  #seconds(time) {
+  _seconds(time) {
     return `${time.toFixed(this.digits)} s`;
   }
 
@@ -91,7 +91,7 @@ export class Bar {
     if (document.activeElement !== this.slide || running) {
       Object.assign(this.slide, { min: String(begin), max: String(Math.max(end, begin + 1e-6)), value: String(time) });
     }
-    write(this.clock, grows ? this.#seconds(time) : `${time.toFixed(this.digits)} / ${this.#seconds(end)}`);
+    write(this.clock, grows ? this._seconds(time) : `${time.toFixed(this.digits)} / ${this._seconds(end)}`);
     if (this.shown === running) return;
     this.shown = running;
     this.buttons.toggle.replaceChildren(icon(running ? "pause" : "play"));

@@ -23,7 +23,7 @@ const shownNumber = (value) => (Number.isFinite(value) ? Number(value.toPrecisio
 
 /** A diagram. */
 export class Chart {
-  #quiet = false;
+  _quiet = false;
 
   /**
    * @param {HTMLElement} parent
@@ -40,19 +40,19 @@ export class Chart {
     this.zoomed = zoomed;
     this.difference = difference;
     this.compare = compare;
-    this.curves = this.#curves();
-    this.legend = this.#legend();
+    this.curves = this._curves();
+    this.legend = this._legend();
     this.box = el("div.a3-chart", {}, this.legend);
     parent.append(this.box);
     this.line = el("div.a3-now", { style: LINE });
     styled(uplotStyle);
-    this.plot = new uPlot(this.#settings(), this.#data(), this.box);
+    this.plot = new uPlot(this._settings(), this._data(), this.box);
     this.plot.over.append(this.line);
-    this.plot.over.addEventListener("click", (event) => this.#clicked(event));
+    this.plot.over.addEventListener("click", (event) => this._clicked(event));
   }
 
   /** What is drawn: {label, colour, dash, t, data}. */
-  #curves() {
+  _curves() {
     const [first, ...others] = this.runs;
     const made = [];
     for (const name of this.names) {
@@ -75,7 +75,7 @@ export class Chart {
     return made;
   }
 
-  #data() {
+  _data() {
     if (this.curves.length === 0) return [this.source.range];
     const tables = new Map();
     for (const { t, data } of this.curves) tables.set(t, [...(tables.get(t) ?? [Array.from(t)]), data]);
@@ -90,7 +90,7 @@ export class Chart {
   }
 
   /** @returns {uPlot.Options} */
-  #settings() {
+  _settings() {
     const [min, max] = this.source.grows ? [] : this.source.range;
     return {
       width: 300,
@@ -105,13 +105,13 @@ export class Chart {
       series: [{}, ...this.curves.map(({ label, colour, dash, t }) => ({ label, stroke: colour, dash, width: 1.5, points: { show: t.length === 1 ? true : undefined } }))],
       cursor: { sync: { key: SYNCED }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       hooks: {
-        draw: [() => this.#putLine()],
-        setScale: [(plot, key) => key === "x" && !this.#quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
+        draw: [() => this._putLine()],
+        setScale: [(plot, key) => key === "x" && !this._quiet && this.zoomed(this, [plot.scales.x.min, plot.scales.x.max])],
       },
     };
   }
 
-  #legend() {
+  _legend() {
     const entries = this.curves.map((curve) => {
       curve.output = el("output");
       const dashed = `repeating-linear-gradient(90deg, ${curve.colour} 0 4px, transparent 4px 6px)`;
@@ -128,7 +128,7 @@ export class Chart {
     return legend;
   }
 
-  #clicked(event) {
+  _clicked(event) {
     const { select, over } = this.plot;
     if (select.width > 0) return; // the end of a drag, which is a zoom
     const left = event.clientX - over.getBoundingClientRect().left;
@@ -139,14 +139,14 @@ export class Chart {
   refresh(runs) {
     this.runs = runs;
     const outputs = this.curves.map(({ output }) => output);
-    this.curves = this.#curves().map((curve, k) => ({ ...curve, output: outputs[k] }));
-    this.#quiet = true;
-    this.plot.setData(this.#data());
-    this.#quiet = false;
+    this.curves = this._curves().map((curve, k) => ({ ...curve, output: outputs[k] }));
+    this._quiet = true;
+    this.plot.setData(this._data());
+    this._quiet = false;
   }
 
   /** The line, where the time that is shown stands now. */
-  #putLine() {
+  _putLine() {
     const left = this.plot?.valToPos(this.source.time, "x");
     this.line.style.display = left >= 0 && left <= this.plot.over.clientWidth ? "" : "none";
     this.line.style.transform = `translateX(${left}px)`;
@@ -155,7 +155,7 @@ export class Chart {
   /** The line and the values at the time that is shown. */
   now() {
     const { time } = this.source;
-    this.#putLine();
+    this._putLine();
     for (const { t, data, output } of this.curves) {
       const inside = time >= t[0] && time <= t[t.length - 1];
       const [k, share] = place(t, time);
@@ -166,9 +166,9 @@ export class Chart {
 
   /** @param {[number, number]} range of time to show */
   zoom([min, max]) {
-    this.#quiet = true;
+    this._quiet = true;
     this.plot.batch(() => this.plot.setScale("x", { min, max }));
-    this.#quiet = false;
+    this._quiet = false;
   }
 
   /** @param {number} width @param {number} height pixels, with the legend */

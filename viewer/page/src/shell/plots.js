@@ -30,10 +30,10 @@ export class Plots {
       type: "search",
       placeholder: `search ${this.names.length} signals`,
       "aria-label": "search signals",
-      oninput: () => this.#list(),
-      onfocus: () => this.#open(true),
+      oninput: () => this._list(),
+      onfocus: () => this._open(true),
     });
-    this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this.#open(this.list.hidden) }, "list");
+    this.opener = el("button", { title: "show or hide the list of signals", onclick: () => this._open(this.list.hidden) }, "list");
     this.list = el("div.a3-list", { hidden: true });
     this.area = el("div.a3-plots");
     const span = select("span", "how much time the diagrams show", SPANS, (value) => {
@@ -43,15 +43,15 @@ export class Plots {
     parent.append(el("div.a3-find", {}, this.search, ...(source.grows ? [span] : []), this.opener), this.list, this.area);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.area);
-    this.#open(this.chosen.length === 0);
-    this.#draw();
+    this._open(this.chosen.length === 0);
+    this._draw();
   }
 
   /** @param {string[]} names that are plotted from now on */
   choose(names) {
     this.chosen = names.filter((name) => this.names.includes(name));
-    this.#list();
-    this.#draw();
+    this._list();
+    this._draw();
   }
 
   /** Show the time, and what a run that goes on has been. @param {boolean} [all] at once */
@@ -80,19 +80,19 @@ export class Plots {
     for (const chart of this.charts) chart.dispose();
   }
 
-  #open(open) {
+  _open(open) {
     this.opener.setAttribute("aria-pressed", String(open));
     if (open !== this.list.hidden) return;
     this.list.hidden = !open;
-    this.#list();
+    this._list();
   }
 
-  #list() {
+  _list() {
     if (this.list.hidden) return;
     const names = found(this.names, this.search.value);
     /** @type {HTMLElement[]} */
     const rows = names.slice(0, LISTED).map((name) => {
-      const box = el("input", { type: "checkbox", onchange: () => this.#toggle(name) });
+      const box = el("input", { type: "checkbox", onchange: () => this._toggle(name) });
       box.checked = this.chosen.includes(name);
       const unit = el("span.a3-unit", {}, this.source.columns.get(name));
       return el("label", {}, box, el("span.a3-signal", {}, name), unit);
@@ -102,20 +102,20 @@ export class Plots {
     this.list.replaceChildren(...rows);
   }
 
-  #toggle(name) {
+  _toggle(name) {
     this.chosen = this.chosen.includes(name) ? this.chosen.filter((other) => other !== name) : [...this.chosen, name];
-    this.#draw();
+    this._draw();
     this.shell.changed();
   }
 
-  #draw() {
+  _draw() {
     for (const chart of this.charts) chart.dispose();
     this.area.replaceChildren();
     const zoomed = (from, range) => this.charts.forEach((chart) => chart !== from && chart.zoom(range));
     const compare = (unit, on) => {
       if (on) this.differences.add(unit);
       else this.differences.delete(unit);
-      this.#draw();
+      this._draw();
     };
     const runs = this.source.plotted(this.chosen, this.span);
     this.charts = [...byUnit(this.chosen, this.source.columns)].map(

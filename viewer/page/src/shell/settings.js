@@ -13,7 +13,7 @@ export class Settings {
     this.shown = {};
     this.panel = el("div.a3-panel", { hidden: true });
     parent.append(this.panel);
-    this.#fill();
+    this._fill();
   }
 
   toggle(open = this.panel.hidden) {
@@ -26,7 +26,7 @@ export class Settings {
     for (const [key, value] of Object.entries(look)) this.shown[key]?.(value);
   }
 
-  #fill() {
+  _fill() {
     const { player } = this;
     const { look } = player;
     const rows = [];

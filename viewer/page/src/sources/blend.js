@@ -52,15 +52,13 @@ function normal(q) {
 /** Numbers between instants of the same columns. */
 export class Blend {
   /** Names of the four parts of a quaternion and which one, by the name of the part. @type {Map<string, [string[], number]>} */
-  #parts = new Map();
-  #angles;
-  #whole;
+  _parts = new Map();
 
   /** @param {Partial<Turns>} [turns] @param {Set<string>} [whole] names of whole numbers: those of the nearer instant count */
   constructor({ angles = new Set(), quaternions = [] } = {}, whole = new Set()) {
-    this.#angles = angles;
-    this.#whole = whole;
-    for (const names of quaternions) names.forEach((name, part) => this.#parts.set(name, [names, part]));
+    this._angles = angles;
+    this._whole = whole;
+    for (const names of quaternions) names.forEach((name, part) => this._parts.set(name, [names, part]));
   }
 
   /**
@@ -74,9 +72,9 @@ export class Blend {
     return (name) => {
       const [from, to] = [a(name), b(name)];
       if (from === undefined || to === undefined) return undefined;
-      if (this.#whole.has(name)) return s < 0.5 ? from : to;
-      if (this.#angles.has(name)) return from + s * turned(from, to);
-      const four = this.#parts.get(name);
+      if (this._whole.has(name)) return s < 0.5 ? from : to;
+      if (this._angles.has(name)) return from + s * turned(from, to);
+      const four = this._parts.get(name);
       if (four === undefined) return from + s * (to - from);
       const [names, part] = four;
       if (!turns.has(names)) turns.set(names, slerp(names.map(a), names.map(b), s));

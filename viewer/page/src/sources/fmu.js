@@ -46,7 +46,7 @@ export class Session {
       step: () => this.advance(),
       reset: () => this.again(),
       seek: (time) => this.scrub(time),
-      stepSize: (step) => this.again(this.#fitting(step), step).catch(() => {}), // told by `error`
+      stepSize: (step) => this.again(this._fitting(step), step).catch(() => {}), // told by `error`
       ...(options.places ? { place: (name) => this.again({ ...this.start, ...options.places[name] }) } : {}),
     };
     this._newRecord();
@@ -122,7 +122,7 @@ export class Session {
   }
 
   /** Start values with which an inner step is not longer than another communication step. */
-  #fitting(step) {
+  _fitting(step) {
     const inner = this.variables.get("step_size");
     const { step_size: _, ...start } = this.start;
     return inner && step < Number(inner.start) ? { ...start, step_size: Math.max(step, inner.min ?? 0) } : start;

@@ -35,12 +35,12 @@ export class Recordings {
     const [begin, end] = [Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1]))];
     this.clock = new Clock(begin, end, { speed, loop });
     this.clock.seek(time ?? begin);
-    this.columns = this.#columns();
+    this.columns = this._columns();
     const far = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
-    const toggle = () => this.#pace(() => (this.running ? this.clock.pause() : this.clock.play()));
-    const seek = (t) => this.#seek(t);
+    const toggle = () => this._pace(() => (this.running ? this.clock.pause() : this.clock.play()));
+    const seek = (t) => this._seek(t);
     const pace = paceActs(this, {
-      speed: (wish) => this.#pace(() => (this.clock.speed = Math.min(10, Math.max(0.05, wish)))),
+      speed: (wish) => this._pace(() => (this.clock.speed = Math.min(10, Math.max(0.05, wish)))),
       back: (seconds) => seek(this.time - seconds),
     });
     this.acts = {
@@ -48,14 +48,14 @@ export class Recordings {
       toggle,
       play: toggle,
       seek,
-      step: () => seek(this.#beside(STEPS[0])),
-      before: (event) => seek(this.#beside(-far(event))),
-      after: (event) => seek(this.#beside(far(event))),
-      faster: () => pace.speed(this.#next(1)),
-      slower: () => pace.speed(this.#next(-1)),
+      step: () => seek(this._beside(STEPS[0])),
+      before: (event) => seek(this._beside(-far(event))),
+      after: (event) => seek(this._beside(far(event))),
+      faster: () => pace.speed(this._next(1)),
+      slower: () => pace.speed(this._next(-1)),
       reset: () => seek(begin),
       end: () => seek(end),
-      loop: () => this.#pace(() => (this.clock.loop = !this.clock.loop)),
+      loop: () => this._pace(() => (this.clock.loop = !this.clock.loop)),
     };
   }
 
@@ -76,7 +76,7 @@ export class Recordings {
     return this.clock.speed;
   }
 
-  #columns() {
+  _columns() {
     const unit = (name) => this.runs.find(({ columns }) => name in columns).columns[name].unit;
     return new Map(signalNames(this.runs).map((name) => [name, unit(name)]));
   }
@@ -92,7 +92,7 @@ export class Recordings {
   }
 
   /** A recorded time of the first run, so many from the one that is shown; the run then stands. @param {number} steps */
-  #beside(steps) {
+  _beside(steps) {
     this.clock.pause();
     const { t } = this.runs[0];
     const [k, share] = this.samplers[0].place;
@@ -100,17 +100,17 @@ export class Recordings {
     return t[Math.min(t.length - 1, Math.max(0, from + steps))];
   }
 
-  #seek(t) {
+  _seek(t) {
     this.clock.seek(t);
     return this.changed(true);
   }
 
-  #pace(change) {
+  _pace(change) {
     change();
     this.changed(false);
   }
 
-  #next(way) {
+  _next(way) {
     const k = SPEEDS.findIndex((speed) => speed >= this.speed - 1e-9);
     const at = k < 0 ? SPEEDS.length - 1 : k;
     return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + way))];

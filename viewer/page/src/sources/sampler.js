@@ -28,15 +28,14 @@ export function linear(data, k, share) {
 
 /** A run at an instant; `lookup` gives the numbers that the view asks for. */
 export class Sampler {
-  #blend;
   /** @type {(name: string) => number | undefined} */
-  #now;
+  _now;
 
   /** @param {{scene: Data | null, t: ArrayLike<number>, epoch: ArrayLike<number>, columns: import("./decode.js").Run["columns"]}} run */
   constructor(run) {
     this.run = run;
-    this.#blend = new Blend(turnsOf(run.scene));
-    this.lookup = (name) => this.#now(name);
+    this._blend = new Blend(turnsOf(run.scene));
+    this.lookup = (name) => this._now(name);
     this.at(run.t[0]);
   }
 
@@ -48,7 +47,7 @@ export class Sampler {
     const [k, share] = this.place;
     if (share > 0 && epoch && epoch[k] !== epoch[k + 1]) this.place[1] = 0; // nothing moves from one epoch to the next
     const row = (i) => (name) => columns[name]?.data[i];
-    this.#now = this.#blend.lookup(row(k), row(k + 1), this.place[1]);
+    this._now = this._blend.lookup(row(k), row(k + 1), this.place[1]);
     return this.lookup;
   }
 }

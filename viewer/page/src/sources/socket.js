@@ -13,10 +13,8 @@ export class Socket {
   speeds = [0.1, 0.25, 0.5, 1];
   frames = new Frames();
   /** Frames since the last start, for diagrams: time and values. @type {{time: number, values: ArrayLike<number>}[]} */
-  #past = [];
-  #blend;
-  #fixed;
-  #shown = null;
+  _past = [];
+  _shown = null;
 
   /** @param {Data} hello - First message of the program. @param {import("../simulator/link.js").Link} link */
   constructor({ scene, columns, description, constants = {}, world = {} }, link) {
@@ -26,8 +24,8 @@ export class Socket {
     this.columns = unitsOf(columns, (name) => units.get(name));
     const { quaternions, angles } = turnsOf(scene);
     const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
-    this.#blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
-    this.#fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
+    this._blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
+    this._fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
     this.wants = new Wants(link);
     const command = (name, value) => link.command(name, value);
     const back = (seconds) => command("rewind", seconds);
@@ -52,7 +50,7 @@ export class Socket {
 
   /** Time of the picture, s. */
   get time() {
-    return this.#shown?.time ?? 0;
+    return this._shown?.time ?? 0;
   }
 
   /** What the program can go back to. @returns {[number, number]} */
@@ -64,29 +62,29 @@ export class Socket {
   /** A frame has come. @param {any} frame As `readFrame` has it. @param {number} now - Clock of the page, s. @returns {boolean} Whether it begins an epoch. */
   add(frame, now) {
     const restarted = this.frames.add(frame, now);
-    while (this.#past.length && this.#past.at(-1).time >= frame.time) this.#past.pop();
-    this.#past.push(frame);
-    if (this.#past.length * this.index.size > KEPT) this.#past.splice(0, this.#past.length >> 2);
+    while (this._past.length && this._past.at(-1).time >= frame.time) this._past.pop();
+    this._past.push(frame);
+    if (this._past.length * this.index.size > KEPT) this._past.splice(0, this._past.length >> 2);
     return restarted;
   }
 
   /** Where the picture stands; null before the first frame. @param {number} now - Clock of the page, s. */
   at(now) {
-    this.#shown = this.frames.at(now);
-    return this.#shown;
+    this._shown = this.frames.at(now);
+    return this._shown;
   }
 
   /** Numbers of the car where the picture stands. @returns {import("../shell/shell.js").Lookup[]} */
   sample() {
-    const { before, after, share } = this.#shown;
+    const { before, after, share } = this._shown;
     const numbers = (/** @type {Data} */ { values }) => (name) => values[this.index.get(name)];
-    const row = this.#blend.lookup(numbers(before), numbers(after), share);
-    return [(name) => (this.index.has(name) ? row(name) : Number(this.#fixed.get(name) ?? NaN))];
+    const row = this._blend.lookup(numbers(before), numbers(after), share);
+    return [(name) => (this.index.has(name) ? row(name) : Number(this._fixed.get(name) ?? NaN))];
   }
 
   /** A constant or a parameter at the start. @param {string} name */
   fixed(name) {
-    return this.#fixed.get(name);
+    return this._fixed.get(name);
   }
 
   /** @param {string} source @param {[string, number, number?][]} wants */
@@ -96,8 +94,8 @@ export class Socket {
 
   /** Some columns over the last seconds. @param {string[]} names @param {number} span - s. */
   plotted(names, span) {
-    const first = (this.#past.at(-1)?.time ?? 0) - span;
-    const recent = this.#past.filter(({ time }) => time >= first);
+    const first = (this._past.at(-1)?.time ?? 0) - span;
+    const recent = this._past.filter(({ time }) => time >= first);
     const stride = Math.max(1, Math.ceil(recent.length / MOST_POINTS));
     const thinned = recent.filter((_, k) => k % stride === 0);
     const column = (name) => thinned.map(({ values }) => values[this.index.get(name)]);

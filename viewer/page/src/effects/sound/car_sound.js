@@ -11,7 +11,7 @@ function loudspeakers() {
 
 /** Sound of a car by its columns; starts after a click, as browsers want it. */
 export class CarSound {
-  #muted = false;
+  _muted = false;
 
   /**
    * @param {object} car
@@ -35,7 +35,7 @@ export class CarSound {
       if (this.mixer === null) {
         this.context ??= loudspeakers();
         this.mixer = new Mixer(this.context);
-        this.mixer.volume = this.#muted ? 0 : 1;
+        this.mixer.volume = this._muted ? 0 : 1;
       }
       if (this.context.state === "suspended" && !("startRendering" in this.context)) await this.context.resume();
     } catch {
@@ -56,7 +56,7 @@ export class CarSound {
 
   /** @param {boolean} on */
   mute(on) {
-    this.#muted = on;
+    this._muted = on;
     if (this.mixer !== null) this.mixer.volume = on ? 0 : 1;
   }
 

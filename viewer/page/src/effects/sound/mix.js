@@ -61,7 +61,7 @@ export class CarMix {
     const thumps = before === null || step > LONGEST ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));
     return {
       engine: this.engine ? { pitch: signals.enginePitch(number("engine_speed")), ...signals.engineLevels(number("engine_speed"), throttle) } : null,
-      motor: this.motor ? this.#motor(number, throttle) : null,
+      motor: this.motor ? this._motor(number, throttle) : null,
       squeal: {
         level: Math.min(1, Math.hypot(...squeals, 0)),
         pitch: signals.squealPitch(loudest >= 0 ? wheels[loudest].load : 1500),
@@ -72,7 +72,7 @@ export class CarMix {
     };
   }
 
-  #motor(number, throttle) {
+  _motor(number, throttle) {
     const speed = number("motor_speed");
     const effort = this.torque === null ? throttle : number(this.torque) / this.most;
     return { pitch: signals.motorPitch(speed), level: signals.motorLevel(speed, effort) };

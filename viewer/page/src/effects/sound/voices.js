@@ -70,7 +70,7 @@ const MOST = 6;
 
 /** Short low knocks. */
 export class Thumps {
-  #ends = [];
+  _ends = [];
 
   /** @param {BaseAudioContext} context @param {AudioBuffer} noise @param {AudioNode} to */
   constructor(context, noise, to) {
@@ -81,8 +81,8 @@ export class Thumps {
 
   /** Knocks that sound now. */
   get count() {
-    this.#ends = this.#ends.filter((end) => end > this.context.currentTime);
-    return this.#ends.length;
+    this._ends = this._ends.filter((end) => end > this.context.currentTime);
+    return this._ends.length;
   }
 
   /** @param {number} strength 0 to 1 */
@@ -110,6 +110,6 @@ export class Thumps {
       source.stop(end);
     }
     tone.onended = () => level.disconnect();
-    this.#ends.push(end);
+    this._ends.push(end);
   }
 }
