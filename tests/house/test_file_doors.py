@@ -51,7 +51,6 @@ OWN = {
     "mbs/kernel/read_headers.py",
     "mbs/vehicle/copy_car.py",
     "viewer/bundle.py",
-    "viewer/composed.py",
     "viewer/gltf/materials.py",
     "viewer/html_document.py",
     "viewer/page_build.py",

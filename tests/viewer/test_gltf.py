@@ -21,7 +21,6 @@ from viewer.gltf import write_gltf
 from viewer.gltf.flexible import stress_colors
 from viewer.gltf.materials import linear
 from viewer.gltf.roads import road_solid, surfaces_of
-from viewer.solids import box
 
 T = np.linspace(0.0, 2.0, 201)
 
@@ -341,10 +340,10 @@ def test_frictions_of_a_grid_are_asphalt_wet_and_ice():
 
 
 def test_a_mesh_that_is_inside_out_is_turned(tmp_path):
-    block = box((1.0, 2.0, 3.0))
+    block = trimesh.creation.box((1.0, 2.0, 3.0))
     for sense in (1, -1):
         scene = hand_scenes.crank(T).scene
-        mesh = {"positions": floats(block.positions), "triangles": indices(block.triangles[:, ::sense])}
+        mesh = {"positions": floats(block.vertices), "triangles": indices(block.faces[:, ::sense])}
         shapes = [{"kind": "mesh", "frame": "crank", "mesh": "block"}]
         recording = hand_scenes.crank(T)
         recording.scene = scene | {"meshes": {"block": mesh}, "shapes": shapes}

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import mbs
 from mbs.vehicle import car_names, load
 from tests.quick import quick
-from viewer.gltf.parts import Parts
+from viewer.gltf.solids import parts_of
 from viewer.poses import FramePoses, conjugate, rotated
 
 LEAST = 1e-3
@@ -30,17 +30,16 @@ def facing(scene: dict[str, Any], wheel: dict[str, Any]) -> list[tuple[str, NDAr
         ):
             columns |= {name: np.array([value]) for name, value in zip(names, values, strict=True)}
         columns |= {frame[key]: np.zeros(1) for key in ("angle", "way") if key in frame}
-    parts = Parts(FramePoses(scene, columns, 1), scene)
-    for shape in scene["shapes"]:
-        parts.add(shape)
+    poses = FramePoses(scene, columns, 1)
+    parts = parts_of(scene, poses, 1)
     own, carrier = wheel["frame"], scene["frames"][wheel["frame"]]["parent"]
-    pose = parts.poses.of(own)
+    pose = poses.of(own)
     out = np.sign(pose.position[0, 1])
     found = []
     for frame, _, meshes in parts.fixed:
         if frame not in (own, carrier):
             continue
-        here = parts.poses.of(frame)
+        here = poses.of(frame)
         for solid, look in meshes:
             earth = here.position + rotated(np.repeat(here.quaternion, len(solid.positions), axis=0), solid.positions)
             back = np.repeat(conjugate(pose.quaternion), len(earth), axis=0)

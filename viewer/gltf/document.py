@@ -12,7 +12,7 @@ import pygltflib
 from numpy.typing import NDArray
 
 from viewer.gltf.materials import Look
-from viewer.solids import Solid
+from viewer.gltf.solids import Solid
 
 _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 _COMPONENTS = {"f4": pygltflib.FLOAT, "u4": pygltflib.UNSIGNED_INT, "u2": pygltflib.UNSIGNED_SHORT}

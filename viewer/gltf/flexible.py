@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from ali3.scene.base64_numbers import decoded
 from viewer.gltf.materials import LOOKS, linear
+from viewer.gltf.solids import Solid
 from viewer.poses import Vectors
-from viewer.solids import Solid, along, joined, lathe
 
 MOST_TARGETS = 8
 """Morph targets that every reader animates."""
+_AROUND = 12  # points around an end of a beam
 _SAMPLES = 400  # times at which the largest displacement and stress are looked for
 
 
@@ -23,8 +24,6 @@ _SAMPLES = 400  # times at which the largest displacement and stress are looked 
 class FlexiblePart:
     """A part that bends."""
 
-    solid: Solid
-    """At rest."""
     targets: list[Vectors]
     """Displacements of its positions, m, shape (n, 3)."""
     weights: Vectors
@@ -37,10 +36,13 @@ class FlexiblePart:
     """Of the colours."""
 
 
-def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], deformation: float) -> FlexiblePart:
-    """Tubes of a flexible part of a scene.
+def flexible_part(
+    part: Mapping[str, Any], solid: Solid, columns: Mapping[str, NDArray[Any]], deformation: float
+) -> FlexiblePart:
+    """How a flexible part of a scene bends.
 
-    `columns`: arrays of shape (n,) by name, with its amplitudes; `deformation`: factor of the drawn deformation.
+    `solid`: the part at rest, as of `Parts.flexible`; `columns`: arrays of shape (n,) by name, with its amplitudes;
+    `deformation`: factor of the drawn deformation.
     """
     nodes = np.array(part["nodes"], dtype=float)
     beams = np.array(part["beams"], dtype=np.int64).reshape(-1, 2)
@@ -51,7 +53,9 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
     if part.get("computed"):
         computed = np.nan_to_num(np.asarray(columns[part["computed"]], dtype=float)) != 0.0
         amplitudes = amplitudes * computed[:, None]
-    solid, owner, ends = _tubes(nodes, beams, np.array(part["radii"], dtype=float))
+    rings = np.repeat(beams.ravel(), _AROUND)
+    balls = np.repeat(np.arange(len(nodes)), (len(solid.positions) - len(rings)) // len(nodes))
+    corner = np.concatenate([rings, balls])
     shapes, weights = _few_targets(modes.reshape(-1, count), amplitudes)
     made = shapes.reshape(len(nodes), 3, -1)
     looked = np.unique(np.linspace(0, len(amplitudes) - 1, min(len(amplitudes), _SAMPLES)).astype(np.intp))
@@ -59,16 +63,18 @@ def flexible_part(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]], 
     kept = weights[looked] @ shapes.T
     error = float(np.linalg.norm((full - kept).reshape(len(looked), -1, 3), axis=2).max())
     colors, peak = None, None
-    if part.get("stress") and computed.any():
+    if part.get("stress") and len(beams) and computed.any():
         stress = computed[looked, None, None] * _stress(part["stress"], amplitudes[looked], len(beams))
         time = int(stress.max(axis=(1, 2)).argmax())
         most = float(stress[time].max())
         end = float(part["stress"].get("range") or most or 1.0)
-        colors = stress_colors(stress[time] / end)[owner, ends]
+        at_node = np.zeros(len(nodes))
+        np.maximum.at(at_node, beams, stress[time])
+        share = np.concatenate([np.repeat(stress[time].ravel(), _AROUND), at_node[balls]]) / end
+        colors = stress_colors(share)
         peak = int(looked[time]), most, end
-    corner = beams[owner, ends]
     targets = [deformation * made[corner, :, k] for k in range(made.shape[2])]
-    return FlexiblePart(solid, targets, weights, colors, deformation * error, peak)
+    return FlexiblePart(targets, weights, colors, deformation * error, peak)
 
 
 def stress_colors(share: Vectors) -> Vectors:
@@ -76,21 +82,6 @@ def stress_colors(share: Vectors) -> Vectors:
     table = np.array([linear(stop) for stop in LOOKS["stress"]])
     at = np.linspace(0.0, 1.0, len(table))
     return np.stack([np.interp(share, at, table[:, k]) for k in range(3)], axis=-1)
-
-
-def _tubes(nodes: Vectors, beams: NDArray[np.int64], radii: Vectors) -> tuple[Solid, Any, Any]:
-    """Tubes of all beams, and for each position its beam and which end of it."""
-    made, owner, ends = [], [], []
-    for k, ((i, j), radius) in enumerate(zip(beams, radii, strict=True)):
-        to = nodes[j] - nodes[i]
-        length = float(np.linalg.norm(to))
-        if length <= 0.0:
-            continue
-        tube = lathe([(radius, 0.0), (radius, length)], 12)
-        owner.append(np.full(len(tube.positions), k))
-        ends.append((tube.positions[:, 1] > 0.5 * length).astype(int))
-        made.append(tube.placed(along(to / length), nodes[i]))
-    return joined(made), np.concatenate(owner), np.concatenate(ends)
 
 
 def _few_targets(modes: Vectors, amplitudes: Vectors) -> tuple[Vectors, Vectors]:

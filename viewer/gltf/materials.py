@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,26 +27,6 @@ class Look:
 
 LOOKS: dict[str, Any] = json.loads(Path(__file__).parents[1].joinpath("looks.json").read_text(encoding="utf-8"))
 """Materials by name, and the colours of stress; the page has the same."""
-
-
-def look(shape: Mapping[str, Any], other: str = "plastic", color: str | None = None, double: bool = False) -> Look:
-    """The material of a shape.
-
-    `shape`: may have ``material``, ``color`` and ``opacity``; `other`: kind where it names none; `double`: seen from
-    both sides.
-    """
-    name = shape.get("material") or other
-    kind = LOOKS["materials"][name]
-    opacity = shape.get("opacity")
-    shade = linear(shape.get("color") or color or kind["color"])
-    return Look(
-        name,
-        (*shade, float(kind.get("opacity", 1.0) if opacity is None else opacity)),
-        float(kind["metalness"]),
-        float(kind["roughness"]),
-        (kind["clearcoat"], kind["clearcoatRoughness"]) if "clearcoat" in kind else None,
-        double,
-    )
 
 
 def linear(color: str) -> tuple[float, float, float]:

@@ -111,21 +111,10 @@ def interpolated(track: Track, t: Vectors) -> tuple[Vectors, Vectors, Vectors | 
     return (1.0 - share) * track.position[left] + share * track.position[left + 1], first * a + second * b, scale
 
 
-def between(a: Vectors, b: Vectors) -> tuple[Vectors, Vectors, Vectors]:
-    """Position, quaternion and length of a node whose y axis runs from points a to points b, with the least twist.
-
-    `a`, `b`: in m, shape (n, 3).
-    """
-    to = b - a
-    length = np.linalg.norm(to, axis=1)
-    good = length > 0.0
-    direction = np.tile([0.0, 1.0, 0.0], (len(a), 1))
-    if good.any():
-        source = np.maximum.accumulate(np.where(good, np.arange(len(a)), -1))
-        source[source < 0] = int(good.argmax())
-        direction = to[source] / length[source, None]
-    steps = shortest_turns(np.vstack([[[0.0, 1.0, 0.0]], direction[:-1]]), direction)
-    return a, continuous(_chained(steps)), length
+def least_twist(quaternion: Vectors) -> Vectors:
+    """Turns that take the y axis where others take it, from the first on with the least twist: of what is round."""
+    y = rotated(quaternion, np.array([0.0, 1.0, 0.0]))
+    return continuous(_chained(np.vstack([quaternion[:1], shortest_turns(y[:-1], y[1:])])))
 
 
 def _chained(steps: Vectors) -> Vectors:

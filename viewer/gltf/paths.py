@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from viewer.gltf.materials import LOOKS, Look, linear
 from viewer.gltf.scenery import ribbon
+from viewer.gltf.solids import Solid, joined
 from viewer.poses import FramePoses, Vectors
-from viewer.solids import Solid, joined
 
 PATHS = LOOKS["paths"]
 _MOST = 4000  # points

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ali3.scene.base64_numbers import decoded
 from viewer.gltf.materials import LOOKS
+from viewer.gltf.solids import Solid
 from viewer.poses import Vectors
-from viewer.solids import Solid
 
 _MOST = 200  # points of a grid in each direction
 _KINDS = ("ice", "wet", "asphalt")

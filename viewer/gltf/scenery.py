@@ -11,8 +11,8 @@ import numpy as np
 
 from viewer import solids
 from viewer.gltf.materials import LOOKS, Look
+from viewer.gltf.solids import Solid, joined
 from viewer.poses import Vectors
-from viewer.solids import Solid
 
 THINGS = LOOKS["things"]
 _LIFT = 0.012  # m of paint above the ground
@@ -53,7 +53,7 @@ def scenery_solids(
     turn = axes.T
     return {
         kind: [
-            (solids.joined(parts).placed(turn), Look(kind, (colour[0], colour[1], colour[2], 1.0), 0.0, 0.85))
+            (solids.placed(joined(parts), turn), Look(kind, (colour[0], colour[1], colour[2], 1.0), 0.0, 0.85))
             for colour, parts in colours.items()
         ]
         for kind, colours in found.items()
@@ -79,11 +79,11 @@ def _box(at: Sequence[float] | Vectors, size: Sequence[float], yaw: float) -> So
     """A box that stands at a place."""
     c, s = math.cos(yaw), math.sin(yaw)
     middle = np.add(at, (0.0, 0.0, 0.5 * size[2]))
-    return solids.box(size).placed(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), middle)
+    return solids.placed(solids.box(size), np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), middle)
 
 
 def _turned(at: Sequence[float], profile: Sequence[tuple[float, float]], sections: int) -> Solid:
-    return solids.lathe(profile, sections).placed(_UPRIGHT, at)
+    return solids.placed(solids.lathe(profile, sections), _UPRIGHT, at)
 
 
 def _line(thing: Mapping[str, Any]) -> Parts:
@@ -162,7 +162,7 @@ def _building(thing: Mapping[str, Any]) -> Parts:
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     roof = Solid(flat.reshape(-1, 3), np.repeat(normals, 3, axis=0), np.arange(3 * len(faces)).reshape(-1, 3))
     walls = _box(at - (0.0, 0.0, 0.5), (length, width, eaves + 0.5), yaw)
-    return [(walls, THINGS["wall"]), (roof.placed(turn, at), THINGS["roof"])]
+    return [(walls, THINGS["wall"]), (solids.placed(roof, turn, at), THINGS["roof"])]
 
 
 def _tree(thing: Mapping[str, Any]) -> Parts:

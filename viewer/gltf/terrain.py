@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ali3.scene.base64_numbers import decoded, octets
 from viewer.gltf.materials import LOOKS, Look
+from viewer.gltf.solids import Solid
 from viewer.poses import Vectors
-from viewer.solids import Solid
 
 _MOST = 60_000  # cells
 _FINEST = 0.25  # m

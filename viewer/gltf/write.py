@@ -20,10 +20,10 @@ from ali3.scene.written import WrittenGltf
 from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
-from viewer.gltf.parts import Parts
 from viewer.gltf.paths import path_solids
 from viewer.gltf.roads import road_solid, surfaces_of
 from viewer.gltf.scenery import scenery_solids
+from viewer.gltf.solids import Parts, Solid, parts_of
 from viewer.gltf.terrain import earth_axes, surface_look, terrain_solids
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
 
@@ -88,8 +88,7 @@ def write_gltf(
     target = Path(path)
     scene = _checked(target, recording, rate, speed, deformation)
     check_writable(path)
-    writer = _Writer(scene, recording, rate, float(speed))
-    writer.add_shapes(deformation)
+    writer = _Writer(scene, recording, rate, float(speed), deformation)
     if not (writer.parts.fixed or writer.parts.free or writer.flexible):
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
     if road:
@@ -130,7 +129,9 @@ def _document(name: str) -> Document:
 class _Writer:
     """Collects shapes, then writes nodes, frames before what hangs on them."""
 
-    def __init__(self, scene: dict[str, Any], recording: Recording, rate: float, speed: float) -> None:
+    def __init__(
+        self, scene: dict[str, Any], recording: Recording, rate: float, speed: float, deformation: float
+    ) -> None:
         self.document = _document(recording.name)
         self._scene = scene
         self._rate = rate
@@ -141,8 +142,12 @@ class _Writer:
         self._epoch = recording.epoch[looked]
         self._speed = speed
         self._columns: Mapping[str, NDArray[Any]] = {name: values[looked] for name, values in recording.columns.items()}
-        self.parts = Parts(FramePoses(scene, self._columns, len(self._t)), scene)
-        self.flexible: list[tuple[dict[str, Any], float]] = []
+        self._poses = FramePoses(scene, self._columns, len(self._t))
+        self.parts: Parts = parts_of(scene, self._poses, len(self._t))
+        self.flexible: list[tuple[dict[str, Any], Solid]] = list(
+            zip(scene.get("flexible") or [], self.parts.flexible, strict=True)
+        )
+        self._deformation = deformation
         self.times = len(kept_times(self._t, rate))
         self.error = (0.0, 0.0)
         self._nodes: dict[str, int] = {}
@@ -160,21 +165,16 @@ class _Writer:
 
     def _middle(self) -> Vectors:
         """What is taken from all places in earth axes, m: whole metres, and 0 near the origin."""
-        places = [self.parts.poses.of(name).position for name in self._scene["frames"]] or [np.zeros((1, 3))]
+        places = [self._poses.of(name).position for name in self._scene["frames"]] or [np.zeros((1, 3))]
         every = np.vstack(places)
         if np.abs(every).max() < _NEAR:
             return np.zeros(3)
         return np.asarray(np.round(0.5 * (every.min(axis=0) + every.max(axis=0))))
 
-    def add_shapes(self, deformation: float) -> None:
-        for shape in self._scene["shapes"]:
-            self.parts.add(shape)
-        self.flexible = [(part, deformation) for part in self._scene.get("flexible") or []]
-
     def add_roads(self) -> None:
         """Roads without an end reach as far as the frames go, and twice the size of the scene beyond."""
         frames = self._scene["frames"]
-        places = np.vstack([self.parts.poses.of(name).position for name in frames] or [np.zeros((1, 3))])
+        places = np.vstack([self._poses.of(name).position for name in frames] or [np.zeros((1, 3))])
         low, high = places.min(axis=0), places.max(axis=0)
         half = 0.5 * float(np.linalg.norm(high - low)) + 2.0 * float(self._scene["extent"])
         axes = earth_axes(self._up)
@@ -197,7 +197,7 @@ class _Writer:
         self.parts.fixed += [(GROUND, kind, meshes) for kind, meshes in kinds.items()]
         if left_out:
             self.parts.notes.append(f"{left_out} things of the scenery are left out; the others stand by the way.")
-        paths = path_solids(self._scene, self.parts.poses, self._up, self._epoch)
+        paths = path_solids(self._scene, self._poses, self._up, self._epoch)
         self.parts.fixed += [(GROUND, name, [(band, look)]) for name, band, look in paths]
 
     def _add_terrain(self, road: Mapping[str, Any], axes: Vectors, near: Vectors, far: Vectors) -> None:
@@ -222,8 +222,8 @@ class _Writer:
             if frame == GROUND:
                 meshes = [(replace(solid, positions=solid.positions - self._origin), look) for solid, look in meshes]
             self.document.node(name, self._frame(frame), self.document.mesh(name, meshes))
-        for part, deformation in self.flexible:
-            self._write_flexible(part, deformation)
+        for part, solid in self.flexible:
+            self._write_flexible(part, solid)
 
     def notes(self) -> list[str]:
         """What there is to say of the file."""
@@ -244,7 +244,7 @@ class _Writer:
                 "from where it was recorded; a higher rate or a lower speed keeps more times."
             )
         for name in self._nodes:
-            shown = self.parts.poses.of(name).shown
+            shown = self._poses.of(name).shown
             if not shown.all():
                 made.append(f"{name} stands still while its columns hold no numbers, {int((~shown).sum())} times.")
         if self._scene.get("arrows"):
@@ -256,7 +256,7 @@ class _Writer:
         if name in self._nodes:
             return self._nodes[name]
         frame = self._scene["frames"].get(name, {})
-        pose = self.parts.poses.of(name)
+        pose = self._poses.of(name)
         parent, before = self._root, (0.0, 0.0)
         motion = Motion(pose.position, pose.quaternion)
         if "parent" in frame:
@@ -302,14 +302,11 @@ class _Writer:
             if (np.float32(values) != np.float32(values[0])).any():
                 self.document.channel(node, path, track.times, values)
 
-    def _write_flexible(self, part: dict[str, Any], deformation: float) -> None:
+    def _write_flexible(self, part: dict[str, Any], solid: Solid) -> None:
         name = part.get("name") or f"flexible {part['frame']}"
-        if not part["beams"]:
-            self.parts.notes.append(f"The deformation of {name} is not drawn: it has no beams.")
-            return
-        made = flexible_part(part, self._columns, deformation)
+        made = flexible_part(part, solid, self._columns, self._deformation)
         look = _FRAME if made.colors is None else _WHITE
-        mesh = self.document.mesh(name, [(made.solid, look)], made.targets, made.colors)
+        mesh = self.document.mesh(name, [(solid, look)], made.targets, made.colors)
         node = self.document.node(name, self._frame(part["frame"]), mesh)
         if made.targets:
             kept = kept_times(self._t, self._rate)

@@ -1,4 +1,5 @@
-// Makes the bundle: node build.mjs OUT writes ali3-viewer.js (one script, window.ALi3Viewer) and its licences into OUT.
+// Makes the bundle: node build.mjs OUT writes ali3-viewer.js (one script, window.ALi3Viewer), ali3-solids.mjs (a program
+// of Node) and their licences into OUT.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -11,20 +12,20 @@ if (!out) {
   process.exit(2);
 }
 
-const result = await esbuild.build({
+/** @type {esbuild.BuildOptions & {metafile: true}} */
+const options = {
   absWorkingDir: page,
-  entryPoints: ["src/main.js"],
   bundle: true,
   minify: true,
-  format: "iife",
-  globalName: "ALi3Viewer",
   target: ["es2022"],
   charset: "ascii", // the same in a page of any encoding
   legalComments: "none", // the whole licences follow the code
   loader: { ".css": "text" },
   metafile: true,
   write: false,
-});
+};
+const result = await esbuild.build({ ...options, entryPoints: ["src/main.js"], format: "iife", globalName: "ALi3Viewer" });
+const solids = await esbuild.build({ ...options, entryPoints: ["src/solids.js"], format: "esm", platform: "node" });
 
 const packages = new Set();
 for (const input of Object.keys(result.metafile.inputs)) {
@@ -45,3 +46,4 @@ const code = result.outputFiles[0].text.replace(/<\/script/gi, "<\\/script").rep
 writeFileSync(join(out, "THIRD_PARTY_LICENSES.txt"), notice);
 const comment = notice.replace(/\*\//g, "* /").replace(/\u00a9/g, "(c)").replace(/[^\0-\x7f]/g, "?");
 writeFileSync(join(out, "ali3-viewer.js"), `${code}/*!\n${comment}*/\n`);
+writeFileSync(join(out, "ali3-solids.mjs"), `${solids.outputFiles[0].text}/*!\n${comment}*/\n`);

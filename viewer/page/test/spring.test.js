@@ -12,7 +12,8 @@ function reach(shape, height) {
   const made = spring({ radius: 0.05, wire: 0.01, coils: 4, ends: [["a"], ["b"]], ...shape }, { materials, frames });
   made.update(([name]) => (name === "a" ? [0, 0, 0] : [0, 0, height]));
   const wire = /** @type {import("three").Mesh} */ (made.object.children[0]);
-  const positions = wire.geometry.getAttribute("position").array;
+  wire.updateMatrix();
+  const positions = wire.geometry.clone().applyMatrix4(wire.matrix).getAttribute("position").array;
   const heights = Array.from(positions).filter((_, i) => i % 3 === 2);
   return [Math.min(...heights), Math.max(...heights)];
 }

@@ -39,6 +39,7 @@ export class Materials {
       const solid = ghost ? (this.options.opacity ?? 0.5) * (opacity ?? own) : (opacity ?? own);
       const coated = clearcoat && !ghost;
       const material = coated ? new THREE.MeshPhysicalMaterial({ ...look, clearcoat, clearcoatRoughness }) : new THREE.MeshStandardMaterial(look);
+      material.name = kind;
       material.side = double ? THREE.DoubleSide : THREE.FrontSide;
       if (cover) this._covers.set(material, { solid, open: kind === "glass" ? OPEN[1] : OPEN[0] });
       if (solid < 1) Object.assign(material, { transparent: true, opacity: solid, depthWrite: false });

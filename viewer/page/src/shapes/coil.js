@@ -1,6 +1,5 @@
 // The wire of a coil spring: points and normals for any length; pure numbers.
 import shapes from "../../../shapes.json" with { type: "json" };
-import { add, cross, scale } from "../scene/math.js";
 
 const { sides: AROUND, per_turn: PER_TURN } = shapes.spring;
 
@@ -33,27 +32,25 @@ export function coilTriangles(coils, every = 1) {
 }
 
 /**
- * Points and normals of the wire.
- * @param {{coils: number, radius: number, wire: number}} spring radius: of the wire's middle
- * @param {number[]} base @param {number[][]} axes x, y, z with z along the spring @param {number} height
+ * Points and normals of the wire about the y axis, from y = 0 on; it begins at z.
+ * @param {{coils: number, radius: number, wire: number}} spring radius: of the wire's middle @param {number} height
  */
-export function coilSurface({ coils, radius, wire }, base, [x, y, z], height) {
+export function coilSurface({ coils, radius, wire }, height) {
   const rings = Math.round(coils * PER_TURN) + 1;
   const positions = new Float32Array(rings * AROUND * 3);
   const normals = new Float32Array(rings * AROUND * 3);
+  const slope = height / coils / (2 * Math.PI * radius);
+  const flat = 1 / Math.hypot(1, slope);
   for (let i = 0; i < rings; i++) {
     const turn = (i / (rings - 1)) * coils;
-    const outward = add(scale(x, Math.cos(2 * Math.PI * turn)), scale(y, Math.sin(2 * Math.PI * turn)));
-    const centre = add(base, add(scale(outward, radius), scale(z, heightAt(turn, coils, wire, height))));
-    const along = cross(z, outward);
-    const slope = (height / coils) / (2 * Math.PI * radius);
-    const up = scale(add(z, scale(along, -slope)), 1 / Math.hypot(1, slope));
+    const [sine, cosine] = [Math.sin(2 * Math.PI * turn), Math.cos(2 * Math.PI * turn)];
+    const y = heightAt(turn, coils, wire, height);
     for (let j = 0; j < AROUND; j++) {
-      const angle = (2 * Math.PI * j) / AROUND;
-      const normal = add(scale(outward, Math.cos(angle)), scale(up, Math.sin(angle)));
+      const [out, up] = [Math.cos((2 * Math.PI * j) / AROUND), flat * Math.sin((2 * Math.PI * j) / AROUND)];
+      const normal = [out * sine - up * slope * cosine, up, out * cosine + up * slope * sine];
       const k = 3 * (i * AROUND + j);
       normals.set(normal, k);
-      positions.set(add(centre, scale(normal, wire / 2)), k);
+      positions.set([radius * sine + (wire / 2) * normal[0], y + (wire / 2) * up, radius * cosine + (wire / 2) * normal[2]], k);
     }
   }
   return { positions, normals };

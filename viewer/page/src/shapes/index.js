@@ -15,6 +15,7 @@ import { wheel } from "./wheel.js";
  * @property {import("../looks/materials.js").Materials} materials
  * @property {import("../scene/frames.js").Frames} frames poses as drawn while shapes are made
  * @property {Data} scene
+ * @property {boolean} [rigid] what moves keeps the form that it is first put in, but for a scale along its axes
  */
 
 const MAKERS = { box, cylinder, damper, mesh, plate, sphere, spring, steering_wheel: steeringWheel, tube, wheel };

@@ -36,8 +36,8 @@ function joined(meshes, toCarrier) {
   return whole;
 }
 
-/** A geometry of positions, normals and an index, in the axes of the carrier. */
-function plain(mesh, matrix) {
+/** A geometry of positions, normals and an index, in the axes of the carrier. @param {any} mesh @param {THREE.Matrix4} matrix */
+export function plain(mesh, matrix) {
   const { geometry } = mesh;
   const copy = new THREE.BufferGeometry();
   for (const name of ["position", "normal", ...(mesh.material.map ? ["uv"] : [])]) copy.setAttribute(name, geometry.getAttribute(name).clone());

@@ -19,8 +19,9 @@ export function turnByAxes(object, axes) {
   if (axes) turn(object, fromColumns(...axes));
 }
 
-/** A mesh of height 1 along y, stretched between two points (relative to the origin of the picture). */
+/** A round mesh of height 1 along y, stretched between two points (relative to the origin of the picture). */
 export function stretch(mesh, from, to, radius) {
+  mesh.userData.round = true;
   const along = subtract(to, from);
   const direction = unit(along);
   mesh.visible = direction !== null;

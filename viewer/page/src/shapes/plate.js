@@ -1,9 +1,10 @@
 import * as THREE from "three";
-import { add, cross, dot, scale, subtract, unit } from "../scene/math.js";
+import { across, add, cross, dot, fromColumns, length, subtract, unit } from "../scene/math.js";
+import { turn } from "./place.js";
 import { roundTubes } from "./tube.js";
 
 /** Normal of a polygon (Newell's method); null for points on a line. @param {number[][]} points */
-export function normalOf(points) {
+function normalOf(points) {
   let sum = [0, 0, 0];
   points.forEach((point, i) => {
     sum = add(sum, cross(subtract(point, points[0]), subtract(points[(i + 1) % points.length], points[0])));
@@ -11,30 +12,34 @@ export function normalOf(points) {
   return unit(sum);
 }
 
-/** Triangles of a polygon, by index. @param {number[][]} points @param {number[]} normal */
-function trianglesOf(points, normal) {
-  const x = unit(subtract(points[1], points[0]));
-  const y = cross(normal, x);
-  const flat = points.map((point) => new THREE.Vector2(dot(x, point), dot(y, point)));
-  return THREE.ShapeUtils.triangulateShape(flat, []);
-}
-
-/** A thin plate through points of any frames, with a round edge. @param {Data} shape */
-export function plate(shape, { materials }) {
+/** A thin plate through points of any frames, with a round edge. @param {Data} shape @param {import("./index.js").Context} context */
+export function plate(shape, { materials, rigid = false }) {
   const { points, thickness } = shape;
   const material = materials.of(shape, "steel");
   const { group, place } = roundTubes(points.length, true, 0.75 * thickness, material);
   const faces = new THREE.Mesh(new THREE.BufferGeometry(), material);
   group.add(faces);
   faces.userData.alone = points.some(([frame]) => frame !== points[0][0]); // it changes its form
-  let triangles = null;
+  let [triangles, drawn] = [null, null];
   const put = (corners) => {
     place(corners);
     const normal = normalOf(corners);
     faces.visible = normal !== null;
     if (normal === null) return;
-    triangles ??= trianglesOf(corners, normal);
-    write(faces.geometry, corners, normal, triangles, thickness / 2);
+    const along = unit(subtract(corners[1], corners[0])) ?? across(normal);
+    const axes = [along, cross(normal, along), normal];
+    const flat = corners.map((corner) => axes.map((axis) => dot(axis, subtract(corner, corners[0]))));
+    faces.position.fromArray(corners[0]);
+    turn(faces, fromColumns(...axes));
+    if (rigid && drawn !== null) {
+      const off = flat.map((corner, k) => length(subtract(corner, drawn[k])));
+      faces.userData.bent = Math.max(faces.userData.bent ?? 0, ...off);
+      return;
+    }
+    const corner = flat.map(([x, y]) => new THREE.Vector2(x, y));
+    triangles ??= THREE.ShapeUtils.triangulateShape(corner, []);
+    drawn = flat;
+    write(faces.geometry, flat, triangles, thickness / 2);
   };
   const frame = points[0][0];
   if (points.every(([other]) => other === frame)) {
@@ -44,14 +49,14 @@ export function plate(shape, { materials }) {
   return { object: group, update: (at) => put(points.map(at)) };
 }
 
-/** Both faces of the plate. */
-function write(geometry, corners, normal, triangles, half) {
+/** Both faces of the plate, across z. */
+function write(geometry, corners, triangles, half) {
   const [positions, normals] = [[], []];
   for (const side of [1, -1]) {
     for (const [a, b, c] of triangles) {
       for (const i of side > 0 ? [a, b, c] : [a, c, b]) {
-        positions.push(...add(corners[i], scale(normal, side * half)));
-        normals.push(...scale(normal, side));
+        positions.push(...add(corners[i], [0, 0, side * half]));
+        normals.push(0, 0, side);
       }
     }
   }
