@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -45,7 +45,11 @@ class Task:
     def stops(self, signals: InputSignals) -> list[float]:
         """Ends of steps: the points of the tables, jumps and peaks of functions, and the end."""
         tables = [np.asarray(s[0], float) for s in self.inputs.values() if isinstance(s, tuple)]
-        found = [*tables, signals.breaks(self.t0, self.t_end, PARTED * self.span), signals.jumps()]
+        found: list[Iterable[float]] = [
+            *tables,
+            signals.breaks(self.t0, self.t_end, PARTED * self.span),
+            signals.jumps(),
+        ]
         return [*sorted({float(t) for times in found for t in times if self.t0 < t < self.t_end}), self.t_end]
 
 
