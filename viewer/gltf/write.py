@@ -196,7 +196,9 @@ class _Writer:
         for kind, solid in self.parts.things.items():
             assert solid.normals is not None  # the makers of scenery give them
             turned = replace(solid, positions=solid.positions @ self._axes, normals=solid.normals @ self._axes)
-            self.parts.fixed.append((GROUND, kind, [(turned, Look(kind, (1.0, 1.0, 1.0, 1.0), 0.0, 0.85))]))
+            self.parts.fixed.append(
+                (GROUND, kind, [(turned, Look(kind, (1.0, 1.0, 1.0, 1.0), 0.0, 0.85, double=True))])
+            )
         if self._left_out:
             self.parts.notes.append(
                 f"{self._left_out} things of the scenery are left out; the others stand by the way."
