@@ -88,14 +88,28 @@ def test_cones_and_lines_stand_where_they_are(written):
     assert {-6.0, 3.0, 0.0} == {round(float(y)) for y in lines[:, 1]}
 
 
-def test_what_stands_encloses_its_volume(written):
-    """Triangles face outwards: a building has about the volume of its box and its roof."""
-    volume = sum(mesh.volume for mesh in parts(written.path, "building"))
-    boxes = [thing["size"] for thing in scenery() if thing["kind"] == "building"]
-    assert 0.8 < volume / sum(a * b * c for a, b, c in boxes) < 1.3
-    for kind in ("tree", "post", "barrier", "sign"):
+def test_buildings_stand_in_their_sizes_and_face_outwards(written):
+    (mesh,) = parts(written.path, "building")
+    for thing in (thing for thing in scenery() if thing["kind"] == "building"):
+        length, width, height = thing["size"]
+        c, s = np.cos(thing["yaw"]), np.sin(thing["yaw"])
+        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        near = np.linalg.norm(mesh.triangles_center[:, :2] - thing["at"][:2], axis=1) < length
+        local = (mesh.triangles[near] - thing["at"]) @ turn
+        assert np.abs(local).max(axis=(0, 1)) == pytest.approx(
+            [0.5 * length + 0.3, 0.5 * width + 0.4, height], abs=1e-4
+        )
+        out = local.mean(axis=1) - [0.0, 0.0, 0.4 * height]
+        assert (np.einsum("ij,ij->i", mesh.face_normals[near] @ turn, out) > 0.0).all()
+
+
+def test_what_stands_has_an_area(written):
+    for kind in ("tree", "post", "barrier", "sign", "arrow"):
         assert all(mesh.area > 0.0 for mesh in parts(written.path, kind)), kind
-    assert sum(mesh.volume for mesh in parts(written.path, "tree")) > 0.0
+    (trees,) = parts(written.path, "tree")
+    assert trees.volume > 0.0
+    (signs,) = parts(written.path, "sign")
+    assert signs.vertices[:, 2].max() == pytest.approx(2.5, abs=1e-6)
 
 
 def test_paths_lie_where_the_run_has_been(written):

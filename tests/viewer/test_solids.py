@@ -169,6 +169,16 @@ def test_a_plate_that_bends_keeps_its_form_and_says_so(parts: Parts) -> None:
     assert least < told < 1000.0
 
 
+def test_places_far_away_are_of_double_precision() -> None:
+    far = [500_123.456, 5_400_123.4, 112.3]
+    boxes = [{"kind": "box", "frame": "ground", "at": far, "size": [1.0, 1.0, 1.0]}]
+    boxes.append({"kind": "tube", "points": [["ground", far], ["ground", [*far[:2], 113.3]]], "radius": 0.1})
+    made = parts_of({**scene(), "shapes": boxes}, POSES, len(T))
+    for (_, _, ((solid, _),)), middle in zip(made.fixed, (far, [*far[:2], 112.8]), strict=True):
+        found = 0.5 * (solid.positions.min(axis=0) + solid.positions.max(axis=0))
+        assert np.abs(found - middle).max() < 1e-6
+
+
 def test_solids_are_joined() -> None:
     one = Solid(np.eye(3), np.eye(3), np.array([[0, 1, 2]]))
     two = joined([one, one])

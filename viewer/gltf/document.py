@@ -70,7 +70,6 @@ class Document:
         name: str,
         parts: Sequence[tuple[Solid, Look]],
         targets: Sequence[NDArray[np.float64]] = (),
-        colors: NDArray[np.float64] | None = None,
     ) -> int:
         """Add a mesh of parts with a look each; `targets` are displacements of the positions of its only part."""
         primitives = []
@@ -78,8 +77,8 @@ class Document:
             attributes = pygltflib.Attributes(POSITION=self._vertices(solid.positions, bounds=True))
             if solid.normals is not None:
                 attributes.NORMAL = self._vertices(solid.normals)
-            if colors is not None:
-                attributes.COLOR_0 = self._vertices(colors)
+            if solid.colors is not None:
+                attributes.COLOR_0 = self._vertices(solid.colors)
             primitive = pygltflib.Primitive(
                 attributes=attributes, indices=self._indices(solid.triangles), material=self._material(look)
             )

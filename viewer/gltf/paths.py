@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viewer.gltf.materials import LOOKS, Look, linear
-from viewer.gltf.scenery import ribbon
 from viewer.gltf.solids import Solid, joined
 from viewer.poses import FramePoses, Vectors
 
@@ -48,7 +47,7 @@ def path_solids(
     for k, (name, points, colour) in enumerate(zip(names, [middle, *feet], colours, strict=True)):
         share, opacity = (PATHS[key][min(k, 1)] for key in ("shares", "opacities"))
         ways = [_apart(points[part], 0.02 * scene["extent"]) for part in motions]
-        bands = [ribbon(way, share * scene["extent"], up, _LIFT) for way in ways if len(way) > 1]
+        bands = [_ribbon(way, share * scene["extent"], up) for way in ways if len(way) > 1]
         if bands:
             made.append((name, joined(bands), Look("path", (*colour, opacity), 0.0, 1.0, double=True)))
     return made
@@ -59,3 +58,13 @@ def _apart(points: Vectors, least: float) -> Vectors:
     way = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
     stations = np.floor(way / max(least, way[-1] / _MOST))
     return points[np.r_[True, np.diff(stations) > 0]]
+
+
+def _ribbon(points: Vectors, width: float, up: Vectors) -> Solid:
+    """A flat band along points, of which no two that follow each other are the same."""
+    side = np.cross(up, np.gradient(points, axis=0))
+    side /= np.maximum(np.linalg.norm(side, axis=1), 1e-12)[:, None]
+    edges = np.stack([points - 0.5 * width * side, points + 0.5 * width * side], axis=1) + _LIFT * up
+    a = 2 * np.arange(len(points) - 1)
+    triangles = np.vstack([np.column_stack([a, a + 2, a + 1]), np.column_stack([a + 1, a + 2, a + 3])])
+    return Solid(edges.reshape(-1, 3), np.tile(up, (2 * len(points), 1)), triangles)

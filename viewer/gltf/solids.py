@@ -34,6 +34,8 @@ class Solid:
     """Unit; None for flat triangles, shape (n, 3)."""
     triangles: NDArray[np.int64]
     """Numbers of positions, shape (m, 3)."""
+    colors: Vectors | None = None
+    """Linear, shape (n, 3)."""
 
 
 Meshes = list[tuple[Solid, Look]]
@@ -49,12 +51,14 @@ class Parts:
     """What moves between frames, relative to the earth."""
     flexible: list[Solid]
     """The flexible parts at rest: 12 points around each end of each beam, then as many around each node."""
+    things: dict[str, Solid]
+    """The scenery by kind, in the axes of its world: x, y and up."""
     notes: list[str]
     """Sentences on what differs from the scene."""
 
 
 def joined(solids: Sequence[Solid]) -> Solid:
-    """Several solids as one; flat if one of them is."""
+    """Several solids without colours as one; flat if one of them is."""
     starts = np.cumsum([0, *(len(s.positions) for s in solids[:-1])])
     normals = [s.normals for s in solids if s.normals is not None]
     return Solid(
@@ -72,10 +76,11 @@ def parts_of(scene: Mapping[str, Any], poses: FramePoses, count: int) -> Parts:
     names = list(scene["frames"])
     held = [poses.of(name) for name in names]
     numbers = np.array([np.hstack([pose.position, pose.quaternion]) for pose in held]).reshape(-1)
-    kept = ("frames", "shapes", "flexible", "meshes", "up", "focus")
+    kept = ("frames", "shapes", "flexible", "scenery", "meshes", "up", "focus")
     shown = {key: scene[key] for key in kept if key in scene}
     made = _answer({"scene": shown, "names": names, "count": count}, numbers)
-    parts = Parts([], [], [_solid(part) for part in made["flexible"]], [])
+    things = {kind: _solid(part) for kind, part in made["things"].items()}
+    parts = Parts([], [], [_solid(part) for part in made["flexible"]], things, [])
     for shape, pieces in zip(scene["shapes"], made["shapes"], strict=True):
         name = shape.get("name") or shape.get("body") or shape["kind"]
         for piece in pieces:
@@ -109,13 +114,12 @@ def _look(values: dict[str, Any]) -> Look:
 
 
 def _solid(part: Mapping[str, Any]) -> Solid:
-    positions, normals = (
+    normals, colors = (
         None if part[name] is None else decoded(part[name], "f").astype(float).reshape(-1, 3)
-        for name in ("positions", "normals")
+        for name in ("normals", "colors")
     )
-    triangles = decoded(part["triangles"], "u").astype(np.int64).reshape(-1, 3)
-    assert positions is not None
-    return Solid(positions, normals, triangles)
+    positions = decoded(part["positions"], "f").reshape(-1, 3) + np.array(part["base"], dtype=float)
+    return Solid(positions, normals, decoded(part["triangles"], "u").astype(np.int64).reshape(-1, 3), colors)
 
 
 def _answer(question: Mapping[str, Any], numbers: Vectors) -> dict[str, Any]:

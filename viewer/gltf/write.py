@@ -22,8 +22,8 @@ from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned
 from viewer.gltf.paths import path_solids
 from viewer.gltf.roads import road_solid, surfaces_of
-from viewer.gltf.scenery import scenery_solids
-from viewer.gltf.solids import Parts, Solid, parts_of
+from viewer.gltf.scenery import by_the_way
+from viewer.gltf.solids import Solid, parts_of
 from viewer.gltf.terrain import earth_axes, surface_look, terrain_solids
 from viewer.poses import GROUND, FramePoses, Vectors, about_axis, shortest_turns
 
@@ -88,6 +88,8 @@ def write_gltf(
     target = Path(path)
     scene = _checked(target, recording, rate, speed, deformation)
     check_writable(path)
+    if not road:
+        scene |= {"roads": [], "scenery": []}
     writer = _Writer(scene, recording, rate, float(speed), deformation)
     if not (writer.parts.fixed or writer.parts.free or writer.flexible):
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
@@ -143,10 +145,6 @@ class _Writer:
         self._speed = speed
         self._columns: Mapping[str, NDArray[Any]] = {name: values[looked] for name, values in recording.columns.items()}
         self._poses = FramePoses(scene, self._columns, len(self._t))
-        self.parts: Parts = parts_of(scene, self._poses, len(self._t))
-        self.flexible: list[tuple[dict[str, Any], Solid]] = list(
-            zip(scene.get("flexible") or [], self.parts.flexible, strict=True)
-        )
         self._deformation = deformation
         self.times = len(kept_times(self._t, rate))
         self.error = (0.0, 0.0)
@@ -154,6 +152,16 @@ class _Writer:
         self._frame_errors: dict[str, tuple[float, float]] = {GROUND: (0.0, 0.0)}
         up = np.array(scene.get("up") or (0.0, 0.0, 1.0), dtype=float)
         self._up: Vectors = up / np.linalg.norm(up)
+        self._axes = earth_axes(self._up)
+        places = np.vstack([self._poses.of(name).position for name in scene["frames"]] or [np.zeros((1, 3))])
+        self._low, self._high = places.min(axis=0), places.max(axis=0)
+        corners = np.stack([self._low, self._high]) @ self._axes[:2].T
+        self._near, self._far = corners.min(axis=0) - _AROUND, corners.max(axis=0) + _AROUND
+        things = scene.get("scenery") or []
+        by_way = by_the_way(things, self._near, self._far)
+        self.parts = parts_of({**scene, "scenery": by_way}, self._poses, len(self._t))
+        self._left_out = len(things) - len(by_way)
+        self.flexible = list(zip(scene.get("flexible") or [], self.parts.flexible, strict=True))
         turn = shortest_turns(self._up[None], np.array([[0.0, 1.0, 0.0]]))[0]
         taken = recording.name in scene["frames"]  # frames have their names
         self._root = self.document.node(f"scene {recording.name}" if taken else recording.name, None)
@@ -165,26 +173,18 @@ class _Writer:
 
     def _middle(self) -> Vectors:
         """What is taken from all places in earth axes, m: whole metres, and 0 near the origin."""
-        places = [self._poses.of(name).position for name in self._scene["frames"]] or [np.zeros((1, 3))]
-        every = np.vstack(places)
-        if np.abs(every).max() < _NEAR:
+        if np.maximum(-self._low, self._high).max() < _NEAR:
             return np.zeros(3)
-        return np.asarray(np.round(0.5 * (every.min(axis=0) + every.max(axis=0))))
+        return np.asarray(np.round(0.5 * (self._low + self._high)))
 
     def add_roads(self) -> None:
         """Roads without an end reach as far as the frames go, and twice the size of the scene beyond."""
-        frames = self._scene["frames"]
-        places = np.vstack([self._poses.of(name).position for name in frames] or [np.zeros((1, 3))])
-        low, high = places.min(axis=0), places.max(axis=0)
-        half = 0.5 * float(np.linalg.norm(high - low)) + 2.0 * float(self._scene["extent"])
-        axes = earth_axes(self._up)
-        corners = np.stack([low, high]) @ axes[:2].T
-        near, far = corners.min(axis=0) - _AROUND, corners.max(axis=0) + _AROUND
+        half = 0.5 * float(np.linalg.norm(self._high - self._low)) + 2.0 * float(self._scene["extent"])
         for road in self._scene.get("roads") or []:
             if road["kind"] == "terrain":
-                self._add_terrain(road, axes, near, far)
+                self._add_terrain(road)
                 continue
-            made = road_solid(road, self._up, 0.5 * (low + high), half)
+            made = road_solid(road, self._up, 0.5 * (self._low + self._high), half)
             if made is None:
                 self.parts.notes.append("The road of a file is not drawn.")
                 continue
@@ -193,16 +193,22 @@ class _Writer:
             self.parts.fixed.append((GROUND, "road", meshes))
             if made[1] > 1:
                 self.parts.notes.append(f"Of the grid of the road every {made[1]}th point is drawn in each direction.")
-        kinds, left_out = scenery_solids(self._scene.get("scenery") or [], axes, near, far)
-        self.parts.fixed += [(GROUND, kind, meshes) for kind, meshes in kinds.items()]
-        if left_out:
-            self.parts.notes.append(f"{left_out} things of the scenery are left out; the others stand by the way.")
+        for kind, solid in self.parts.things.items():
+            assert solid.normals is not None  # the makers of scenery give them
+            turned = replace(solid, positions=solid.positions @ self._axes, normals=solid.normals @ self._axes)
+            self.parts.fixed.append(
+                (GROUND, kind, [(turned, Look(kind, (1.0, 1.0, 1.0, 1.0), 0.0, 0.85, double=True))])
+            )
+        if self._left_out:
+            self.parts.notes.append(
+                f"{self._left_out} things of the scenery are left out; the others stand by the way."
+            )
         paths = path_solids(self._scene, self._poses, self._up, self._epoch)
         self.parts.fixed += [(GROUND, name, [(band, look)]) for name, band, look in paths]
 
-    def _add_terrain(self, road: Mapping[str, Any], axes: Vectors, near: Vectors, far: Vectors) -> None:
+    def _add_terrain(self, road: Mapping[str, Any]) -> None:
         """What of a terrain lies in a rectangle about the way."""
-        made, error = terrain_solids(road, axes, near, far)
+        made, error = terrain_solids(road, self._axes, self._near, self._far)
         self.parts.fixed.append((GROUND, "terrain", made))
         self.parts.notes.append(
             f"Of the terrain, what is within {_AROUND:g} m of the way is drawn; its heights are up to "
@@ -306,7 +312,7 @@ class _Writer:
         name = part.get("name") or f"flexible {part['frame']}"
         made = flexible_part(part, solid, self._columns, self._deformation)
         look = _FRAME if made.colors is None else _WHITE
-        mesh = self.document.mesh(name, [(solid, look)], made.targets, made.colors)
+        mesh = self.document.mesh(name, [(replace(solid, colors=made.colors), look)], made.targets)
         node = self.document.node(name, self._frame(part["frame"]), mesh)
         if made.targets:
             kept = kept_times(self._t, self._rate)

@@ -150,12 +150,13 @@ function squareMeshes(square, base, { held, texts, paint, ground, off }) {
   return meshes;
 }
 
-function addLine(made, { points, width, colour = "white", dash }, ground, off) {
+/** Paint along a line. @param {Triangles} made @param {Data} line @param {any} ground @param {number} [off] */
+export function addLine(made, { points, width, colour = "white", dash }, ground, off) {
   for (const stretch of dashes(points, dash)) addStrip(made, edges(stretch, width, ground, off), PAINTS[colour] ?? PAINTS.white);
 }
 
-/** Quads between pairs of points: right, left. */
-function addStrip(made, pairs, colour) {
+/** Quads between pairs of points: right, left. @param {Triangles} made @param {number[][][]} pairs @param {number[]} colour */
+export function addStrip(made, pairs, colour) {
   let last = null;
   for (const pair of pairs) {
     const aside = pair[1].map((value, k) => 0.5 * (value - pair[0][k]));

@@ -5,8 +5,11 @@ import { Triangles } from "./triangles.js";
 /** Linear colours. @type {{cones: Record<string, number[]>, white: number[]}} */
 const { cones: CONES, white: WHITE } = looks.things;
 
-/** A round thing of rings: radius and height, with a colour between two rings. */
-function turned(made, rings, sides) {
+/**
+ * A round thing of rings: radius and height, with a colour between two rings.
+ * @param {Triangles} made @param {{radius: number, z: number, colour: number[]}[]} rings @param {number} sides
+ */
+export function turned(made, rings, sides) {
   for (let i = 0; i + 1 < rings.length; i++) {
     const [low, high] = [rings[i], rings[i + 1]];
     for (let k = 0; k < sides; k++) {
