@@ -131,8 +131,8 @@ def drive_circle(
         return watch.ends(time, senses)
 
     result = car.drive(Manoeuvre(name, np.zeros(0), {}, stop, start_at(car, first)), pilot, ends, record_step=_RECORD)
-    if result.failed_steps:
-        watch.end = f"the FMU refused the step at {result.time[-1]:.4g} s: {' '.join(result.messages[-1:])}".strip()
+    if result.refusal:
+        watch.end = f"{result.refusal}."
     return _signals(result, watch, steering, car.facts.step)
 
 

@@ -74,8 +74,8 @@ class Passage:
             return f"the car has {self.reason}"
         if self.least_clearance <= 0.0:
             return f"a cone is hit by {-self.least_clearance:.3g} m"
-        if self.result.failed_steps:
-            return f"the FMU refused the step at {self.result.time[-1]:.4g} s"
+        if self.result.refusal:
+            return self.result.refusal
         return self.not_driven and f"the car does not come through: {self.not_driven}"
 
     def at(self, quantity: str, x: float) -> float:

@@ -72,7 +72,4 @@ class RunUp:
 
 def early_end(run: str, result: Result) -> tuple[str, ...]:
     """A sentence where the FMU refused a step."""
-    if not result.failed_steps:
-        return ()
-    reason = f": {result.messages[-1]}" if result.messages else "."
-    return (f"{run}: the FMU refused the step at {result.time[-1]:g} s; what comes later is not measured{reason}",)
+    return (f"{run}: {result.refusal}; what comes later is not measured.",) if result.refusal else ()

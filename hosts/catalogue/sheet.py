@@ -30,10 +30,15 @@ class _Typed(BaseModel):
 
 
 class Sentence(_Typed):
-    """A text with ``{expressions}`` that is said where an expression, which may have some too, is true."""
+    """A text with ``{expressions}`` that is said where an expression is true."""
 
     when: str
     text: str
+
+
+class _NoteLine(Sentence):
+    """`when` may have ``{expressions}`` too."""
+
     each: dict[str, tuple[Any, ...]] | str = "[{}]"
     """See `_MeasureLine.each`."""
 
@@ -82,7 +87,7 @@ class Part(_Typed):
     """What comes of one kind of run."""
 
     measures: dict[str, _MeasureLine] = {}
-    notes: tuple[Sentence, ...] = ()
+    notes: tuple[_NoteLine, ...] = ()
     plots: tuple[_PlotLine, ...] = ()
 
 

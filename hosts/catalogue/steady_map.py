@@ -155,9 +155,8 @@ def refuse_odd(run: SteeredRun) -> None:
 def why_not_reached(result: Result, speed: float) -> str:
     """Why the steering did not begin at a speed, m/s, in a run: a sentence."""
     end = float(result.time[-1])
-    if result.failed_steps:
-        said = f": {result.messages[-1]}" if result.messages else "."
-        return f"The FMU refused a step after {end:.3g} s, before the steering began{said}"
+    if result.refusal:
+        return f"Before the steering began {result.refusal}."
     speeds = 3.6 * result["speed"]
     return (
         f"The car does not hold {3.6 * speed:g} km/h on a straight line: after {end:.3g} s it is "

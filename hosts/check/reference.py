@@ -150,9 +150,8 @@ def check_reference(
         f"{'all within their bounds' if not bad else f'{len(bad)} beyond their bounds'}{share}"
     )
     ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
-    if result.failed_steps:
-        refused = result.ended or f"The step at {result.time[-1]:g} s was refused"
-        ended = f"{refused.rstrip('.')}; the reference goes on to {times[-1]:g} s."
+    if result.refusal:
+        ended = f"The reference goes on to {times[-1]:g} s, but {result.refusal}."
         print(ended)
     elif wrong:
         ended = wrong

@@ -28,7 +28,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
     parser.add_argument("--log-aliases", type=Path, metavar="FILE", help="alias file of the log: names, units, clock")
     add_option(parser, "--aliases")
     parser.add_argument("--signals", type=_names, metavar="NAME,...", help="compare only these outputs; default: all")
-    parser.add_argument("--ignore", metavar="NAME,...", help="inputs of the log that are not replayed")
+    parser.add_argument(
+        "--ignore", type=_names, default=[], metavar="NAME,...", help="inputs of the log that are not replayed"
+    )
     parser.add_argument(
         "--hold-speed", action="store_true", help="a driver holds the measured speed in place of the measured pedals"
     )
@@ -64,7 +66,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
     )
     parser.add_argument(
         "--nuisance",
-        default="",
+        type=_names,
+        default=[],
         metavar="WHAT,...",
         help="found together with the parameters: delay (of all signals), delays (of each), drift, bias, gain (of "
         "each)",

@@ -38,10 +38,15 @@ def deviations(time: ArrayLike, measured: ArrayLike, simulated: ArrayLike) -> De
     k = int(np.argmax(np.abs(error)))
     flat = [what for what, a in (("measured", y), ("simulated", x)) if is_constant(a)]
     correlation = math.nan if flat else float(np.corrcoef(x, y)[0, 1])
-    rms = float(np.sqrt(np.mean(error**2)))
-    normalised = math.nan if "measured" in flat else rms / float(np.std(y))
+    size = rms(error)
+    normalised = math.nan if "measured" in flat else size / float(np.std(y))
     note = f"the {' and the '.join(flat)} signal is constant: no correlation" if flat else ""
-    return Deviations(rms, normalised, float(np.mean(error)), float(error[k]), float(t[k]), correlation, len(y), note)
+    return Deviations(size, normalised, float(np.mean(error)), float(error[k]), float(t[k]), correlation, len(y), note)
+
+
+def rms(values: NDArray[np.float64]) -> float:
+    """Root of the mean square."""
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def is_constant(values: NDArray[np.float64]) -> bool:

@@ -14,6 +14,7 @@ from scipy.stats import qmc
 
 from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
+from hosts.compare.deviations import rms
 from hosts.compare.fit_result import Fit, Found, Start
 from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
@@ -84,14 +85,11 @@ def fit(
     # A model that misses more than noise is weighted by what it misses, so that no signal outweighs the others.
     residuals.accepted(p)
     first = residuals(p)
-    residuals.noise = {
-        n: least[n] * max(1.0, float(np.sqrt(np.mean(first[b] ** 2))))
-        for n, b in zip(outputs, residuals.blocks, strict=True)
-    }
+    residuals.noise = {n: least[n] * max(1.0, x) for n, x in residuals.left(first).items()}
     own = computed_noise(residuals, p)
     residuals.steps, sensitivities = difference_steps(residuals, p, own)
     _check_effects(unknowns, sensitivities, own)
-    start, blocks = p.copy(), residuals.blocks
+    start = p.copy()
 
     def search(begin: NDArray[np.float64], jacobian: Jacobian, most: int) -> OptimizeResult:
         return least_squares(
@@ -109,26 +107,25 @@ def fit(
                 raise
             refused.append(str(error))
             continue
-        told.append(Start(begin.tolist(), tried[-1].x.tolist(), float(np.sqrt(np.mean(tried[-1].fun ** 2)))))
+        told.append(Start(begin.tolist(), tried[-1].x.tolist(), rms(tried[-1].fun)))
     solution = min(tried, key=lambda t: float(t.cost))
     for _ in range(_ROUNDS - 1):
-        r = solution.fun
-        left = {n: max(float(np.sqrt(np.mean(r[b] ** 2))), 1e-9) for n, b in zip(outputs, blocks, strict=True)}
-        settled = all(abs(x - 1.0) < _SETTLED for x in left.values())
-        residuals.noise = {n: residuals.noise[n] * left[n] for n in outputs}
-        if settled:
+        if _weighted_anew(residuals, solution.fun):
             break
         solution = search(solution.x, residuals.one_sided, evaluations)
     converged = bool(solution.status > 0)
     p = _polished(residuals, solution.x, bounds)
-    r = residuals(p)
-    left = {n: max(float(np.sqrt(np.mean(r[b] ** 2))), 1e-9) for n, b in zip(outputs, blocks, strict=True)}
-    # Residuals and Jacobian as the weights are now.
-    residuals.noise = {n: residuals.noise[n] * left[n] for n in outputs}
-    r, jacobian = residuals(p), residuals.jacobian(p)
-    begun = residuals(start)
+    _weighted_anew(residuals, residuals(p))
+    r, jacobian, begun = residuals(p), residuals.jacobian(p), residuals(start)  # as the weights are now
     made = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, told, parts)
     return replace(made, refused=refused)
+
+
+def _weighted_anew(residuals: Residuals, r: NDArray[np.float64]) -> bool:
+    """Weight each signal by what residuals leave of it; whether its weights stay as they were."""
+    left = {n: max(x, 1e-9) for n, x in residuals.left(r).items()}
+    residuals.noise = {n: residuals.noise[n] * x for n, x in left.items()}
+    return all(abs(x - 1.0) < _SETTLED for x in left.values())
 
 
 def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
@@ -191,11 +188,8 @@ def _judged(
         clustered = np.sqrt(np.diag(clustered_covariance(free, r, parts)))
         half[inside] = np.maximum(half[inside], float(stats.t.ppf(0.975, parts.independent - 1.0)) * clustered)
         errors_outside = left_out(free, r, parts)
-        outside = {
-            n: float(np.sqrt(np.mean(errors_outside[b] ** 2))) * residuals.noise[n]
-            for n, b in zip(residuals.outputs, blocks, strict=True)
-        }
-        size = float(np.sqrt(np.mean(errors_outside**2)))
+        outside = {n: x * residuals.noise[n] for n, x in residuals.left(errors_outside).items()}
+        size = rms(errors_outside)
         worse = without_each(free, r, parts, [unknowns[k].start - float(p[k]) for k in inside])
         changes = folds(free, r, parts).T
         for k, error, change in zip(inside, worse, changes, strict=True):
@@ -210,10 +204,7 @@ def _judged(
     ]
     c0, c1 = float(begun @ begun), float(r @ r)
     f = max(c0 - c1, 0.0) / len(p) / (c1 / freedom) if c1 > 0.0 else math.inf
-    misfit = {
-        n: float(np.sqrt(np.mean(r[b] ** 2))) * residuals.noise[n]
-        for n, b in zip(residuals.outputs, blocks, strict=True)
-    }
+    misfit = {n: x * residuals.noise[n] for n, x in residuals.left(r).items()}
     count = len(r)
     # The likelihood of weights that are renewed: of each signal the logarithm of what is left.
     pairs = [(left, effective_samples(r[b])) for left, b in zip(misfit.values(), blocks, strict=True) if left > 0.0]

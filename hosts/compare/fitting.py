@@ -7,12 +7,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from ali3.bars import bar
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve, SensedCurve
+from hosts.compare.deviations import rms
 from hosts.compare.fit import fit, overlapping
 from hosts.compare.fit_result import Fit
 from hosts.compare.left_out import parts_of
@@ -37,8 +36,7 @@ class Wanted:
 
 def wanted(options: argparse.Namespace, task: Task) -> Wanted:
     """What the options name; a note where an initial speed is not sought."""
-    names = [n.strip() for n in options.nuisance.split(",") if n.strip()]
-    nuisances(names, task.outputs, {}, options.longest_delay)  # their names
+    nuisances(options.nuisance, task.outputs, {}, options.longest_delay)  # their names
     begin = task.stretches[0].manoeuvre.start  # as set, or as measured
     sought = [t.partition("=")[0].strip() for t in options.fit]
     if not task.windowed and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
@@ -47,7 +45,7 @@ def wanted(options: argparse.Namespace, task: Task) -> Wanted:
             "--fit initial.speed=LOW:HIGH finds it too."
         )
     parameters = wanted_parameters(options.fit, task.parameters, begin)
-    return Wanted(parameters, names, fit_step(options.fit_step, task.parameters))
+    return Wanted(parameters, options.nuisance, fit_step(options.fit_step, task.parameters))
 
 
 def fitted(
@@ -77,10 +75,7 @@ def fitted(
         best = replay.run(dict(found.parameters))
     if wanted.coarse:
         apart = replay.run(wanted.coarse | found.parameters)
-        told = [
-            f"{n} by {with_unit(float(np.sqrt(np.mean((apart[n] - best[n]) ** 2))), s.unit)}"
-            for n, s in outputs.items()
-        ]
+        told = [f"{n} by {with_unit(rms(apart[n] - best[n]), s.unit)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ on the root mean square: {', '.join(told)}."

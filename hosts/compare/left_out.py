@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from hosts.compare.deviations import rms
 from hosts.compare.stretches import Stretch
 from hosts.measures.signal import Signal
 
@@ -139,7 +140,7 @@ def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence
     for k, step in enumerate(steps):
         others = np.delete(jacobian, k, axis=1)
         errors = left_out(others, residual + jacobian[:, k] * step, parts)
-        found.append(float(np.sqrt(np.mean(errors**2))))
+        found.append(rms(errors))
     return found
 
 

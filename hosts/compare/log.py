@@ -124,7 +124,7 @@ def _columns(
             if name is not None and name not in there:
                 raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
     named = {c.name for c in aliases.columns.values()}
-    plain = {n: Column(n) for n in there if (n in inputs or n in outputs) and n not in named}
+    plain = {n: Column(name=n) for n in there if (n in inputs or n in outputs) and n not in named}
     found = {**plain, **aliases.columns}
     if not found:
         clock = [n for n in there if n.lower() not in _TIMES]

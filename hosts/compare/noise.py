@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.compare.deviations import rms
 from hosts.compare.residuals import Residuals
 
 _POINTS, _ORDER = 5, 4
@@ -68,7 +69,7 @@ def difference_steps(
         width = u.high - u.low
         q = p.copy()
         q[k] += _PROBE * width if q[k] + _PROBE * width <= u.high else -_PROBE * width
-        change = float(np.sqrt(np.mean((residuals(q) - base) ** 2))) / _PROBE
+        change = rms(residuals(q) - base) / _PROBE
         sensitivities.append(change)
         steps.append(width * float(np.clip(np.cbrt(3.0 * noise / max(change, 1e-300)), _FINEST, _WIDEST)))
     return np.array(steps), np.array(sensitivities)

@@ -89,11 +89,9 @@ def _check(options: argparse.Namespace, task: Task) -> None:
 def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:
     result = replay.run()
     problems, noted = [], len(task.notes)
-    if result.failed_steps:
-        problems.append(
-            f"The FMU refused a step at {result.simulated:.4g} s of {task.stretches[0].end:.4g} s"
-            f"{f': {result.messages[-1]}' if result.messages else ''}; only what lies before is compared."
-        )
+    if result.refusal:
+        end = task.stretches[0].end
+        problems.append(f"Of {end:.4g} s only what lies before is compared, for {result.refusal}.")
     if wrong := result.not_finite():
         problems.append(wrong)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}

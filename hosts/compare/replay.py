@@ -13,7 +13,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.compare.follower import demanded
-from hosts.compare.stretch_fmu import StretchFmu, StretchWork, Task
+from hosts.compare.stretch_fmu import StretchFmu, Task
 from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
@@ -116,7 +116,7 @@ class Replay(Closing):
     ) -> None:
         self.stretches, self.step = list(stretches), step
         reads = files_of_drives(fmu.path, (stretch.manoeuvre.start for stretch in stretches))
-        work = StretchWork(StretchFmu(fmu, step), stretches)
+        work = StretchFmu(fmu, step, stretches)
         self._pool: Pool[Task, Result | str] = Pool(work, Result | str, min(jobs, len(stretches)), reads)
         self._can_reset: bool | None = None
         self.said: dict[str, int] = {}

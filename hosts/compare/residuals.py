@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve, SensedCurve
+from hosts.compare.deviations import rms
 from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
@@ -53,6 +54,10 @@ class Residuals:
         """Rows of each signal."""
         ends = np.cumsum([0] + [len(s.time) for s in self.outputs.values()])
         return [slice(int(a), int(b)) for a, b in pairwise(ends)]
+
+    def left(self, r: Array) -> dict[str, float]:
+        """Root mean square of residuals by signal."""
+        return {n: rms(r[b]) for n, b in zip(self.outputs, self.blocks, strict=True)}
 
     def __call__(self, p: Array) -> Array:
         """Residuals of shape (n,)."""

@@ -59,14 +59,22 @@ Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
 class StretchFmu(LoadedFmu):
     """An FMU that drives stretches of a log.
 
-    `step`: communication step, s. `can_reset`: whether it repeats itself after a reset; else it is loaded again for
-    each drive. None: not known.
+    `step`: communication step, s; `stretches`: those of the numbers of tasks. `can_reset`: whether it repeats itself
+    after a reset; else it is loaded again for each drive. None: not known.
     """
 
-    def __init__(self, source: FmuSource, step: float) -> None:
+    def __init__(self, source: FmuSource, step: float, stretches: Sequence[Stretch] = ()) -> None:
         super().__init__(source)
-        self._step = step
+        self._step, self._stretches = step, list(stretches)
         self.can_reset: bool | None = None
+
+    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Result | str:
+        """The result, or why the FMU does not start with these values: no error, which would end the others."""
+        number, values, self.can_reset = task
+        try:
+            return self.drive(self._stretches[number], values, tell)
+        except StartRefusedError as error:
+            return str(error)
 
     def drive(
         self,
@@ -81,18 +89,3 @@ class StretchFmu(LoadedFmu):
         # A pilot has a memory: each run has its own.
         driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
         return run(self.fresh(), manoeuvre, self._step, driver, progress)
-
-
-class StretchWork:
-    """What a process does: it drives the stretch of a number."""
-
-    def __init__(self, fmu: StretchFmu, stretches: Sequence[Stretch]) -> None:
-        self._fmu, self._stretches = fmu, list(stretches)
-
-    def __call__(self, task: Task, tell: Callable[[Any], None]) -> Result | str:
-        """The result, or why the FMU does not start with these values: no error, which would end the others."""
-        number, values, self._fmu.can_reset = task
-        try:
-            return self._fmu.drive(self._stretches[number], values, tell)
-        except StartRefusedError as error:
-            return str(error)

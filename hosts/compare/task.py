@@ -230,7 +230,7 @@ def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dic
                 what = "is no output of the FMU" if name not in fmu.names("output") else "is not in the log"
                 raise HostError(f"--signals: '{name}' {what}{hint}")
         outputs = {n: outputs[n] for n in options.signals}
-    for name in [n.strip() for n in (options.ignore or "").split(",") if n.strip()]:
+    for name in options.ignore:
         if name not in inputs:
             raise HostError(f"--ignore: '{name}' is no input in the log; it has {', '.join(inputs) or 'none'}.")
         del inputs[name]

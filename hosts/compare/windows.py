@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
+from hosts.compare.deviations import rms
 from hosts.compare.stretches import PEDALS, Stretch
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
@@ -51,14 +52,14 @@ def windows(comparison: Comparison, stretches: Sequence[Stretch]) -> list[Window
     found = []
     ranges = {n: float(np.ptp(s.measured.values)) for n, s in comparison.signals.items()}
     for stretch in stretches:
-        rms, departed = {}, ""
+        sizes, departed = {}, ""
         for name, s in comparison.signals.items():
             part = s.measured.between(stretch.place, stretch.place + stretch.end)
             error = s.simulated(part.time) - part.values
-            rms[name] = float(np.sqrt(np.mean(error**2)))
+            sizes[name] = rms(error)
             if not np.max(np.abs(error)) <= ranges[name]:
                 departed = departed or name
-        found.append(Window(stretch.begin, stretch.begin + stretch.end, rms, departed))
+        found.append(Window(stretch.begin, stretch.begin + stretch.end, sizes, departed))
     return found
 
 
@@ -97,9 +98,8 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
             for k in np.unique(number):
                 e = error[number == k]
                 if len(e) >= _LEAST:
-                    rms = float(np.sqrt(np.mean(e**2)))
                     low = float(k * width)
-                    found.append(Bin(name, quantity, unit, low, low + width, len(e), rms, float(np.mean(e))))
+                    found.append(Bin(name, quantity, unit, low, low + width, len(e), rms(e), float(np.mean(e))))
     return found
 
 
@@ -112,18 +112,16 @@ def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
         return []
     time, values = (np.concatenate(parts) for parts in zip(*held, strict=True))
     error = np.interp(time, result.time, result["speed"]) - values
-    text = (
-        f"The driver held the speed within {np.sqrt(np.mean(error**2)):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
-    )
+    text = f"The driver held the speed within {rms(error):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
     pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)
     full = np.interp(time, result.time, pedals) > _FULL
     if full.any() and not full.all():
-        left = float(np.sqrt(np.mean(error[~full] ** 2)))
-        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {left:.2g} m/s rms elsewhere"
+        left = f"{rms(error[~full]):.2g} m/s rms elsewhere"
+        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {left}"
     forces = [_axle(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]
-    front, rear = (float(np.sqrt(np.mean(f**2))) for f in forces if f is not None)
+    front, rear = (rms(f) for f in forces if f is not None)
     return [f"{text}, by forces along the wheels of {front:.3g} N rms in front and {rear:.3g} N behind."]
 
 

@@ -63,6 +63,16 @@ class Result:
         """Whether the FMU made every step, and all values are numbers."""
         return not (self.failed_steps or self.ended or self.not_finite())
 
+    @property
+    def refusal(self) -> str:
+        """When and why the FMU refused a step, or how its process ended, as the end of a sentence; empty where
+        it made all steps.
+        """
+        if self.ended or not self.failed_steps:
+            return self.ended[:1].lower() + self.ended[1:].rstrip(".")
+        said = f": {self.messages[-1].rstrip('.')}" if self.messages else ""
+        return f"the FMU refused the step at {self.time[-1]:.5g} s{said}"
+
     def not_finite(self) -> str:
         """The first value that is no number, in a sentence; empty where all are."""
         wrong = ~np.isfinite(self.values)

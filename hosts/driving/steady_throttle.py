@@ -79,9 +79,8 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
 
     found = drive(fmu, straight, step, finder, until=ends, every=max(1, round(_WINDOW / step)), last=True)
     what, speed = f"The manoeuvre '{manoeuvre.name}' holds the speed of its start", float(found["speed"][-1])
-    if found.failed_steps:
-        said = found.messages[-1] if found.messages else "no reason is given"
-        raise HostError(f"{what}; straight on the FMU refused the step at {found.simulated:.4g} s: {said}")
+    if found.refusal:
+        raise HostError(f"{what}; straight on {found.refusal}.")
     if not finder.speed > 0.0:
         raise HostError(f"{what}, which is {finder.speed:.3g} m/s; give one above 0, as --set {INITIAL_SPEED}=22.22.")
     if finder.off() > _ENOUGH:

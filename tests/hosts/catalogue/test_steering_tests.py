@@ -226,7 +226,7 @@ def test_a_steering_wheel_that_does_not_come_to_its_angle_is_told() -> None:
 
 def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
     for test in ("sine_steer", "sine_with_dwell"):
-        with pytest.raises(HostError, match=r"FMU refused a step after 0\.51 s, before the steering began"):
+        with pytest.raises(HostError, match=r"Before the steering began the FMU refused the step at 0\.51"):
             perform(standard_test(test), BicycleCar(refuses_after=0.5))
 
 

@@ -1,0 +1,56 @@
+"""An experiment shows how much of it is done, and its folder keeps what is done for the same command."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ali3.errors import FileError
+from ali3.isolated import Lost
+from hosts.experiment.experiment import Experiment, Kept, tell_kept
+
+
+def half(task: float, tell: Callable[[Any], None]) -> float:
+    """Tells half of its task, then more than all of it."""
+    tell(0.5 * task)
+    if task == 3.0:
+        os._exit(7)
+    tell(2.0 * task)
+    return -task
+
+
+def test_what_is_done_is_told_and_what_is_lost_has_its_part() -> None:
+    experiment: Experiment[float, float] = Experiment("halves", half, float, str, lambda task: [], lambda task: task)
+    told: list[tuple[int, float]] = []
+    with closing(experiment.results([2.0, 3.0], 1, lambda *word: told.append(word))) as results:
+        found = dict(results)
+    assert found[0] == -2.0
+    assert isinstance(found[1], Lost)
+    assert [done for number, done in told if number == 0] == [1.0, 2.0]  # never more than there is
+    assert [done for number, done in told if number == 1] == [1.5]
+
+
+def test_a_result_is_found_by_its_name_while_its_key_is_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with Kept[float](tmp_path, float, "counts") as kept:
+        kept.add("a", "key", 1.0)
+        kept.add("b", "key", 2.0)
+        kept.add("b", "other", 3.0)
+        with pytest.raises(FileError, match=r"Another program counts in .*; wait for it, or give another --out\."):
+            Kept[float](tmp_path, float, "counts")
+    with Kept[float](tmp_path, float, "counts") as kept:
+        assert [kept.find("a", "key"), kept.find("b", "key"), kept.find("b", "other")] == [1.0, None, 3.0]
+    with Kept[float](tmp_path, float, "counts", again=True) as kept:
+        assert kept.find("a", "key") is None
+        kept.add("a", "key", 4.0)
+    with Kept[float](tmp_path, float, "counts") as kept:
+        assert [kept.find("a", "key"), kept.find("b", "other")] == [4.0, 3.0]
+    tell_kept(0, 2, "counts")
+    tell_kept(1, 2, "counts")
+    assert capsys.readouterr().out == "1 of 2 counts are there; --again makes them again.\n"
