@@ -60,8 +60,8 @@ def _changes(signal: Signal, signals: Signals, v: str, begin: float, end: float,
     if signal.name in WHEELS:
         return len(speed) > 0 and float(np.ptp(speed)) > MOVED["speed"]
     if signal.name == "chassis.ax":
-        slower = MOVED["speed"] + LEAST["accelerate"] * long  # a sensor has an offset
-        return len(speed) > 0 and abs(float(speed[-1] - speed[0]) - value * long) > slower
+        least = MOVED["speed"] + LEAST["accelerate"] * long  # a sensor has an offset
+        return len(speed) > 0 and abs(float(speed[-1] - speed[0]) - value * long) > least
     if signal.name == "chassis.wz":
         return len(ay) > 0 and float(np.ptp(ay)) > MOVED["ay"]
     if signal.name == "chassis.ay":
