@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ali3.echo import Value, far_values
-from hosts.measures.relations import PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
+from hosts.measures.relations import LEAST, PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
 from hosts.measures.signal import Signal
 
 FEWEST_EQUAL = 10  # samples
@@ -60,7 +60,8 @@ def _changes(signal: Signal, signals: Signals, v: str, begin: float, end: float,
     if signal.name in WHEELS:
         return len(speed) > 0 and float(np.ptp(speed)) > MOVED["speed"]
     if signal.name == "chassis.ax":
-        return len(speed) > 0 and abs(float(speed[-1] - speed[0]) - value * long) > MOVED["speed"]
+        least = MOVED["speed"] + LEAST["accelerate"] * long  # a sensor has an offset
+        return len(speed) > 0 and abs(float(speed[-1] - speed[0]) - value * long) > least
     if signal.name == "chassis.wz":
         return len(ay) > 0 and float(np.ptp(ay)) > MOVED["ay"]
     if signal.name == "chassis.ay":
@@ -69,7 +70,8 @@ def _changes(signal: Signal, signals: Signals, v: str, begin: float, end: float,
         return len(wz) > 0 and abs(float(wz.mean())) * long > MOVED["yaw"]
     if signal.name in PATH and len(speed) > 0:
         beside = [float(np.ptp(of(n))) for n in PATH if n != signal.name and len(of(n))]
-        return float(np.abs(speed).mean()) * long > MOVED["way"] + 1.5 * sum(beside)
+        rolls = np.where(np.abs(speed) > LEAST["move"], np.abs(speed), 0.0)  # one that stands may tell a little
+        return float(rolls.mean()) * long > MOVED["way"] + 1.5 * sum(beside)
     return False
 
 

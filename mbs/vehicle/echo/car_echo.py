@@ -27,6 +27,11 @@ Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
 """Makes a car of the altered content of its file, and finds its rest; None where that is no car."""
 FINAL_DRIVE = 4.0
 HEIGHT = 4.0  # m: of a truck
+KILOGRAMS = ("kilograms in place of newtons", GRAVITY)
+POUNDS = (
+    ("pounds and inches in place of N and m", 175.127),
+    ("pounds and feet in place of N and m", 14.5939),
+)
 
 
 def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake) -> list[Echo]:
@@ -224,49 +229,36 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         field = damper.key("damping" if damper.damping is not None else "table")
         rate = spring.key("stiffness" if spring.stiffness is not None else "table")
         for key, what in ((rate, "springs"), (field, "dampers")):
-            yield f"both {what} of the axle in place of one in {key}", {key}, _scale(key, 0.5)
-            yield f"half of one of the {what} in {key}", {key}, _scale(key, 2.0)
-            yield f"pounds and inches in place of N and m in {key}", {key}, _scale(key, 175.127)
-            yield f"pounds and feet in place of N and m in {key}", {key}, _scale(key, 14.5939)
-            yield f"kilograms in place of newtons in {key}", {key}, _scale(key, GRAVITY)
+            yield from _scales(key, (f"both {what} of the axle in place of one", 0.5))
+            yield from _scales(key, (f"half of one of the {what}", 2.0), *POUNDS, KILOGRAMS)
         key = axle.wheel.key("spin_inertia")
-        for factor, words in ((0.5, "both wheels in place of one"), (2.0, "half of the wheel")):
-            yield f"{words} in {key}", {key}, _scale(key, factor)
+        yield from _scales(key, ("both wheels in place of one", 0.5), ("half of the wheel", 2.0))
         other = axle.wheel.key("diametral_inertia")
         yield f"{key} and {other} exchanged", {key, other}, partial(_exchange, key, other)
     chassis, drive, steering = car.chassis, car.drive, car.steering
-    key = drive.key("ratios" if isinstance(drive, Automatic) else "ratio")
-    yield (f"ratios without a final drive, of about {FINAL_DRIVE:g}, in {key}", {key}, _scale(key, FINAL_DRIVE))
-    yield (f"the final drive, of about {FINAL_DRIVE:g}, twice in {key}", {key}, _scale(key, 1.0 / FINAL_DRIVE))
-    limit = drive.key("limit_speed")
-    yield f"rounds per minute in place of rad/s in {limit}", {limit}, _scale(limit, math.pi / 30.0)
-    yield f"rounds per second in place of rad/s in {limit}", {limit}, _scale(limit, 2.0 * math.pi)
-    power, torque = drive.key("max_power"), drive.key("max_torque")
-    yield f"kilograms in place of newtons in {torque}", {torque}, _scale(torque, GRAVITY)
-    yield f"the torque of the wheels in {torque}", {torque}, _scale(torque, 0.5 / FINAL_DRIVE)
-    yield f"horsepower in place of W in {power}", {power}, _scale(power, 735.5)
-    yield f"kW in place of W in {power}", {power}, _scale(power, 1000.0)
-    inertia = chassis.key("inertia")
+    gears, limit = drive.key("ratios" if isinstance(drive, Automatic) else "ratio"), drive.key("limit_speed")
+    yield from _scales(gears, (f"ratios without a final drive, of about {FINAL_DRIVE:g},", FINAL_DRIVE))
+    yield from _scales(gears, (f"the final drive, of about {FINAL_DRIVE:g}, twice", 1.0 / FINAL_DRIVE))
+    yield from _scales(limit, ("rounds per minute in place of rad/s", math.pi / 30.0))
+    yield from _scales(limit, ("rounds per second in place of rad/s", 2.0 * math.pi))
+    yield from _scales(drive.key("max_torque"), KILOGRAMS, ("the torque of the wheels", 0.5 / FINAL_DRIVE))
+    yield from _scales(drive.key("max_power"), ("horsepower in place of W", 735.5), ("kW in place of W", 1000.0))
+    inertia, balance = chassis.key("inertia"), car.brakes.key("balance")
     for a, b in ((0, 2), (0, 1)):
-        yield (
-            f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}",
-            {inertia},
-            partial(_swap, inertia, a, b),
-        )
-    yield f"half of the moments in {inertia}", {inertia}, _scale(inertia, 2.0)
-    yield f"pounds and feet in place of kg and m in {inertia}", {inertia}, _scale(inertia, 0.04214)
-    brakes = car.brakes
-    yield (
-        "the share of the rear wheels in brakes.balance",
-        {brakes.key("balance")},
-        partial(_rest_of_one, brakes.key("balance")),
-    )
-    torque = brakes.key("torque")
-    yield f"kilograms in place of newtons in {torque}", {torque}, _scale(torque, GRAVITY)
-    yield f"the torque of one wheel in place of a side in {torque}", {torque}, _scale(torque, 2.0)
-    yield f"the torque of all wheels in place of a side in {torque}", {torque}, _scale(torque, 0.5)
+        words = f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}"
+        yield words, {inertia}, partial(_swap, inertia, a, b)
+    yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet in place of kg and m", 0.04214))
+    yield f"the share of the rear wheels in {balance}", {balance}, partial(_rest_of_one, balance)
+    sides = (("the torque of one wheel in place of a side", 2.0), ("the torque of all wheels in place of a side", 0.5))
+    yield from _scales(car.brakes.key("torque"), KILOGRAMS, *sides)
     angle = steering.key("front_wheel_angle_max")
-    yield f"the angle from lock to lock in place of one side in {angle}", {angle}, _scale(angle, 0.5)
+    yield from _scales(angle, ("the angle from lock to lock in place of one side", 0.5))
+
+
+def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[str], Undo]]:
+    """Mistakes in one number, each with its words and the factor that undoes it."""
+    for words, factor in mistakes:
+        yield f"{words} in {key}", {key}, _scale(key, factor)
 
 
 def _scale(keys: str | list[str], factor: float) -> Undo:

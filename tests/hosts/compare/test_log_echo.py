@@ -157,6 +157,19 @@ def test_a_factor_without_a_name_is_told_with_its_interval(factor: float) -> Non
     assert middle == pytest.approx(1.0 / factor, rel=0.05)
 
 
+def test_a_car_that_stands_at_lights_has_no_frozen_sensors() -> None:
+    """Its speed tells a little more than 0, its acceleration the offset of the sensor; its place is the same."""
+    log = drive(end=80.0)
+    t = log["speed"].time
+    stands = (t > 20.0) & (t < 55.0)
+    level = {"speed": 0.2 + 2e-3 * np.sin(t), "chassis.ax": np.full(len(t), -0.098)}
+    for name in ("chassis.x", "chassis.y"):
+        level[name] = np.full(len(t), log[name].values[stands][0])
+    still = {n: replace(log[n], values=np.where(stands, v, log[n].values)) for n, v in level.items()}
+    told = log_echo("log.csv", log | still).warnings()
+    assert not any("longest time without a change" in sentence for sentence in told), told
+
+
 def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:
     """A car on a rig or parked is a log like others; a speed that is 0 while something moves is a dead channel."""
     moving = drive()
