@@ -245,6 +245,26 @@ def test_it_fits_small_screens(opened: Callable[..., Opened]) -> None:
     assert outside == {}
 
 
+@pytest.mark.parametrize("side", [False, True])
+def test_legends_lie_on_no_instrument(opened: Callable[..., Opened], side: bool) -> None:
+    """Of a crank with numbers as those of a car."""
+    numbers = dict.fromkeys(["speed", *(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))], TIMES)
+    made = crank(TIMES)
+    page = opened(
+        Recording(made.scene, TIMES, {**made.columns, **numbers}), arrows=True, plots=["speed"] if side else []
+    )
+    for width, height in ((1280, 720), (800, 450), (390, 844), (844, 390), (900, 700)):
+        page.page.set_viewport_size({"width": width, "height": height})
+        page.seek(0.5)
+        parts = [".a3-cluster", ".a3-tyres", "[data-legend=arrows]", ".a3-head", ".a3-bar"]
+        boxes = {part: page.page.locator(part).first.bounding_box() for part in parts}
+        legend = boxes.pop("[data-legend=arrows]")
+        for name, box in boxes.items():
+            beside = legend["x"] >= box["x"] + box["width"] or legend["x"] + legend["width"] <= box["x"]
+            above = legend["y"] >= box["y"] + box["height"] or legend["y"] + legend["height"] <= box["y"]
+            assert beside or above, (width, height, name)
+
+
 def test_a_gap_hides_the_body_and_cuts_the_line(opened: Callable[..., Opened]) -> None:
     whole = crank(TIMES)
     gap = np.where((TIMES > 0.5) & (TIMES < 1.0), np.nan, whole.columns["slider.x"])

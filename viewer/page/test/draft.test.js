@@ -1,7 +1,7 @@
 // Drafts: fewer triangles of the same form, coarser ground, and the choice of the level by measured times.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { levelAt, levelsWithin } from "../src/looks/draft/coarse_terrain.js";
+import { levelsWithin, ROUGH } from "../src/looks/terrain.js";
 import { thinned, within } from "../src/looks/draft/thinned.js";
 import { nextLevel, nextShare, Pace } from "../src/looks/pace.js";
 import { coilTriangles } from "../src/shapes/coil.js";
@@ -67,15 +67,16 @@ test("the two sides of a thin sheet keep their own normals", () => {
 });
 
 test("ground is drawn the more coarsely the farther away, never off by more than is allowed", () => {
-  const levels = [0, 0.005, 0.05, 0.2].map((error) => ({ error }));
-  assert.deepEqual([0, 10, 20, 500].map((far) => levelAt(levels, far)), [1, 1, 2, 3]); // prettier-ignore
+  const levels = [0, 0.005, 0.05, 0.2].map((error) => ({ error, triangles: [] }));
+  const piece = [0, 10, 20, 500].map((far) => ({ middle: [far, 0], radius: 0, levels }));
+  assert.deepEqual(levelsWithin([piece], [0, 0], ROUGH), [[1, 1, 2, 3]]);
 });
 
 test("ground of more triangles than a picture may have is coarser where it is far, not near", () => {
   const levels = [0, 0.02, 0.1, 0.4, 1.6].map((error, k) => ({ error, triangles: Array(3 * 4 ** (4 - k)) }));
   const piece = Array.from({ length: 20 }, (_, k) => ({ middle: [20 * k, 0], radius: 5, levels }));
   const count = (/** @type {number[][]} */ chosen) => chosen.flat().reduce((sum, level) => sum + levels[level].triangles.length / 3, 0);
-  const [free, bound] = [1e9, 800].map((most) => levelsWithin([piece, piece], [0, 0], most));
+  const [free, bound] = [1e9, 800].map((most) => levelsWithin([piece, piece], [0, 0], { ...ROUGH, most }));
   assert.ok(count(free) > 800 && count(bound) <= 800 && count(bound) > 400);
   assert.ok(free.every((row, k) => row.every((level, i) => level <= bound[k][i])));
   assert.equal(bound[0][0], free[0][0]);

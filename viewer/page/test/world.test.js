@@ -7,7 +7,7 @@ import { arrowStrips, dashes, edges } from "../src/looks/scenery/ribbon.js";
 import { squares } from "../src/looks/scenery/index.js";
 import { shares } from "../src/looks/coverage.js";
 import { lines } from "../src/looks/scenery/signs.js";
-import { bundles, parts, pieceMesh, strided } from "../src/looks/terrain_mesh.js";
+import { bundles, parts, pieceParts, strided } from "../src/looks/terrain_mesh.js";
 
 const base64 = (array) => Buffer.from(array.buffer).toString("base64");
 
@@ -37,7 +37,7 @@ test("pieces cover every cell once, at each coarseness, and face up", () => {
   const list = parts(field.patches, 8);
   let area = 0;
   for (const part of list) {
-    const { positions, levels, base } = pieceMesh([part], field);
+    const { positions, base, parts: [{ levels }] } = pieceParts([part], field); // prettier-ignore
     for (const { triangles, error } of levels) {
       let sum = 0;
       for (let t = 0; t < triangles.length; t += 3) {
@@ -64,7 +64,7 @@ test("both sides of a seam are lit alike", () => {
   const field = new HeightField({ patches: [patch([0, 0], [1, 1], [11, 11], hilly), patch([10, 0], [2, 2], [6, 6], hilly)] });
   const normals = new Map();
   for (const part of parts(field.patches, 64)) {
-    const { base, positions, normals: found } = pieceMesh([part], field);
+    const { base, positions, normals: found } = pieceParts([part], field);
     for (let k = 0; k < part.n * part.m; k++) {
       const key = [base[0] + positions[3 * k], base[1] + positions[3 * k + 1]].join();
       const normal = [...found.subarray(3 * k, 3 * k + 3)];
@@ -78,7 +78,7 @@ test("both sides of a seam are lit alike", () => {
 test("what is left out far away is off by what its level says", () => {
   const wave = (x) => 0.2 * Math.sin((2 * Math.PI * x) / 8);
   const field = new HeightField({ patches: [patch([0, 0], [1, 1], [17, 3], wave)] });
-  const { levels } = pieceMesh(parts(field.patches, 64), field);
+  const [{ levels }] = pieceParts(parts(field.patches, 64), field).parts;
   assert.equal(levels[0].error, 0);
   assert.ok(Math.abs(levels[1].error - 0.2 * (Math.SQRT1_2 - 0.5)) < 1e-6); // between a zero and a crest
   assert.ok(levels.every(({ error }, k) => k === 0 || error >= levels[k - 1].error - 1e-6));

@@ -72,11 +72,10 @@ export function apronQuads(field, stations, centre) {
   return quads;
 }
 
-/** @param {import("./heights.js").HeightField} field @param {THREE.Material} material @param {number} [off] m that its heights may be off */
-export function apron(field, material, off = 0) {
+/** @param {import("./heights.js").HeightField} field @param {THREE.Material} material @param {number} off m that its heights may be off */
+export function apron(field, material, off) {
   const heights = [0, 1].map((k) => [field.low[k], field.high[k]].map((side) => (/** @type {number} */ place) => (k === 0 ? field.at(side, place) : field.at(place, side))));
-  const all = borderStations(field);
-  const stations = off > 0 ? all.map((sides, k) => sides.map((places, end) => straightened(places, heights[k][end], off))) : all;
+  const stations = borderStations(field).map((sides, k) => sides.map((places, end) => straightened(places, heights[k][end], off)));
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
   mesh.receiveShadow = true;
   let built = null;

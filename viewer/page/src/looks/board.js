@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { niceStep } from "../scene/forces.js";
 import { discard } from "./discard.js";
 import { gridSurface } from "./grid.js";
-import { environmentMap } from "./environment_map.js";
+import { reflecting } from "./environment_map.js";
 import { room } from "./room.js";
 
 /** @param {Data} view the SceneView @param {boolean} fine */
@@ -18,14 +18,7 @@ export function board(view, fine) {
   const reach = 12 * extent;
   const grid = gridSurface({ x: [1, 0, 0], y: [0, 1, 0], step, reach, color: "#ffffff", ink: "#b4bec6", lit: false });
   world.add(grid.mesh);
-  let environment = null;
-  const bake = () => {
-    environment?.dispose();
-    environment = environmentMap(renderer, room([0, 0.6, 0.8]), fine);
-    world.environment = environment.texture;
-    world.environmentIntensity = 0.8;
-  };
-  bake();
+  const light = reflecting(view, () => room([0, 0.6, 0.8]), { fine, intensity: 0.8 });
   return {
     caption: `grid ${step} m`,
     follow(origin) {
@@ -33,11 +26,11 @@ export function board(view, fine) {
       grid.mesh.position.set(0, 0, -2 * extent);
     },
     quality() {},
-    restore: bake,
+    restore: light.bake,
     tell: [],
     dispose() {
       discard(grid.mesh);
-      environment.dispose();
+      light.dispose();
     },
   };
 }

@@ -23,19 +23,27 @@ function coarseGenerator(renderer) {
 }
 
 /**
- * The environment map of what stands around, whose things are freed.
- * @param {THREE.WebGLRenderer} renderer
- * @param {THREE.Scene} around
- * @param {boolean} fine
- * @returns {THREE.WebGLCubeRenderTarget} its texture is the `environment` of a scene
+ * Lets things of a view reflect what stands around, whose things are freed.
+ * @param {Data} view the SceneView
+ * @param {() => THREE.Scene} around
+ * @param {{fine: boolean, intensity: number}} options
+ * @returns {{bake: () => void, dispose: () => void}} bake: draw the map again, as after a loss of the context
  */
-export function environmentMap(renderer, around, fine) {
-  const generator = fine ? new THREE.PMREMGenerator(renderer) : coarseGenerator(renderer);
-  const target = generator.fromScene(around, 0, 0.1, 100);
-  generator.dispose();
-  around.traverse((/** @type {THREE.Mesh} */ part) => {
-    part.geometry?.dispose();
-    for (const material of [part.material ?? []].flat()) material.dispose();
-  });
-  return target;
+export function reflecting({ world, renderer }, around, { fine, intensity }) {
+  let map = null;
+  const bake = () => {
+    map?.dispose();
+    const things = around();
+    const generator = fine ? new THREE.PMREMGenerator(renderer) : coarseGenerator(renderer);
+    map = generator.fromScene(things, 0, 0.1, 100);
+    generator.dispose();
+    things.traverse((/** @type {THREE.Mesh} */ part) => {
+      part.geometry?.dispose();
+      for (const material of [part.material ?? []].flat()) material.dispose();
+    });
+    world.environment = map.texture;
+  };
+  world.environmentIntensity = intensity;
+  bake();
+  return { bake, dispose: () => map.dispose() };
 }

@@ -5,7 +5,7 @@ import { contactShadows } from "./contact_shadows.js";
 import { discard } from "./discard.js";
 import { makeDraft } from "./draft/index.js";
 import { groundMaterial } from "./ground.js";
-import { environmentMap } from "./environment_map.js";
+import { reflecting } from "./environment_map.js";
 import { noiseTexture } from "./noise.js";
 import { makeRoads } from "./roads.js";
 import { HAZE, seenSky, skyBall } from "./sky.js";
@@ -25,25 +25,21 @@ export function outdoors(view, fine) {
   const held = {};
   const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
-  /** Draws the sky once: what is seen, and, small, what things reflect. */
-  const bake = () => {
+  /** Draws the sky once, as it is seen, and gives it to what reflects it. */
+  const around = () => {
     held.cube?.dispose();
-    held.environment?.dispose();
-    const ball = skyBall(up, new THREE.Vector3(...direction), noise);
-    const around = new THREE.Scene().add(ball);
+    const ball = new THREE.Scene().add(skyBall(up, new THREE.Vector3(...direction), noise));
     held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
-    new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, around);
-    held.environment = environmentMap(renderer, around, fine);
+    new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, ball);
     sky.material.uniforms.cube.value = held.cube.texture;
-    world.environment = held.environment.texture;
-    world.environmentIntensity = 0.75;
     land?.mirror(held.cube.texture);
+    return ball;
   };
   const sky = seenSky();
   world.add(sky);
   const land = makeWorld(scene, { up, noise, sun: new THREE.Vector3(...direction), fine });
   if (land !== null) world.add(land.group);
-  bake();
+  const light = reflecting(view, around, { fine, intensity: 0.75 });
   const asphalt = groundMaterial({ noise, up, paint: 1, fine });
   const road = groundMaterial({ noise, up, fine });
   const grass = groundMaterial({ noise, up, grass: true });
@@ -74,7 +70,7 @@ export function outdoors(view, fine) {
       dress(draft.on);
       land?.show(level, draft.light);
     },
-    restore: bake,
+    restore: light.bake,
     height: land?.height ?? null,
     tell: [...roads.unknown, ...(land?.tell ?? [])],
     dispose() {
@@ -88,7 +84,7 @@ export function outdoors(view, fine) {
       discard(sky);
       sun.dispose();
       held.cube.dispose();
-      held.environment.dispose();
+      light.dispose();
     },
   };
 }

@@ -6,7 +6,7 @@ import { niceStep } from "../scene/forces.js";
 import { discard } from "./discard.js";
 import { makeDraft } from "./draft/index.js";
 import { gridSurface } from "./grid.js";
-import { environmentMap } from "./environment_map.js";
+import { reflecting } from "./environment_map.js";
 import { room } from "./room.js";
 import { sharpen, sunLight } from "./sun.js";
 
@@ -28,14 +28,7 @@ export function studio(view, fine) {
   floor.mesh.receiveShadow = true;
   turn(floor.mesh, fromColumns(x, y, up));
   world.add(floor.mesh);
-  let environment = null;
-  const bake = () => {
-    environment?.dispose();
-    environment = environmentMap(renderer, room(up), fine);
-    world.environment = environment.texture;
-    world.environmentIntensity = 0.5;
-  };
-  bake();
+  const light = reflecting(view, () => room(up), { fine, intensity: 0.5 });
   const draft = makeDraft(view, sun);
   return {
     caption: `grid ${step} m`,
@@ -48,13 +41,13 @@ export function studio(view, fine) {
       sharpen(sun, level === "high" ? 2048 : 1024);
       draft.set(level);
     },
-    restore: bake,
+    restore: light.bake,
     tell: [],
     dispose() {
       draft.dispose();
       discard(floor.mesh);
       sun.dispose();
-      environment.dispose();
+      light.dispose();
     },
   };
 }

@@ -1,68 +1,100 @@
-// A world's ground: pieces of a terrain, coarser the farther away, and beyond its border what the border has.
+// A world's ground: every part of it as coarse as its distance allows, put together again as the eye moves on.
 import * as THREE from "three";
 import { dot, fromColumns } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
-import { HeightField, SurfaceRaster } from "./heights.js";
 import { apron } from "./apron.js";
-import { bundles, coarsest, parts, pieceMesh } from "./terrain_mesh.js";
+import { bundles, coarsest, parts, pieceParts } from "./terrain_mesh.js";
 
-/** Cells a side of a piece: pieces are left out where they are not in the picture. */
-const CELLS = 128;
-/** Pieces of a terrain, about. */
-const PIECES = 120;
-/** Points of a piece that several parts make, at most. */
+/**
+ * How finely a ground is drawn: cells a side of a part, pieces, which are left out where they are not in the picture,
+ * triangles of all parts at most, and the error of the heights that may be seen, m: `least` up to `near` m away, `error`
+ * more for each metre beyond.
+ * @typedef {{cells: number, pieces: number, most: number, least: number, near: number, error: number}} Fineness
+ */
+
+/** The error is thinner than a pixel up to the distance where paint is, too. @type {Fineness} */
+export const FINE = { cells: 128, pieces: 120, most: Infinity, least: 2e-3, near: 150, error: 7e-4 };
+/** In few calls; near, the error is as much as paint is drawn above the ground. @type {Fineness} */
+export const ROUGH = { cells: 64, pieces: 14, most: 15000, least: 8e-3, near: 0, error: 2.5e-3 };
+/** Points of a piece at most. */
 const POINTS = 60000;
-/** Error of the heights that may be seen, in metres: so far away that paint is as thin as a pixel, more with the distance. */
-const [LEAST, THIN, ERROR] = [2e-3, 150, 7e-4];
+/** Where there would be more triangles, parts that are far are coarser by so much, again and again. */
+const COARSER = 1.25;
+/** Metres that the eye goes before levels are chosen again. */
+const STEP = 15;
 
 /**
  * @param {THREE.Material} material
  * @param {number[][]} axes x, y and up of the world
- * @param {HeightField} field
+ * @param {import("./heights.js").HeightField} field
+ * @param {Fineness} fineness
  */
-export function terrain(material, axes, field) {
+export function terrain(material, axes, field, fineness) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
-  const pieces = bundles(parts(field.patches, CELLS), PIECES, POINTS).map((piece) => drawnPiece(piece, field, material));
-  const around = apron(field, material);
-  for (const { mesh } of pieces) group.add(mesh);
-  group.add(around.mesh);
+  const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
+  const around = apron(field, material, fineness.least);
+  group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
+  let chosen = null;
   /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */
   const follow = (origin, eye) => {
-    const [from, camera] = [origin, eye].map((point) => axes.map((axis) => dot(point, axis)));
+    const from = axes.map((axis) => dot(origin, axis));
+    const camera = axes.slice(0, 2).map((axis, k) => from[k] + dot(eye, axis));
     around.follow(from);
-    for (const { mesh, base, levels, middle, radius } of pieces) {
-      mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
-      const to = middle.map((value, k) => value + mesh.position.getComponent(k) - camera[k]);
-      const allowed = LEAST + ERROR * Math.max(0, Math.hypot(...to) - radius - THIN);
-      mesh.geometry = levels[coarsest(levels, allowed)].geometry;
-    }
+    const moved = chosen === null || Math.hypot(camera[0] - chosen[0], camera[1] - chosen[1]) > STEP;
+    for (const { mesh, base } of pieces) mesh.position.set(base[0] - from[0], base[1] - from[1], -from[2]);
+    if (!moved) return;
+    chosen = camera;
+    const levels = levelsWithin(pieces.map(({ parts: drawn }) => drawn), camera, fineness);
+    pieces.forEach(({ choose }, k) => choose(levels[k]));
   };
   const dispose = () => {
-    around.mesh.geometry.dispose();
-    for (const { levels } of pieces) for (const { geometry } of levels) geometry.dispose();
+    for (const { mesh } of [...pieces, around]) mesh.geometry.dispose();
   };
   return { group, follow, dispose };
 }
 
-/** One geometry a coarseness; they share their points. */
-function drawnPiece(piece, field, material) {
-  const { base, positions, normals, levels } = pieceMesh(piece, field);
-  const [place, way] = [positions, normals].map((values) => new THREE.BufferAttribute(values, 3));
-  const ball = new THREE.Box3().setFromBufferAttribute(place).getBoundingSphere(new THREE.Sphere());
-  const small = positions.length / 3 <= 65536;
-  const made = levels.map(({ error, triangles }) => {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", place);
-    geometry.setAttribute("normal", way);
-    geometry.setIndex(new THREE.BufferAttribute(small ? Uint16Array.from(triangles) : triangles, 1));
-    geometry.boundingSphere = ball;
-    return { error, geometry };
-  });
-  const mesh = new THREE.Mesh(made[0].geometry, material);
-  mesh.receiveShadow = true;
-  return { mesh, base, levels: made, middle: ball.center.toArray(), radius: ball.radius };
+/**
+ * Levels of all parts of all pieces, whose triangles are not more than a picture may have.
+ * @param {{middle: number[], radius: number, levels: {error: number, triangles: ArrayLike<number>}[]}[][]} pieces
+ * @param {number[]} eye x and y in the world @param {Fineness} fineness
+ * @returns {number[][]}
+ */
+export function levelsWithin(pieces, eye, { most, least, near, error: first }) {
+  const away = pieces.map((drawn) => drawn.map(({ middle, radius }) => Math.hypot(eye[0] - middle[0], eye[1] - middle[1]) - radius - near));
+  for (let error = first; ; error *= COARSER) {
+    const chosen = pieces.map((drawn, k) => drawn.map(({ levels }, i) => coarsest(levels, least + error * Math.max(0, away[k][i]))));
+    const count = pieces.flatMap((drawn, k) => drawn.map(({ levels }, i) => levels[chosen[k][i]].triangles.length / 3));
+    if (error > 1 || count.reduce((sum, value) => sum + value, 0) <= most) return chosen;
+  }
 }
 
-/** Heights and surfaces of a terrain, and what of it has no look of its own. @param {Data} road */
-export const groundOf = (road) => ({ field: new HeightField(road), raster: new SurfaceRaster(road.surface) });
+function meshOf({ base, positions, normals, parts: drawn }, material) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  geometry.computeBoundingSphere();
+  const finest = drawn.reduce((sum, { levels }) => sum + levels[0].triangles.length, 0);
+  const index = new THREE.BufferAttribute(new Uint32Array(finest), 1).setUsage(THREE.DynamicDrawUsage);
+  geometry.setIndex(index);
+  let before = "";
+  /** @param {number[]} levels of the parts */
+  const choose = (levels) => {
+    const now = levels.join("");
+    if (now === before) return;
+    before = now;
+    let used = 0;
+    drawn.forEach((part, k) => {
+      const { triangles } = part.levels[levels[k]];
+      index.array.set(triangles, used);
+      used += triangles.length;
+    });
+    index.clearUpdateRanges();
+    index.addUpdateRange(0, used);
+    index.needsUpdate = true;
+    geometry.setDrawRange(0, used);
+  };
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.receiveShadow = true;
+  return { mesh, base, parts: drawn, choose };
+}

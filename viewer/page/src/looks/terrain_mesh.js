@@ -72,30 +72,12 @@ function divided(cell, points) {
 }
 
 /**
- * Points of a piece relative to the first point of its first part, with skirts, and triangles at every coarseness.
+ * Points of a piece relative to the first point of its first part, with skirts, and triangles of every part at every coarseness.
  * @param {Part[]} piece
  * @param {import("./heights.js").HeightField} field for the slopes along the borders
- * @returns {{base: number[], positions: Float32Array, normals: Float32Array, levels: {error: number, triangles: Uint32Array}[]}}
- *   error: by how much the heights are off where points are left out, in metres
- */
-export function pieceMesh(piece, field) {
-  const { base, positions, normals, parts: drawn } = pieceParts(piece, field);
-  const levels = [];
-  for (let k = 0; k < Math.max(...drawn.map((part) => part.levels.length)); k++) {
-    const each = drawn.map((part) => part.levels[Math.min(k, part.levels.length - 1)]);
-    const triangles = new Uint32Array(each.reduce((sum, level) => sum + level.triangles.length, 0));
-    each.reduce((offset, level) => (triangles.set(level.triangles, offset), offset + level.triangles.length), 0);
-    levels.push({ error: Math.max(...each.map(({ error }) => error)), triangles });
-  }
-  return { base, positions, normals, levels };
-}
-
-/**
- * The same with the coarsenesses of every part by itself.
- * @param {Part[]} piece
- * @param {import("./heights.js").HeightField} field
  * @returns {{base: number[], positions: Float32Array, normals: Float32Array,
- *   parts: {middle: number[], radius: number, levels: {error: number, triangles: number[]}[]}[]}} middle: on the ground, m
+ *   parts: {middle: number[], radius: number, levels: {error: number, triangles: number[]}[]}[]}} middle: on the ground, m;
+ *   error: by how much the heights are off where points are left out, m
  */
 export function pieceParts(piece, field) {
   const first = piece[0];

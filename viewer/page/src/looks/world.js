@@ -1,11 +1,10 @@
 // A world: its terrain and scenery with what they are made of, put together.
 import * as THREE from "three";
 import { coverage } from "./coverage.js";
-import { SURFACES } from "./heights.js";
-import { coarseTerrain } from "./draft/coarse_terrain.js";
+import { HeightField, SURFACES, SurfaceRaster } from "./heights.js";
 import { makeScenery, tellOf } from "./scenery/index.js";
 import { surfaceMaterials } from "./surface.js";
-import { groundOf, terrain } from "./terrain.js";
+import { FINE, ROUGH, terrain } from "./terrain.js";
 
 /** Axes of a world: x, y and up. @param {number[]} up */
 const axesOf = (up) => (Math.abs(up[2]) > 0.5 ? [[1, 0, 0], [0, 1, 0], up] : [[1, 0, 0], [0, 0, -1], up]); // prettier-ignore
@@ -22,14 +21,14 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const axes = axesOf(up);
   const tell = [];
   if (roads.length > 1) tell.push(`${roads.length} terrains are in the scene; the first is drawn.`);
-  const { field, raster } = roads.length > 0 ? groundOf(roads[0]) : { field: null, raster: null };
+  const [field, raster] = roads.length > 0 ? [new HeightField(roads[0]), new SurfaceRaster(roads[0].surface)] : [null, null];
   const strange = (raster?.names ?? []).filter((name) => !SURFACES.includes(name));
   for (const name of strange) tell.push(`The surface '${name}' is not known to this page and is drawn as asphalt.`);
   const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
   const group = new THREE.Group();
   const make = (rough) => {
-    const land = field === null ? null : (rough ? coarseTerrain : terrain)(materials.ground, axes, field);
+    const land = field === null ? null : terrain(materials.ground, axes, field, rough ? ROUGH : FINE);
     return versionOf(land, makeScenery(things, { axes, paint: materials.paint, ground: field, drafted: rough }));
   };
   const made = {};

@@ -1,4 +1,5 @@
-// Vectors [x, y, z] and rotations as nine numbers, row by row, in double precision; no drawing library.
+// Vectors [x, y, z] and rotations as nine numbers, row by row, in double precision.
+import { Matrix3, Matrix4, Quaternion } from "three";
 
 /** @typedef {number[]} Vector three numbers */
 /** @typedef {number[]} Rotation nine numbers, row by row; takes a frame's coordinates to those of its parent */
@@ -41,14 +42,8 @@ export function rotate(R, v) {
   ];
 }
 
-/** A B. @param {Rotation} A @param {Rotation} B @returns {Rotation} */
-export function product(A, B) {
-  const C = new Array(9);
-  for (let i = 0; i < 3; i++) {
-    for (let j = 0; j < 3; j++) C[3 * i + j] = A[3 * i] * B[j] + A[3 * i + 1] * B[3 + j] + A[3 * i + 2] * B[6 + j];
-  }
-  return C;
-}
+/** A B; three.js has numbers column by column. @param {Rotation} A @param {Rotation} B @returns {Rotation} */
+export const product = (A, B) => new Matrix3().fromArray(B).multiply(new Matrix3().fromArray(A)).toArray();
 
 /** @param {Rotation} R @returns {Rotation} */
 export const transpose = (R) => [R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8]];
@@ -70,19 +65,8 @@ export function fromQuaternion([w, x, y, z]) {
 
 /** Quaternion (w, x, y, z) of a rotation, w >= 0 or the largest part positive. @param {Rotation} R */
 export function toQuaternion(R) {
-  const trace = R[0] + R[4] + R[8];
-  if (trace > 0) {
-    const s = 2 * Math.sqrt(1 + trace);
-    return [s / 4, (R[7] - R[5]) / s, (R[2] - R[6]) / s, (R[3] - R[1]) / s];
-  }
-  const i = R[0] >= R[4] && R[0] >= R[8] ? 0 : R[4] >= R[8] ? 1 : 2;
-  const [j, k] = [(i + 1) % 3, (i + 2) % 3];
-  const s = 2 * Math.sqrt(Math.max(0, 1 + R[4 * i] - R[4 * j] - R[4 * k]));
-  const q = [(R[3 * k + j] - R[3 * j + k]) / s, 0, 0, 0];
-  q[1 + i] = s / 4;
-  q[1 + j] = (R[3 * i + j] + R[3 * j + i]) / s;
-  q[1 + k] = (R[3 * i + k] + R[3 * k + i]) / s;
-  return q;
+  const { x, y, z, w } = new Quaternion().setFromRotationMatrix(new Matrix4().setFromMatrix3(new Matrix3().fromArray(transpose(R))));
+  return [w, x, y, z];
 }
 
 /** Right-handed rotation by an angle about an axis; null for an axis without direction. @returns {Rotation | null} */

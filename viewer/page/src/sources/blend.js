@@ -1,4 +1,5 @@
 // Numbers between two instants: straight, but angles the short way round and quaternions along the shorter arc.
+import { Quaternion } from "three";
 
 /** What turns: columns that are angles, and those of quaternions by four. @typedef {{angles: Set<string>, quaternions: string[][]}} Turns */
 
@@ -31,22 +32,9 @@ function turned(a, b) {
  * @returns {number[]} unit quaternion
  */
 export function slerp(a, b, share) {
-  const p = normal(a);
-  let q = normal(b);
-  let cosine = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
-  if (cosine < 0) {
-    q = q.map((x) => -x);
-    cosine = -cosine;
-  }
-  const angle = Math.acos(Math.min(1, cosine));
-  if (angle < 1e-6) return normal(p.map((x, i) => x + share * (q[i] - x)));
-  const [first, second] = [Math.sin((1 - share) * angle), Math.sin(share * angle)];
-  return normal(p.map((x, i) => first * x + second * q[i]));
-}
-
-function normal(q) {
-  const size = Math.hypot(...q);
-  return q.map((x) => x / size);
+  const [from, to] = [a, b].map(([w, x, y, z]) => new Quaternion(x, y, z, w).normalize());
+  const { x, y, z, w } = from.slerp(to, share);
+  return [w, x, y, z];
 }
 
 /** Numbers between instants of the same columns. */
