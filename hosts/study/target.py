@@ -123,8 +123,9 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     ends, unit, log = target.range, None, entry.log
     if ends is not None:
         log = log and ends[0] > 0.0
-        for end in ends if known is not None else ():
-            known.check(end, "--between")
+        if known is not None:
+            for end in ends:
+                known.check(end, "--between")
     elif entry.range is not None:
         ends, unit = (entry.range[0], entry.range[1]), entry.unit
     elif known is not None and math.isfinite(known.high - known.low):
